@@ -1,8 +1,8 @@
-//! SPIR-V for the crate: the checked-in `shaders/spirv`, verified to be made from the sources beside
-//! it, or, with the feature `compile-shaders`, compiled afresh.
+//! SPIR-V of the crate. By default the checked-in `shaders/spirv` is used, after a check that it was made from the
+//! sources beside it. The feature `compile-shaders` compiles the sources.
 //!
-//! `GPC_SPIRV=write` (with the feature) replaces the checked-in files, `GPC_SPIRV=check` fails where they differ. So it does
-//! with the Rust file that has the interfaces of the crate's shaders.
+//! With the feature, `GPC_SPIRV=write` replaces the checked-in files, and `GPC_SPIRV=check` fails if they differ. Both
+//! also apply to the Rust file with the interfaces of the crate's shaders.
 
 #[cfg(feature = "compile-shaders")]
 #[path = "build/reflect.rs"]
@@ -41,7 +41,7 @@ const HOST: &[Variant] = &[
     ("corners", "corners.comp", &[]),
 ];
 
-/// Name of the compiled shader, its source, its macro definitions.
+/// Name of a compiled shader, its source file, and its macro definitions.
 type Variant = (
     &'static str,
     &'static str,
@@ -187,9 +187,9 @@ const VARIANTS: &[Variant] = &[
 
 /// Shaders that are compiled and checked in together.
 struct Group {
-    /// Their folder; compiled ones are in `spirv` in it.
+    /// Folder of the sources; compiled shaders are in its subfolder `spirv`.
     sources: PathBuf,
-    /// The folder of what they include, beside their own.
+    /// Folder of the includes.
     includes: PathBuf,
     variants: &'static [Variant],
 }
@@ -220,7 +220,7 @@ fn main() {
     #[cfg(feature = "compile-shaders")]
     interfaces(&own, &folder, &root.join("src/engine/passes/spirv.rs"));
     let mut code = String::new();
-    // By variables, so that what was built stays right where the sources' folder moves.
+    // Paths begin with a variable, so that built files stay valid if the sources are moved.
     let (variable, beside) = if folder.starts_with(&out) {
         ("OUT_DIR", &out)
     } else {
@@ -240,9 +240,9 @@ fn main() {
     shared_files(&root);
 }
 
-/// Sets the cfg `shared_files` where the tests' files in `../shared` are there, or where `CI` is set, so that their absence
-/// fails there. Elsewhere the tests that need them are ignored. Files that appear later are noticed by the next run of this
-/// script: a missing file that cargo watches would have everything built anew each time.
+/// Sets the cfg `shared_files` if the tests' files in `../shared` exist, or if `CI` is set, so that their absence is
+/// an error there. Elsewhere the tests that need them are ignored. Files that appear later are found by the next run
+/// of this script; if cargo watched missing files, it would rebuild everything each time.
 fn shared_files(root: &Path) {
     println!("cargo:rustc-check-cfg=cfg(shared_files)");
     let index = root.join("../shared/scenes/index.json");
@@ -262,7 +262,7 @@ impl Group {
         self.sources.join("spirv")
     }
 
-    /// A fingerprint of every source file and of the list of variants (64-bit FNV-1a).
+    /// Fingerprint of all source files and of the list of variants (64-bit FNV-1a).
     fn fingerprint(&self) -> String {
         let mut files: Vec<PathBuf> = [&self.sources, &self.includes]
             .iter()
@@ -339,15 +339,15 @@ fn spirv(group: &Group, out: &Path) -> PathBuf {
     folder
 }
 
-/// Writes or checks the Rust file that has the interfaces of shaders, whose modules are in `folder`.
+/// Writes or checks the Rust file with the shaders' interfaces; their modules are in `folder`.
 #[cfg(feature = "compile-shaders")]
 fn interfaces(group: &Group, folder: &Path, file: &Path) {
-    /// The include that hosts' shaders bind a set of.
+    /// Include through which shaders of hosts bind a set.
     const LENT: &str = "include/gpc_visibility.glsl";
     let read = |path: &Path| {
         fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
     };
-    // Only what is not optimised has names.
+    // Only modules that are not optimised keep the names.
     let named = compile(group, shaderc::OptimizationLevel::Zero);
     let shaders = group.variants.iter().zip(named);
     let mut all: Vec<_> = shaders
@@ -408,7 +408,7 @@ fn compile(
         .collect()
 }
 
-/// A shader of some name, as from a file in the group's folder.
+/// Compiles the text of a shader as if it were a file with this name in the group's folder.
 #[cfg(feature = "compile-shaders")]
 fn compile_text(
     group: &Group,

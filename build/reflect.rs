@@ -1,7 +1,7 @@
-//! What compiled shaders say of their interface, and the Rust file that tells the crate.
+//! Reflection of compiled shaders, and the Rust file with their interfaces.
 //!
-//! A shader is compiled twice: the optimised module, which the crate runs, has no names and only what is used; the other one
-//! has the names.
+//! A shader is compiled twice. The optimised module, which the crate runs, has no names and only the interface that is
+//! used; the other module has the names.
 
 use rspirv::binary::{Consumer, ParseAction};
 use rspirv::dr::{Instruction, ModuleHeader, Operand};
@@ -9,34 +9,34 @@ use rspirv::spirv::{Decoration, Dim, ExecutionMode, Op, StorageClass, Word};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 
-/// A shader compiled with some macro definitions.
+/// A shader compiled with certain macro definitions.
 pub struct Compiled {
-    /// Of the compiled file.
+    /// Name of the compiled file.
     pub name: String,
-    /// The shader's file.
+    /// Name of the source file.
     pub source: String,
     /// Whether its set 0 is the frame's.
     pub in_frame: bool,
-    /// Whether it stands for an include that hosts' shaders bind a set of.
+    /// Whether it represents an include through which shaders of hosts bind a set.
     pub lent: bool,
-    /// The module that runs.
+    /// The optimised module, which runs.
     pub optimised: Vec<u8>,
     /// The module with names.
     pub named: Vec<u8>,
 }
 
-/// A number, or several.
+/// Type of a member: a number, several numbers, or a structure.
 #[derive(Clone, Debug, PartialEq)]
 enum Type {
     Uint,
     Int,
     Float,
-    /// So many of these, each that many bytes after the one before.
+    /// Array: type, number and distance in bytes of the elements.
     Several(Box<Type>, u32, u32),
     Struct(Block),
 }
 
-/// Members by offset.
+/// Structure with its members by offset.
 #[derive(Clone, Debug, PartialEq)]
 struct Block {
     name: String,
@@ -50,7 +50,7 @@ struct Binding {
     count: u32,
     reads: bool,
     writes: bool,
-    /// What a uniform block has, or an element of a storage buffer that is a structure.
+    /// Members of a uniform block, or of an element of a storage buffer that is a structure.
     block: Option<Block>,
 }
 
@@ -66,11 +66,11 @@ struct Interface {
     bindings: BTreeMap<(u32, u32), Binding>,
     constants: BTreeMap<u32, Constant>,
     push: Option<Block>,
-    /// Invocations of a workgroup; nothing where a constant says it, or the shader is no compute shader.
+    /// Number of invocations of a workgroup; `None` if a constant determines it, or for other than compute shaders.
     local_size: Option<u32>,
 }
 
-/// The instructions of a module; rspirv's own modules know none whose workgroups have the size of a constant.
+/// Instructions of a module. rspirv's own modules don't support workgroups whose size is a constant.
 #[derive(Default)]
 struct Instructions(Vec<Instruction>);
 
@@ -93,7 +93,7 @@ impl Consumer for Instructions {
     }
 }
 
-/// A module, and what its instructions say of each ID.
+/// A module, and the facts about each ID.
 struct Known {
     all: Vec<Instruction>,
     names: HashMap<Word, String>,
@@ -173,7 +173,7 @@ impl Known {
         self.decorations.get(&(of, what))?.first().copied()
     }
 
-    /// The value of a constant that is not specialised.
+    /// Value of a constant that is not specialised.
     fn constant(&self, id: Word) -> u32 {
         let made = &self.made[&id];
         assert_eq!(made.class.opcode, Op::Constant, "the length of an array");
@@ -210,7 +210,7 @@ impl Known {
         let members = (0..).zip(ids(&self.made[&id]));
         let members = members.map(|(member, of)| {
             let name = self.members[&(id, member)].clone();
-            // Columns of matrices are four floats.
+            // Columns of matrices are stored as four floats.
             (name, self.type_of(of, 16), self.offsets[&(id, member)])
         });
         Block {
@@ -219,7 +219,7 @@ impl Known {
         }
     }
 
-    /// Variables of a storage class, and what they point to.
+    /// Variables of a storage class, and the types to which they point.
     fn variables(&self) -> impl Iterator<Item = (Word, StorageClass, Word)> + '_ {
         let variables = self.all.iter().filter(|i| i.class.opcode == Op::Variable);
         variables.map(|i| {
@@ -231,7 +231,7 @@ impl Known {
         })
     }
 
-    /// How what is bound is shown, how many of it, and the type of its block if it has one.
+    /// Descriptor type of a binding, number of descriptors, and the type of its block if it has one.
     fn kind(&self, class: StorageClass, of: Word) -> (&'static str, u32, Option<Word>) {
         let made = &self.made[&of];
         match (class, made.class.opcode) {
@@ -257,7 +257,7 @@ impl Known {
         }
     }
 
-    /// Whether the module reads and writes what a pointer, or an image loaded through one, leads to.
+    /// Whether the module reads and writes through a pointer, or through an image that was loaded from it.
     fn uses(&self, pointer: Word, is_image: bool) -> (bool, bool) {
         let (mut reads, mut writes) = (false, false);
         let mut add = |(r, w): (bool, bool)| {
@@ -294,7 +294,7 @@ impl Known {
     }
 }
 
-/// The name of what is bound: that of the variable, or of the only member of its block, or of the block.
+/// Name of a binding: the name of the variable, or of the only member of its block, or of the block.
 fn bound_name(known: &Known, variable: Word, block: Option<Word>) -> String {
     let name = known.names.get(&variable).cloned().unwrap_or_default();
     let Some(block) = block.filter(|_| name.is_empty()) else {
@@ -306,7 +306,7 @@ fn bound_name(known: &Known, variable: Word, block: Option<Word>) -> String {
     }
 }
 
-/// What a storage buffer holds an array of, where that is a structure, or what a uniform block has.
+/// Structure of a storage buffer's array elements, or members of a uniform block.
 fn shared_block(known: &Known, kind: &str, block: Option<Word>) -> Option<Block> {
     let block = block?;
     if kind == "UNIFORM_BUFFER" {
@@ -373,7 +373,7 @@ fn reflect(compiled: &Compiled) -> Interface {
             _ => ("u32", value.expect("32 bits").to_string()),
         };
         let constant = Constant {
-            // Only the size of workgroups has no name.
+            // Only the constant of the workgroup's size has no name.
             name: name.map_or_else(|| "local_size".to_owned(), |name| name.to_lowercase()),
             kind,
             default,
@@ -392,7 +392,7 @@ fn reflect(compiled: &Compiled) -> Interface {
     interface
 }
 
-/// Adds what another variant of a shader has.
+/// Adds the interface of another variant of a shader.
 fn unite(all: &mut Interface, other: Interface) {
     for (at, binding) in other.bindings {
         match all.bindings.get_mut(&at) {
@@ -439,10 +439,10 @@ fn camel(name: &str) -> String {
         .collect()
 }
 
-/// A member's name in Rust; GLSL's underline after words of its own goes.
+/// Name of a member in Rust; an underscore that GLSL needs after reserved words is removed.
 fn field(name: &str) -> String {
     match name.trim_end_matches('_') {
-        // A word of Rust's.
+        // `box` is reserved in Rust.
         "box" => "r#box".to_owned(),
         name => name.to_owned(),
     }
@@ -454,7 +454,7 @@ impl Type {
             Self::Uint => "u32".to_owned(),
             Self::Int => "i32".to_owned(),
             Self::Float => "f32".to_owned(),
-            // Matrices are as flat as hosts have them.
+            // Hosts have matrices as flat arrays.
             Self::Several(of, count, stride) => match &**of {
                 Self::Several(inner, rows, _)
                     if **inner == Self::Float && (*count, *rows, *stride) == (4, 4, 16) =>
@@ -467,7 +467,7 @@ impl Type {
         }
     }
 
-    /// Bytes in Rust, which has nothing between elements.
+    /// Number of bytes in Rust, where elements have no gaps.
     fn bytes(&self) -> u32 {
         match self {
             Self::Uint | Self::Int | Self::Float => 4,
@@ -487,7 +487,8 @@ impl Block {
             .map_or(0, |(_, of, offset)| offset + of.bytes())
     }
 
-    /// The structure in Rust, under a name; what it is of goes before it. Blocks of a multiple of 16 bytes end with padding.
+    /// Definition of the structure in Rust under a name, preceded by those of its members' types. Blocks whose size
+    /// must be a multiple of 16 bytes end with padding.
     fn rust(&self, name: &str, what: &str, multiple: u32) -> String {
         let mut code = format!(
             "\n/// {what}\n#[repr(C)]\n#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]\npub struct {name} {{\n"
@@ -509,7 +510,7 @@ impl Block {
     }
 }
 
-/// What is known of all variants of a shader.
+/// Interface of a shader over all of its variants.
 struct Shader<'a> {
     source: &'a str,
     in_frame: bool,
@@ -549,7 +550,7 @@ fn shaders(all: &[Compiled]) -> BTreeMap<String, Shader<'_>> {
     shaders
 }
 
-/// The set that the passes of a frame share.
+/// Bindings of the set that all passes of a frame share.
 fn frame_set(shaders: &BTreeMap<String, Shader<'_>>) -> BTreeMap<u32, Binding> {
     let mut set: BTreeMap<u32, Binding> = BTreeMap::new();
     let in_frame = shaders.values().filter(|shader| shader.in_frame);
@@ -558,7 +559,7 @@ fn frame_set(shaders: &BTreeMap<String, Shader<'_>>) -> BTreeMap<u32, Binding> {
             continue;
         }
         match set.get_mut(number) {
-            // A fragment shader declares what it reads once more, as read alone.
+            // A fragment shader declares a binding a second time as read-only.
             Some(known) if known.name == format!("{}_in", binding.name) => {
                 known.name.clone_from(&binding.name);
             }
@@ -576,7 +577,7 @@ fn frame_set(shaders: &BTreeMap<String, Shader<'_>>) -> BTreeMap<u32, Binding> {
     set
 }
 
-/// Values of `#define PREFIX_NAME value`, in their order.
+/// Names and values of `#define PREFIX_NAME value`, in order.
 fn defines<'a>(text: &'a str, prefix: &str) -> Vec<(&'a str, u32)> {
     text.lines()
         .filter_map(|line| {
@@ -611,7 +612,7 @@ fn binding(number: u32, binding: &Binding) -> String {
     )
 }
 
-/// A module with the bindings of a set.
+/// Module with the bindings of a set.
 fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)]) -> String {
     let mut code =
         format!("\n/// {what}\npub mod {name} {{\n    use super::{{Binding, Kind}};\n\n");
@@ -635,7 +636,7 @@ fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)]) -> String {
     code
 }
 
-/// The Rust file.
+/// Text of the Rust file.
 pub fn rust(all: &[Compiled], numbers: &str) -> String {
     let shaders = shaders(all);
     let mut code = HEAD.to_owned();

@@ -40,7 +40,7 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a host has anyway.
+/// The Vulkan objects that any host has.
 struct App {
     instance: ash::Instance,
     physical_device: vk::PhysicalDevice,
@@ -49,24 +49,24 @@ struct App {
     conditional_rendering: bool,
     queue: vk::Queue,
     pool: vk::CommandPool,
-    /// Shared with the renderer. `None` only while dropping: its blocks go before the device.
+    /// Allocator, shared with the renderer; `None` only in `Drop`, which frees its blocks before the device.
     allocator: Option<SharedAllocator>,
-    /// Last, since it keeps the loader's library open.
+    /// Vulkan loader, whose library stays open until the end.
     _entry: ash::Entry,
 }
 
 impl App {
-    /// Creates a device with what the renderer needs enabled; a host adds what it needs itself.
+    /// Creates a device with the features that the renderer needs; a host would add its own.
     fn new() -> anyhow::Result<Self> {
-        // SAFETY: plain creations whose structures live until after the call. Handles made before a failure leak,
-        // which ends the program.
+        // SAFETY: plain creations whose structures live until after the call. Handles that were made before a failure
+        // leak, but the program ends then.
         unsafe {
             let entry = ash::Entry::load().context("no Vulkan loader")?;
             let application = vk::ApplicationInfo::default().api_version(Requirements::API_VERSION);
             let info = vk::InstanceCreateInfo::default().application_info(&application);
             let instance = entry.create_instance(&info, None)?;
 
-            // All that a device lacks is known before it is created.
+            // The list of everything that a device lacks is known before the device is created.
             let mut lacking = Vec::new();
             let mut chosen = None;
             for physical_device in instance.enumerate_physical_devices()? {
@@ -84,7 +84,7 @@ impl App {
             };
 
             let mut features = Requirements::features13();
-            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            // Conditional rendering skips rounds of superpixels that are not needed.
             let conditional_rendering =
                 Requirements::has_conditional_rendering(&instance, physical_device);
             let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
@@ -126,7 +126,7 @@ impl App {
         }
     }
 
-    /// Rows of sRGB-encoded RGBA bytes.
+    /// Renders a scene to rows of sRGB-encoded RGBA bytes.
     fn render(&self, scene: &Scene) -> anyhow::Result<Vec<u8>> {
         let mut host = Host::new(
             self.instance.clone(),
@@ -142,7 +142,7 @@ impl App {
         // SAFETY: the handles belong together, the features are enabled, and `self` outlives the renderer.
         let renderer = unsafe { Renderer::new(host) }?;
 
-        // All that can fail happens here: memory, pipelines, limits.
+        // Everything that can fail happens here: memory, pipelines, limits.
         let pose = scene.pose(&PoseRequest::default())?;
         let settings = Settings::new(WIDTH, HEIGHT)
             .background(Some([0.2, 0.3, 0.5]))
@@ -163,8 +163,8 @@ impl App {
         let target = OwnImage::new(self)?;
 
         self.submit(|commands| {
-            // SAFETY: the commands are waited for below, before anything they use is dropped, and the
-            // image is as the target says.
+            // SAFETY: the commands are waited for below, before anything that they use is dropped, and the image has
+            // the properties that the target states.
             unsafe {
                 prepared.record_upload(commands);
                 frame.record(
@@ -177,7 +177,7 @@ impl App {
                             stage: vk::PipelineStageFlags2::NONE,
                             access: vk::AccessFlags2::NONE,
                         },
-                        // What the host does next: here a copy; a viewer would sample or present the image.
+                        // The state for the host's next use: here a copy; a viewer would sample or present the image.
                         after: ImageState {
                             layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
                             stage: vk::PipelineStageFlags2::COPY,
@@ -189,7 +189,7 @@ impl App {
             }
         })?;
 
-        // The commands are done: figures can be read, and `frame` may be recorded again.
+        // The commands have run: statistics can be read, and `frame` may be recorded again.
         let statistics = frame.statistics()?;
         println!(
             "{} superpixels, {:.1} ms on the GPU",
@@ -199,7 +199,7 @@ impl App {
         target.into_pixels()
     }
 
-    /// Records, submits and waits; a host with a frame loop keeps one prepared `Frame` for each that is in flight.
+    /// Records, submits and waits. A host with a frame loop would have a prepared `Frame` for each frame in flight.
     fn submit(&self, record: impl FnOnce(vk::CommandBuffer)) -> anyhow::Result<()> {
         // SAFETY: plain use of handles that live as long as `self`; the queue is used by this thread alone.
         unsafe {
@@ -226,7 +226,7 @@ impl App {
 impl Drop for App {
     fn drop(&mut self) {
         self.allocator = None;
-        // SAFETY: every submission was waited for, and all made from the device is gone.
+        // SAFETY: every submission was waited for, and everything made from the device is gone.
         unsafe {
             self.device.destroy_command_pool(self.pool, None);
             self.device.destroy_device(None);
@@ -235,7 +235,7 @@ impl Drop for App {
     }
 }
 
-/// The host's image, and a buffer to read it back with.
+/// The host's image, and a buffer for reading it back.
 struct OwnImage<'a> {
     app: &'a App,
     image: vk::Image,
@@ -259,7 +259,7 @@ impl<'a> OwnImage<'a> {
                 .array_layers(1)
                 .samples(vk::SampleCountFlags::TYPE_1)
                 .tiling(vk::ImageTiling::OPTIMAL)
-                // The renderer copies into it: TRANSFER_DST is all that it asks for.
+                // The renderer copies to the image, and needs no usage but TRANSFER_DST.
                 .usage(vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC);
             let image = app.device.create_image(&info, None)?;
             let info = vk::BufferCreateInfo::default()
@@ -327,7 +327,7 @@ impl<'a> OwnImage<'a> {
             .dst_stage_mask(vk::PipelineStageFlags2::HOST)
             .dst_access_mask(vk::AccessFlags2::HOST_READ)];
         let to_host = vk::DependencyInfo::default().memory_barriers(&barriers);
-        // SAFETY: passed on to the caller; image and buffer are of the same size.
+        // SAFETY: guaranteed by the caller; image and buffer have the same size.
         unsafe {
             app.device.cmd_copy_image_to_buffer(
                 commands,
@@ -340,7 +340,7 @@ impl<'a> OwnImage<'a> {
         }
     }
 
-    /// The bytes of the image, after the commands are done.
+    /// Bytes of the image, once the commands have run.
     fn into_pixels(self) -> anyhow::Result<Vec<u8>> {
         self.memory
             .last()

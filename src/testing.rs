@@ -1,9 +1,9 @@
-//! What the tests of single passes (`tests/gpu`) use of the engine's inside. It is no part of the library's interface, and
-//! changes without notice.
+//! Internals of the engine for the tests of single passes (`tests/gpu`). They are not part of the library's interface,
+//! and change without notice.
 //!
-//! Passes, and the memory that they share, trust what they are given. They can be made with a [`Memory`] or [`FrameLayout`]
-//! alone, and recorded with a [`Recorder`] alone: making one of these three is unsafe here, with the duties of all that
-//! follows, so that safe code outside of the crate can't reach anything unsound.
+//! Passes, and the memory that they share, trust their arguments. They can only be made with a [`Memory`] or
+//! [`FrameLayout`], and only be recorded with a [`Recorder`]. Making one of these three is unsafe here, with the
+//! duties of everything that follows, so that safe code outside of the crate can't cause undefined behaviour.
 
 pub use crate::engine::data::{
     Argument, CellSizes, Cells, Content, Counter, FrameUniform, ListedLocation, LocationSizes,
@@ -20,16 +20,16 @@ pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};
 use crate::vulkan::{Gpu, VulkanError};
 use std::sync::Arc;
 
-/// An account of memory, of at most `limit` bytes.
+/// Allocator of at most `limit` bytes.
 ///
 /// # Safety
-/// What is made with it has a size, format and usage that the device takes, is of the sizes that the passes it is given to
-/// name, and is dropped, read or written by the CPU only while no commands use it.
+/// Everything made with it has a size, format and usage that is valid for the device, has the sizes that the passes
+/// which get it expect, and is dropped, read or written by the CPU only while no commands use it.
 pub unsafe fn memory(gpu: &Arc<Gpu>, limit: Option<u64>) -> Memory {
     Memory::new(gpu.clone(), limit)
 }
 
-/// The layout that passes share.
+/// Layout that all passes share.
 ///
 /// # Errors
 /// If the driver refuses it.

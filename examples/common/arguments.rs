@@ -1,10 +1,10 @@
-//! What examples are told: paths, and nothing else.
+//! Command-line arguments of the examples, which are all paths.
 
 use std::path::PathBuf;
 use std::process::exit;
 
-/// The paths that the program was given, at most `N`, in the order in which `usage` names them. Asked for help, the program
-/// prints its usage and ends; told anything else, it says so and ends with code 2.
+/// The paths on the command line, at most `N`, in the order in which `usage` names them. For `--help` the program
+/// prints its usage and ends; for other options it prints an error and ends with code 2.
 pub fn paths<const N: usize>(usage: &str) -> [Option<PathBuf>; N] {
     let mut paths = [const { None }; N];
     let mut free = paths.iter_mut();

@@ -1,4 +1,4 @@
-//! What a host has anyway: a device, memory that frees itself, and pictures.
+//! The Vulkan objects of any host: a device, memory that frees itself, and pictures.
 
 use crate::Failure;
 use ash::vk;
@@ -18,18 +18,18 @@ pub struct Device {
     instance: ash::Instance,
     physical: vk::PhysicalDevice,
     family: u32,
-    /// Functions to skip commands by, where the device has them.
+    /// Functions of conditional rendering, if the device supports it.
     pub conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
-    /// Shared with the library. `None` only while dropping: its blocks go before the device.
+    /// Allocator, shared with the library; `None` only in `Drop`, which frees its blocks before the device.
     allocator: Option<SharedAllocator>,
-    /// Last, since it keeps the loader's library open.
+    /// Vulkan loader, whose library stays open until the end.
     _entry: ash::Entry,
 }
 
 impl Device {
     pub fn new() -> Result<Self, Failure> {
-        // SAFETY: plain creations whose structures live until after the call. Handles made before a failure leak, which
-        // ends the program.
+        // SAFETY: plain creations whose structures live until after the call. Handles that were made before a failure
+        // leak, but the program ends then.
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(Requirements::API_VERSION);
@@ -42,13 +42,13 @@ impl Device {
                 .find_map(|device| Some((device, Requirements::queue_family(&instance, device)?)))
                 .ok_or("no suitable device")?;
             let mut features13 = Requirements::features13();
-            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            // Conditional rendering skips rounds of superpixels that are not needed.
             let conditional_rendering =
                 Requirements::has_conditional_rendering(&instance, physical);
             let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
                 .conditional_rendering(true);
             let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
-            // The host's own: gl_PrimitiveID in a fragment shader.
+            // The host's own fragment shader needs this feature for gl_PrimitiveID.
             let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
             let priorities = [1.0];
             let queues = [vk::DeviceQueueCreateInfo::default()
@@ -90,7 +90,7 @@ impl Device {
         }
     }
 
-    /// What the library is lent.
+    /// Handles that the library is lent.
     pub fn lent(&self) -> Host {
         let mut host = Host::new(
             self.instance.clone(),
@@ -231,7 +231,7 @@ impl Device {
         Ok(())
     }
 
-    /// Makes what commands before copied visible to the host.
+    /// Records a barrier that makes copies visible to the host.
     ///
     /// # Safety
     /// The command buffer is being recorded for the device, outside of a render pass.
@@ -242,7 +242,7 @@ impl Device {
             .dst_stage_mask(vk::PipelineStageFlags2::HOST)
             .dst_access_mask(vk::AccessFlags2::HOST_READ)];
         let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.raw.cmd_pipeline_barrier2(commands, &info) };
     }
 }
@@ -250,7 +250,7 @@ impl Device {
 impl Drop for Device {
     fn drop(&mut self) {
         self.allocator = None;
-        // SAFETY: every submission was waited for, and all made from the device is gone.
+        // SAFETY: every submission was waited for, and everything made from the device is gone.
         unsafe {
             self.raw.destroy_command_pool(self.pool, None);
             self.raw.destroy_device(None);
@@ -259,7 +259,7 @@ impl Drop for Device {
     }
 }
 
-/// A mapped buffer.
+/// A mapped buffer, freed when it is dropped.
 pub struct Buffer<'a> {
     device: &'a Device,
     pub raw: vk::Buffer,
@@ -278,7 +278,7 @@ impl Buffer<'_> {
         Ok(memory.ok_or("a buffer is not mapped")?)
     }
 
-    /// Colours that fill it, of four floats each.
+    /// Contents as colours of four floats each.
     pub fn colors(&self) -> Result<&[[f32; 4]], Failure> {
         let bytes = &self.read()?[..self.bytes as usize];
         Ok(bytemuck::try_cast_slice(bytes).map_err(|error| error.to_string())?)
@@ -287,13 +287,13 @@ impl Buffer<'_> {
 
 impl Drop for Buffer<'_> {
     fn drop(&mut self) {
-        // SAFETY: the commands that used it were waited for.
+        // SAFETY: the commands that used the buffer were waited for.
         unsafe { self.device.raw.destroy_buffer(self.raw, None) };
         self.device.free(self.memory.take());
     }
 }
 
-/// An image and its view.
+/// An image and its view, freed when they are dropped.
 pub struct Texture<'a> {
     device: &'a Device,
     pub raw: vk::Image,
@@ -304,7 +304,7 @@ pub struct Texture<'a> {
 
 impl Drop for Texture<'_> {
     fn drop(&mut self) {
-        // SAFETY: the commands that used it were waited for.
+        // SAFETY: the commands that used the image were waited for.
         unsafe {
             self.device.raw.destroy_image_view(self.view, None);
             self.device.raw.destroy_image(self.raw, None);
@@ -313,14 +313,14 @@ impl Drop for Texture<'_> {
     }
 }
 
-/// A picture of linear light.
+/// A picture in linear light.
 pub struct Image {
     pub size: [u32; 2],
     pub colors: Vec<[f32; 3]>,
 }
 
 impl Image {
-    /// A picture of this size, of means of `side` x `side` colours.
+    /// A picture of this size, whose pixels are the means of `side` x `side` colours.
     pub fn means(colors: &[[f32; 4]], size: [u32; 2], side: u32) -> Self {
         let [width, height] = size.map(|pixels| pixels as usize);
         let side = side as usize;
@@ -355,7 +355,7 @@ impl Image {
         })
     }
 
-    /// Root of the mean square difference of sRGB codes, of 0 to 1.
+    /// Root mean squared difference of sRGB-encoded values of 0 to 1.
     pub fn error(&self, truth: &Self) -> f64 {
         let pairs = self.codes().zip(truth.codes());
         let sum: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();

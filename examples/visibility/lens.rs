@@ -1,4 +1,4 @@
-//! The scene through a magnifying glass: locations that a shader of the host's writes, in the place of pixels.
+//! The scene through a magnifying glass: a shader of the host writes locations, which are sampled instead of pixels.
 
 use crate::Failure;
 use crate::device::{Device, Image};
@@ -8,10 +8,10 @@ use crate::slot::Slot;
 use ash::vk;
 use gpc::host::{Antialiaser, List, Location, LocationList, Options};
 
-/// Most locations of a recording.
+/// Largest number of locations of a recording.
 const MOST_LOCATIONS: u32 = 1 << 21;
 
-/// As in `shaders/lens.comp`.
+/// Push constants, as in `shaders/lens.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::NoUninit)]
 struct Push {
@@ -20,7 +20,7 @@ struct Push {
     first_row: u32,
 }
 
-/// What writes locations, and what is seen there: the scene as a slot last posed it.
+/// Shader that writes the locations, and the scene that they show, as a slot last posed it.
 pub struct Lens<'a> {
     device: &'a Device,
     antialiaser: &'a Antialiaser,
@@ -35,15 +35,15 @@ pub struct Lens<'a> {
 }
 
 impl<'a> Lens<'a> {
-    /// The slot's commands are done.
+    /// Makes the pipeline. The slot's commands must have run.
     pub fn new(
         device: &'a Device,
         antialiaser: &'a Antialiaser,
         (world, pipelines, slot): (&'a World<'a>, &'a Pipelines<'a>, &'a Slot<'a>),
     ) -> Result<Self, Failure> {
         let raw = &device.raw;
-        // SAFETY: plain creations whose structures live until after the calls. Handles made before a failure leak, which
-        // ends the program.
+        // SAFETY: plain creations whose structures live until after the calls. Handles that were made before a failure
+        // leak, but the program ends then.
         unsafe {
             let bindings = [vk::DescriptorSetLayoutBinding::default()
                 .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
@@ -87,7 +87,7 @@ impl<'a> Lens<'a> {
         }
     }
 
-    /// What is seen through the lens, of the options' size; each pixel the mean of `side` x `side` locations.
+    /// Picture through the lens, in the size of the options; each pixel is the mean of `side` x `side` locations.
     pub fn picture(&self, options: &Options, side: u32) -> Result<Image, Failure> {
         let [width, height] = options.size;
         let row = width * side * side;
@@ -107,7 +107,7 @@ impl<'a> Lens<'a> {
             colors_offset: 0,
         };
         let geometry = self.slot.geometry(self.world);
-        // SAFETY: the buffers are as they say, and outlive the list.
+        // SAFETY: the buffers have the stated contents, and outlive the list.
         let mut list = unsafe { self.antialiaser.prepare_list(&geometry, &lent, options) }?;
         let info = [vk::DescriptorBufferInfo::default()
             .buffer(locations.raw)
@@ -116,7 +116,7 @@ impl<'a> Lens<'a> {
             .dst_set(self.set)
             .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
             .buffer_info(&info)];
-        // SAFETY: commands that used the set were waited for; the buffer outlives those that will.
+        // SAFETY: commands that used the set were waited for; the buffer outlives those that will use it.
         unsafe { self.device.raw.update_descriptor_sets(&writes, &[]) };
 
         let mut picture = Image {
@@ -132,7 +132,7 @@ impl<'a> Lens<'a> {
                 first_row,
             };
             self.device.run(|commands| {
-                // SAFETY: the commands are waited for, and all that they use outlives them.
+                // SAFETY: the commands are waited for, and everything that they use outlives them.
                 unsafe { self.record(commands, &mut list, &push, count) }
             })?;
             let outcome = list.outcome()?;
@@ -146,7 +146,7 @@ impl<'a> Lens<'a> {
         Ok(picture)
     }
 
-    /// Locations, and what is seen there.
+    /// Records writing the locations and sampling them.
     unsafe fn record(
         &self,
         commands: vk::CommandBuffer,
@@ -158,7 +158,7 @@ impl<'a> Lens<'a> {
         let compute = vk::PipelineBindPoint::COMPUTE;
         let bytes = bytemuck::bytes_of(push);
         let materials = self.slot.materials(self.pipelines);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             raw.cmd_bind_pipeline(commands, compute, self.pipeline);
             raw.cmd_bind_descriptor_sets(commands, compute, self.layout, 0, &[self.set], &[]);

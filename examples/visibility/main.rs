@@ -32,14 +32,14 @@ use slot::{Antialiasing, SKY, Slot};
 type Failure = Box<dyn std::error::Error>;
 
 const SIZE: [u32; 2] = [320, 180];
-/// The size that it starts with.
+/// Size of the images at the start.
 const FIRST_SIZE: [u32; 2] = [200, 150];
 const FRAMES: usize = 6;
 const IN_FLIGHT: usize = 2;
-/// Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
+/// Samples along a pixel's side: of supersampling with as many samples as the library takes, and of the reference.
 const BRUTE: u32 = 8;
 const REFERENCE: u32 = 32;
-/// What is compared with the reference, of each view.
+/// Pictures that are compared with the reference, for each view.
 const COMPARED: [&str; 5] = [
     "one sample",
     "brute force",
@@ -99,12 +99,12 @@ fn main() -> Result<(), Failure> {
     }
 
     let own = slots[(FRAMES - 1) % IN_FLIGHT].pixels(1)?;
-    // Samples in the places of brute force.
+    // These samples are in the same places as those of supersampling.
     let placed = Options {
         pattern: Pattern::Grid,
         ..options(SIZE)
     };
-    // As brute force does it: every sample is shaded, and next to no contrast is left.
+    // Like supersampling, this shades every sample; the low threshold leaves almost no contrast unsampled.
     let each = Options {
         shading: Shading::Sample,
         contrast: Some(2),
@@ -164,12 +164,12 @@ fn print_errors(view: &str, reference: &Image, images: [&Image; COMPARED.len()])
     }
 }
 
-/// Seconds of the animation.
+/// Time of the animation in seconds.
 fn time(frame: usize) -> f32 {
     0.4 * frame as f32
 }
 
-/// From the world to clip space, y up; and the projection in it.
+/// Matrix from the world to clip space, y up, and the projection in it.
 fn camera([width, height]: [u32; 2]) -> (Mat4, Mat4) {
     let aspect = width as f32 / height as f32;
     let projection = Mat4::perspective_infinite_reverse_rh(0.9, aspect, 0.1);

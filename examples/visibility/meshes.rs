@@ -1,4 +1,4 @@
-//! The host's meshes, and where their instances are at a time.
+//! Meshes of the host, and the places of their instances at a time.
 
 use crate::Failure;
 use crate::device::{Buffer, Device, Texture};
@@ -8,14 +8,14 @@ use glam::{Mat4, Quat, Vec3};
 use gpc::host::{AlphaMap, Draw};
 use std::f32::consts::TAU;
 
-/// Shading keys, as in `shaders/materials.glsl`.
+/// Shading keys: the same numbers as in `shaders/materials.glsl`.
 pub const WAVES: u32 = 0;
 pub const BRICKS: u32 = 1;
 pub const GLOW: u32 = 2;
 pub const FENCE: u32 = 3;
 pub const KEYS: u32 = 4;
 
-/// As in `shaders/host.glsl`.
+/// A vertex, laid out as in `shaders/host.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Vertex {
@@ -25,7 +25,7 @@ struct Vertex {
     _unused_too: f32,
 }
 
-/// As in `shaders/host.glsl`.
+/// An instance, laid out as in `shaders/host.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Instance {
@@ -33,7 +33,7 @@ pub struct Instance {
     to_world: [f32; 16],
 }
 
-/// A run of vertices and of indices.
+/// Ranges of a mesh's vertices and indices.
 #[derive(Clone, Copy)]
 pub struct Mesh {
     pub first_vertex: u32,
@@ -42,16 +42,16 @@ pub struct Mesh {
     pub triangle_count: u32,
 }
 
-/// What the host shows, in the order of its draws.
+/// Contents of the scene, in the order of the host's draws.
 pub struct World<'a> {
     pub vertices: Buffer<'a>,
     pub indices: Buffer<'a>,
     pub index_count: u32,
-    /// Of each draw, for the host's own shaders.
+    /// Data about each draw for the host's own shaders.
     pub draw_table: Buffer<'a>,
     pub draw_of: Buffer<'a>,
     pub draws: Vec<Draw>,
-    /// Mesh of each draw.
+    /// The mesh of each draw.
     pub meshes: Vec<Mesh>,
     pub triangle_count: u32,
     pub posed_count: u32,
@@ -69,8 +69,8 @@ struct Builder {
 }
 
 impl Builder {
-    /// A mesh over a grid; `at` gives position and normal at u and v from 0 to 1. Front faces are seen where the normal
-    /// points to.
+    /// Adds a mesh over a grid; `at` gives position and normal for u and v from 0 to 1. Front faces are on the side of
+    /// the normal.
     fn grid(
         &mut self,
         [columns, rows]: [u32; 2],
@@ -131,7 +131,7 @@ impl<'a> World<'a> {
         let mut parts = vec![(floor, WAVES)];
         parts.extend([(ring, BRICKS); 5]);
         parts.extend([(wire, GLOW); 4]);
-        // What has an alpha map comes last.
+        // Meshes with an alpha map come last.
         parts.push((fence, FENCE));
 
         let mut draws = Vec::new();
@@ -181,7 +181,7 @@ impl<'a> World<'a> {
         })
     }
 
-    /// The fence's alpha, as the host's own pass reads and tests it.
+    /// Alpha map of the fence, which the host's own pass also tests.
     pub fn alpha_map(&self) -> AlphaMap {
         AlphaMap {
             view: self.fence.view,
@@ -195,7 +195,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Where each draw's mesh is at a time, in seconds.
+    /// Instances of all draws at a time in seconds.
     pub fn instances(&self, time: f32, to_clip: Mat4) -> Vec<Instance> {
         let place = |index: usize| -> Mat4 {
             let (number, key) = (index as f32, self.draws[index].key);

@@ -1,4 +1,4 @@
-//! The host's pipelines, and the materials that it shades the library's samples with.
+//! The host's pipelines, and its materials, which shade the library's samples.
 
 use crate::Failure;
 use crate::device::Device;
@@ -6,12 +6,12 @@ use crate::meshes::KEYS;
 use ash::vk;
 use gpc::host::{ShadeSamples, VisibilitySamples, check_shader};
 
-/// Formats of what the host draws.
+/// Formats of the images that the host draws.
 pub const IDS: vk::Format = vk::Format::R32_UINT;
 pub const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 pub const COLOR: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
-/// What is bound at each binding of `shaders/host.glsl` and `shaders/posed.glsl`.
+/// Descriptor type of each binding in `shaders/host.glsl` and `shaders/posed.glsl`.
 pub const BINDINGS: [vk::DescriptorType; 11] = {
     let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 11];
     kinds[8] = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
@@ -30,13 +30,13 @@ pub(crate) use spirv;
 pub struct Pipelines<'a> {
     device: &'a Device,
     pub set_layout: vk::DescriptorSetLayout,
-    /// Of the host's own passes: its set, and 16 bytes.
+    /// Layout of the host's own passes: the host's set, and 16 bytes of push constants.
     pub layout: vk::PipelineLayout,
-    /// Of shading samples: the library's set, and the host's.
+    /// Layout for shading samples: the library's set, and the host's.
     samples_layout: vk::PipelineLayout,
     pub pose: vk::Pipeline,
     pub ids: vk::Pipeline,
-    /// Of surfaces with holes, seen from both sides.
+    /// Pipeline for surfaces with holes, seen from both sides.
     pub ids_masked: vk::Pipeline,
     pub screen: vk::Pipeline,
     samples: Vec<vk::Pipeline>,
@@ -46,8 +46,8 @@ pub struct Pipelines<'a> {
 impl<'a> Pipelines<'a> {
     pub fn new(device: &'a Device, samples_set: vk::DescriptorSetLayout) -> Result<Self, Failure> {
         let raw = &device.raw;
-        // SAFETY: plain creations whose structures live until after the calls. Handles made before a failure leak, which
-        // ends the program.
+        // SAFETY: plain creations whose structures live until after the calls. Handles that were made before a failure
+        // leak, but the program ends then.
         unsafe {
             let all = vk::ShaderStageFlags::ALL;
             let bindings: Vec<_> = (0..)
@@ -120,14 +120,14 @@ impl<'a> Pipelines<'a> {
     unsafe fn module(&self, spirv: &[u8]) -> Result<vk::ShaderModule, Failure> {
         let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv))?;
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         Ok(unsafe { self.device.raw.create_shader_module(&info, None) }?)
     }
 
-    /// A compute pipeline; its constant 0, if it has one, is `key`.
+    /// Makes a compute pipeline; its constant 0, if it has one, is `key`.
     ///
     /// # Safety
-    /// Code and layout fit.
+    /// Code and layout match.
     pub unsafe fn compute(
         &self,
         code: &[u8],
@@ -143,7 +143,7 @@ impl<'a> Pipelines<'a> {
         let specialization = vk::SpecializationInfo::default()
             .map_entries(&map)
             .data(&data);
-        // SAFETY: passed on to the caller; a module may go once its pipeline is made.
+        // SAFETY: guaranteed by the caller; a module may be destroyed once its pipeline is made.
         unsafe {
             let module = self.module(code)?;
             let stage = vk::PipelineShaderStageCreateInfo::default()
@@ -163,10 +163,10 @@ impl<'a> Pipelines<'a> {
         }
     }
 
-    /// A graphics pipeline without vertex attributes; with depth, it tests and writes it, reversed.
+    /// Makes a graphics pipeline without vertex attributes; with `depth`, it tests and writes reversed depth.
     ///
     /// # Safety
-    /// The code fits the host's layout.
+    /// The code matches the host's layout.
     unsafe fn graphics(
         &self,
         [vertex, fragment]: [&[u8]; 2],
@@ -174,7 +174,7 @@ impl<'a> Pipelines<'a> {
         depth: Option<vk::Format>,
         cull: vk::CullModeFlags,
     ) -> Result<vk::Pipeline, Failure> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let modules = unsafe { [self.module(vertex)?, self.module(fragment)?] };
         let stage = |stage, module| {
             vk::PipelineShaderStageCreateInfo::default()
@@ -223,7 +223,7 @@ impl<'a> Pipelines<'a> {
             .dynamic_state(&dynamic)
             .layout(self.layout)
             .push_next(&mut rendering)];
-        // SAFETY: passed on to the caller; modules may go once their pipeline is made.
+        // SAFETY: guaranteed by the caller; modules may be destroyed once their pipeline is made.
         unsafe {
             let raw = &self.device.raw;
             let made = raw.create_graphics_pipelines(vk::PipelineCache::null(), &info, None);
@@ -234,7 +234,7 @@ impl<'a> Pipelines<'a> {
         }
     }
 
-    /// The host's materials, for the library; `set` is the host's.
+    /// The host's materials, as the library calls them; `set` is the host's.
     pub fn materials(&self, set: vk::DescriptorSet) -> Materials<'_> {
         Materials {
             pipelines: self,
@@ -260,7 +260,7 @@ impl Drop for Pipelines<'_> {
     }
 }
 
-/// The host's materials with what they read in one frame.
+/// The host's materials with the descriptor set of one frame.
 pub struct Materials<'a> {
     pipelines: &'a Pipelines<'a>,
     set: vk::DescriptorSet,
@@ -277,12 +277,13 @@ impl ShadeSamples for Materials<'_> {
         let raw = &device.raw;
         let sets = [samples.descriptor_set(), self.set];
         let compute = vk::PipelineBindPoint::COMPUTE;
-        // Rounds that have nothing to do are skipped.
+        // Conditional rendering skips rounds that have nothing to do.
         let skipping = device
             .conditional_rendering
             .as_ref()
             .zip(samples.condition());
-        // SAFETY: the command buffer is being recorded; sets and pipelines are of one layout and outlive it. What is begun is ended.
+        // SAFETY: the command buffer is being recorded; sets and pipelines have compatible layouts and outlive its
+        // execution. Conditional rendering that is begun is ended.
         unsafe {
             if let Some((functions, word)) = skipping {
                 let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);

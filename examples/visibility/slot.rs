@@ -1,4 +1,4 @@
-//! One of the host's frames in flight: its buffers, images, commands, and what the library prepared for them.
+//! A frame in flight of the host: its buffers, images and commands, and the library's frame for it.
 
 use crate::Failure;
 use crate::device::{Buffer, Device, Image, Texture};
@@ -11,7 +11,7 @@ use gpc::host::{
     LentImage, Options, PositionSpace, Scenery,
 };
 
-/// What the library prepared for a slot.
+/// The library's frame for a slot.
 pub struct Antialiasing {
     pub frame: Frame,
     projection: Mat4,
@@ -34,10 +34,10 @@ pub struct Slot<'a> {
     read_back: Buffer<'a>,
 }
 
-/// The background that the host draws, and tells the lens, which has no image of it.
+/// Linear colour of the background. The host draws it and tells it to the lens, which has no image of it.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 
-/// The state in which the host samples what it has drawn.
+/// State of an image that the host has drawn and samples.
 const SHOWN: ImageState = ImageState {
     layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
     stage: vk::PipelineStageFlags2::FRAGMENT_SHADER,
@@ -45,7 +45,7 @@ const SHOWN: ImageState = ImageState {
 };
 
 impl<'a> Slot<'a> {
-    /// Makes a slot for images of a size, that of the options; without the library, the host draws alone.
+    /// Makes a slot for images in the size of the options. Without the library, the host draws alone.
     pub fn new(
         device: &'a Device,
         world: &World<'a>,
@@ -71,7 +71,8 @@ impl<'a> Slot<'a> {
         let pixels = u64::from(size[0]) * u64::from(size[1]);
         let read_back = device.buffer(16 * pixels, vk::BufferUsageFlags::TRANSFER_DST)?;
         let raw = &device.raw;
-        // SAFETY: plain creations on a live device. Handles made before a failure leak, which ends the program.
+        // SAFETY: plain creations on a live device. Handles that were made before a failure leak, but the program ends
+        // then.
         let (commands, fence, pool, set) = unsafe {
             let info = vk::CommandBufferAllocateInfo::default()
                 .command_pool(device.pool)
@@ -129,7 +130,7 @@ impl<'a> Slot<'a> {
                     .map(|(binding, info)| write(binding).image_info(info)),
             )
             .collect();
-        // SAFETY: the set is new; what it shows lives as long as the slot.
+        // SAFETY: the set is new; its buffers and images live as long as the slot.
         unsafe { raw.update_descriptor_sets(&writes, &[]) };
         let mut slot = Self {
             device,
@@ -149,7 +150,7 @@ impl<'a> Slot<'a> {
         };
         if let Some((antialiaser, options)) = antialiasing {
             let (geometry, images) = (slot.geometry(world), slot.images());
-            // SAFETY: buffers and images are as they say, and live as long as the slot.
+            // SAFETY: buffers and images have the stated contents, and live as long as the slot.
             let frame = unsafe { antialiaser.prepare(&geometry, &images, options) }?;
             slot.antialiasing = Some(Antialiasing {
                 frame,
@@ -159,7 +160,7 @@ impl<'a> Slot<'a> {
         Ok(slot)
     }
 
-    /// The buffers that the library is lent.
+    /// Buffers that the library is lent.
     pub fn geometry(&self, world: &World<'_>) -> Geometry {
         Geometry {
             positions: self.positions.raw,
@@ -188,7 +189,7 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// The images that the library is lent: as the host has drawn them, and as it goes on with them.
+    /// Images that the library is lent, with their states after the host's drawing and before the host's next use.
     fn images(&self) -> Images {
         let lent = |texture: &Texture<'_>, before, after| LentImage {
             image: texture.raw,
@@ -209,7 +210,7 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// Materials that read what the slot shows.
+    /// Materials that read the slot's buffers and images.
     pub fn materials<'p>(&self, pipelines: &'p Pipelines<'p>) -> Materials<'p> {
         pipelines.materials(self.set)
     }
@@ -222,7 +223,7 @@ impl<'a> Slot<'a> {
         self.antialiasing.as_ref()
     }
 
-    /// Says what is shown next. The commands before are done.
+    /// Sets the scene's time and view for the next frame. The slot's previous commands must have run.
     pub fn show(
         &mut self,
         world: &World<'_>,
@@ -238,10 +239,10 @@ impl<'a> Slot<'a> {
         Ok(())
     }
 
-    /// Records the host's frame, with the library's part in it, and submits it.
+    /// Records the host's frame, which includes the library's part, and submits it.
     pub fn submit(&mut self, world: &World<'_>, pipelines: &Pipelines<'_>) -> Result<(), Failure> {
         let (raw, commands) = (&self.device.raw, self.commands);
-        // SAFETY: the commands before are done; all handles live as long as the slot, whose drop waits.
+        // SAFETY: the slot's previous commands have run; all handles live as long as the slot, whose drop waits.
         unsafe {
             raw.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
             self.record_pose(world, pipelines);
@@ -266,7 +267,7 @@ impl<'a> Slot<'a> {
         Ok(())
     }
 
-    /// Waits for what was submitted.
+    /// Waits for the submitted commands.
     pub fn wait(&mut self) -> Result<(), Failure> {
         // SAFETY: the fence was submitted.
         unsafe {
@@ -277,7 +278,7 @@ impl<'a> Slot<'a> {
         Ok(())
     }
 
-    /// What was drawn, means of `side` x `side` pixels.
+    /// Picture of the slot's colours; each of its pixels is the mean of `side` x `side` of them.
     pub fn pixels(&self, side: u32) -> Result<Image, Failure> {
         let size = self.size.map(|pixels| pixels / side);
         Ok(Image::means(self.read_back.colors()?, size, side))
@@ -290,7 +291,7 @@ impl<'a> Slot<'a> {
         pipeline: vk::Pipeline,
     ) {
         let (raw, commands) = (&self.device.raw, self.commands);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             raw.cmd_bind_pipeline(commands, point, pipeline);
             raw.cmd_bind_descriptor_sets(commands, point, pipelines.layout, 0, &[self.set], &[]);
@@ -299,7 +300,7 @@ impl<'a> Slot<'a> {
 
     unsafe fn push<T: bytemuck::NoUninit>(&self, pipelines: &Pipelines<'_>, values: &[T]) {
         let bytes = bytemuck::cast_slice(values);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             self.device.raw.cmd_push_constants(
                 self.commands,
@@ -311,10 +312,10 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// Vertices of all instances, in their place.
+    /// Records the computation of the vertices of all instances, in clip space.
     unsafe fn record_pose(&self, world: &World<'_>, pipelines: &Pipelines<'_>) {
         let (raw, commands) = (&self.device.raw, self.commands);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             self.bind(vk::PipelineBindPoint::COMPUTE, pipelines, pipelines.pose);
             for (number, (mesh, draw)) in (0_u32..).zip(world.meshes.iter().zip(&world.draws)) {
@@ -333,10 +334,10 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// The visibility buffer: triangle IDs and depth.
+    /// Records the drawing of the visibility buffer: triangle IDs and depth.
     unsafe fn record_ids(&self, world: &World<'_>, pipelines: &Pipelines<'_>) {
         let (raw, commands) = (&self.device.raw, self.commands);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             self.change(&self.ids, UNDEFINED, COLOR_DRAWN);
             self.change(&self.depth, UNDEFINED, DEPTH_DRAWN);
@@ -365,10 +366,10 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// Colours of the centres of pixels.
+    /// Records the shading of the pixels' centres.
     unsafe fn record_screen(&self, pipelines: &Pipelines<'_>) {
         let (raw, commands) = (&self.device.raw, self.commands);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             self.change(&self.color, UNDEFINED, COLOR_DRAWN);
             self.begin_rendering(&self.color, None);
@@ -379,7 +380,7 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// Begins drawing over the whole of an image, cleared; y points up.
+    /// Begins drawing over a whole image, cleared first; y points up.
     unsafe fn begin_rendering(&self, color: &Texture<'_>, depth: Option<&Texture<'_>>) {
         let (raw, commands) = (&self.device.raw, self.commands);
         let [width, height] = self.size;
@@ -411,7 +412,7 @@ impl<'a> Slot<'a> {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             raw.cmd_begin_rendering(commands, &info);
             raw.cmd_set_viewport(commands, 0, &[viewport]);
@@ -435,7 +436,7 @@ impl<'a> Slot<'a> {
                 depth: 1,
             });
         let (from, to) = (self.color.raw, self.read_back.raw);
-        // SAFETY: passed on to the caller; image and buffer are of the same size.
+        // SAFETY: guaranteed by the caller; image and buffer have the same size.
         unsafe {
             raw.cmd_copy_image_to_buffer(commands, from, COPIED.layout, to, &[region]);
             self.device.show_to_host(commands);
@@ -453,7 +454,7 @@ impl<'a> Slot<'a> {
             .image(texture.raw)
             .subresource_range(range(texture, 1))];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.device.raw.cmd_pipeline_barrier2(self.commands, &info) };
     }
 }
@@ -461,7 +462,7 @@ impl<'a> Slot<'a> {
 impl Drop for Slot<'_> {
     fn drop(&mut self) {
         let raw = &self.device.raw;
-        // SAFETY: nothing of the slot is used after the wait.
+        // SAFETY: the device is idle afterwards, so that nothing uses the slot's objects.
         unsafe {
             let _ = raw.device_wait_idle();
             raw.destroy_fence(self.fence, None);
@@ -502,7 +503,7 @@ fn range(texture: &Texture<'_>, levels: u32) -> vk::ImageSubresourceRange {
     }
 }
 
-/// Moves all levels of a texture to another layout, after all before and ahead of all after.
+/// Moves all levels of a texture to another layout, after all earlier and before all later commands.
 pub fn change(
     device: &Device,
     commands: vk::CommandBuffer,

@@ -23,7 +23,8 @@ pub fn bricks(device: &Device) -> Result<Texture<'_>, Failure> {
     })
 }
 
-/// A sheet with a round hole in each tile: alpha rises with the distance from its centre, and is 1/2 at its border.
+/// A sheet with a round hole in each tile: alpha grows with the distance from the tile's centre, and is 1/2 at the
+/// hole's border.
 pub fn fence(device: &Device) -> Result<Texture<'_>, Failure> {
     const RADIUS: f32 = 0.36;
     texture(device, FENCE_SIDE, |x, y| {
@@ -33,7 +34,7 @@ pub fn fence(device: &Device) -> Result<Texture<'_>, Failure> {
     })
 }
 
-/// All mipmap levels of a square image of linear values, whose side is a power of two.
+/// Makes a texture with all mipmap levels from a square image of linear values, whose side is a power of two.
 fn texture(
     device: &Device,
     side: u32,

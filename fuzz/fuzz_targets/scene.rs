@@ -1,7 +1,6 @@
-//! Any bytes through the reader of scenes: a scene or an error, never a panic.
+//! Feeds any bytes to the reader of scenes: the result must be a scene or an error, never a panic.
 //!
-//! `cargo +nightly fuzz run scene CORPUS` with a folder of small scenes; URIs of files are not
-//! followed.
+//! `cargo +nightly fuzz run scene CORPUS` with a folder of small scenes; URIs of files are not followed.
 
 #![no_main]
 
@@ -16,7 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
             time: 0.5,
             ..PoseRequest::default()
         };
-        // An error is as good as a pose.
+        // Errors are fine here as well.
         if let Ok((_, motion)) = scene.pose_in_motion(&request) {
             let _ = motion.at(&scene, 0.25);
         }

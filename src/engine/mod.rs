@@ -1,6 +1,7 @@
-//! What hosts compile: Vulkan, the passes that antialias triangles, and the interface to an application's own frames.
+//! The engine, which is all that hosts need: Vulkan, the passes that antialias triangles, and the interface for an
+//! application's own frames.
 //!
-//! Nothing in this folder knows a file format, a material or a light, and no item in it depends on a feature.
+//! Nothing in this folder depends on a file format, a material, a light or a feature.
 
 pub mod color;
 pub(crate) mod data;

@@ -1,16 +1,17 @@
-//! What a host has drawn behind its triangles.
+//! Colours that a host has drawn behind its triangles.
 //!
-//! A sample of a superpixel that sees no triangle shows the host's own image there: sky, gradient, whatever was drawn
-//! before. Where the centre of the pixel saw a triangle, the image holds that triangle's colour instead, and the nearest
-//! pixel whose centre saw none stands for it.
+//! If a sample of a superpixel meets no triangle, it takes its colour from the host's image, such as a sky. The image
+//! may show a triangle at the centre of this pixel; the sample then uses the nearest pixel whose centre shows none.
 
-/// The colour behind the triangles at a pixel, of an image of rows of `width` pixels: `ids` are what the centres of pixels
-/// saw, 0 where that was no triangle, `colors` what the host has drawn. It is that of the nearest pixel with an ID of 0, at
-/// most two columns and two rows away; of several that are equally near it is the uppermost, and of these the leftmost one.
-/// Where there is none, it is the background.
+/// Colour behind the triangles at `pixel`.
+///
+/// The image has rows of `width` pixels. `ids` holds the triangle ID at the centre of each pixel, 0 without a
+/// triangle, and `colors` the colours that the host has drawn. The result is the colour of the nearest pixel with ID 0
+/// that is at most two columns and two rows away; of equally near pixels the uppermost, and of these the leftmost.
+/// Without such a pixel, it is `background`.
 ///
 /// # Panics
-/// The pixel is not in the image, or there are fewer IDs or colours than pixels.
+/// If the pixel is outside of the image, or there are fewer IDs or colours than pixels.
 #[must_use]
 pub fn behind(
     width: u32,

@@ -1,50 +1,51 @@
-//! Whether a triangle crosses the cell of a sample location unseen, and is thin there.
+//! Crossings: whether a thin triangle crosses the cell of a sampling location without covering the location.
 //!
-//! Nearness is 1 / distance along the view direction or, where rays are parallel, minus that distance: linear over the plane, and
-//! larger for what is nearer.
+//! Nearness is 1 / distance along the view direction, or for parallel rays minus that distance. It is linear over the
+//! plane, and larger for nearer points.
 
 use crate::camera::{Pinhole, SampleLocation};
 use glam::{DMat2, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
 
-/// Height over the longest side, in cells, that thin triangles stay below: a wider one is seen by some cell.
+/// Height / longest side, in cells, below which a triangle counts as thin. A wider triangle covers the location of
+/// some cell.
 pub const THIN: f64 = 1.5;
 
-/// A pinhole's way of seeing.
+/// View of a pinhole.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Positions to (u w, v w, w, distance).
+    /// Matrix from positions to (u w, v w, w, distance).
     matrix: DMat4,
     near: f64,
     parallel: bool,
-    /// Width of a pixel of the plane: at a distance of 1 or, where rays are parallel, at any.
+    /// Width of a pixel of the plane: at distance 1, or for parallel rays at any distance.
     pixel: f64,
 }
 
-/// How a thin triangle crosses a cell.
+/// Crossing of a cell by a thin triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Least and largest nearness of what lies in the cell's column: of the triangle's part that is as wide as the cell, along its
-    /// longer side.
+    /// Smallest and largest nearness of the triangle's part that lies within the cell's width, measured along the
+    /// triangle's longer extent.
     pub nearness: [f64; 2],
-    /// Difference of nearness that is a cell's width in front of the farther one.
+    /// Difference of nearness that equals a cell's width, at the farther of two points.
     pub gap: f64,
-    /// How clear it is that it crosses the cell, and is thin: 0 where that is undecided, in cells.
+    /// Clearance in cells by which the triangle crosses the cell and is thin; 0 if that is undecided.
     pub clearance: f64,
 }
 
-/// What a crossing makes of a cell.
+/// Effect of a crossing on a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// Nothing: the triangle may lie behind what the cell shows, or within it.
+    /// None: the triangle may be hidden behind what the cell shows, or lie in its surface.
     None,
-    /// A superpixel if it lies amid another triangle.
+    /// The cell becomes a superpixel if the triangle lies in the middle of another one.
     Painted,
-    /// A superpixel.
+    /// The cell becomes a superpixel.
     Apart,
 }
 
 impl View {
-    /// How a pinhole sees positions relative to `origin`.
+    /// View of a pinhole onto positions relative to `origin`.
     #[must_use]
     pub fn new(pinhole: &Pinhole, origin: DVec3) -> Self {
         let pixels = pinhole.pixel_matrix(origin, DVec2::ZERO);
@@ -73,7 +74,7 @@ impl View {
         }
     }
 
-    /// Nearness of what a location sees at a depth; a depth of 0 is the background, with nothing behind it.
+    /// Nearness of what a location shows at a depth; a depth of 0 is the background, behind everything.
     #[must_use]
     pub fn behind(&self, depth: f64) -> f64 {
         match (depth == 0.0, self.parallel) {
@@ -83,7 +84,7 @@ impl View {
         }
     }
 
-    /// How a triangle crosses the cell of a location: nothing where it does not or is not thin.
+    /// Crossing of a triangle through the cell of a location; `None` if it does not cross the cell or is not thin.
     #[must_use]
     pub fn crossing(&self, corners: [DVec3; 3], location: &SampleLocation) -> Option<Crossing> {
         let [column, row] = location.jacobian.map(DVec2::from_array);
@@ -125,7 +126,7 @@ impl View {
 }
 
 impl Crossing {
-    /// What it makes of a cell that shows something at a nearness.
+    /// Effect on a cell that shows something at the nearness `behind`.
     #[must_use]
     pub fn mark(&self, behind: f64) -> Mark {
         let [farthest, nearest] = self.nearness;
@@ -139,8 +140,8 @@ impl Crossing {
     }
 }
 
-/// The part of a convex polygon where a linear function is not negative (Sutherland and Hodgman, "Reentrant Polygon Clipping",
-/// 1974).
+/// Part of a convex polygon in which a linear function is not negative (Sutherland and Hodgman, "Reentrant Polygon
+/// Clipping", 1974).
 fn clipped<T: Copy>(
     polygon: &[T],
     inside: impl Fn(&T) -> f64,
@@ -160,14 +161,15 @@ fn clipped<T: Copy>(
     kept
 }
 
-/// Corners of the box around places.
+/// Lowest and highest corner of the box around places.
 fn range(places: &[DVec3]) -> [DVec3; 2] {
     let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let both = |[low, high]: [DVec3; 2], at: &DVec3| [low.min(*at), high.max(*at)];
     places.iter().fold(nothing, both)
 }
 
-/// Twice the area over the distance of the farthest corners: the height of a triangle over its longest side. Nothing without area.
+/// Twice the area / the distance of the farthest corners: the height of a triangle over its longest side. `None`
+/// without area.
 fn height(places: &[DVec3]) -> Option<f64> {
     let places: Vec<DVec2> = places.iter().map(|place| place.truncate()).collect();
     let first = *places.first()?;
@@ -184,7 +186,7 @@ fn height(places: &[DVec3]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Looks along -z from the origin; a pixel at distance 1 is 0.1 wide, and (10, 10) is straight ahead.
+    /// A view along -z from the origin. A pixel at distance 1 is 0.1 wide, and (10, 10) is straight ahead.
     fn view() -> View {
         let corner = DVec3::new(-1.0, 1.0, -1.0);
         let [a, b] = [DVec3::X * 0.1, DVec3::NEG_Y * 0.1];
@@ -208,7 +210,7 @@ mod tests {
         assert!(shader.contains(&format!("const float THIN = {THIN:?};")));
     }
 
-    /// A strip .3 high at distance 2, where a pixel is .2 wide: 1.5 pixels high.
+    /// The strip is 0.3 high at distance 2, where a pixel is 0.2 wide: 1.5 pixels high.
     #[test]
     fn what_is_thin_is_so_in_cells() {
         let strip = [[-1.0, 0.0, -2.0], [1.0, 0.0, -2.0], [0.0, 0.28, -2.0]];
@@ -242,11 +244,11 @@ mod tests {
         assert_eq!(crossing.unwrap().mark(view().behind(0.0)), Mark::Apart);
     }
 
-    /// A wire from far ahead to behind the eye is as thin as what is seen of it.
+    /// A wire from far ahead to behind the eye is as thin as its visible part.
     #[test]
     fn what_passes_the_eye_is_cut_at_the_near_plane() {
         let wire = [[0.0, 1.0, 9.0], [0.02, 1.0, -50.0], [0.0, 1.0, -50.0]];
-        // At distance 20 it is half a pixel above the middle.
+        // At distance 20 the wire is half a pixel above the middle.
         let crossing = view().crossing(wire.map(DVec3::from_array), &location([10.0, 9.5], 1.0));
         let [far, near] = crossing.unwrap().nearness;
         assert!(far > 1.0 / 50.1 && near < 2.0, "{far} {near}");

@@ -1,31 +1,31 @@
-//! Which pixels alias: the superpixels.
+//! Detection: which pixels alias and become superpixels.
 //!
-//! A pixel is a superpixel if any of its 8 neighbours inside the image differs in colour; by the rule of the sources, only
-//! if that neighbour shows another surface as well. Two pixels show different surfaces if the IDs of their nearest opaque
-//! triangles differ or those of their nearest blended triangles do. Colours are compared as they will be displayed,
-//! channel by channel, alpha included, since alpha alone tells a black object from a transparent background.
+//! A pixel is a superpixel if any of its 8 neighbours inside the image differs in colour; with [`Mode::Edges`], only
+//! if that neighbour shows another surface too. Two pixels show different surfaces if the IDs of their nearest opaque
+//! triangles differ, or the IDs of their nearest blended triangles. Colours are compared as displayed, channel by
+//! channel and including alpha, because alpha alone distinguishes a black object from a transparent background.
 
 use thiserror::Error;
 
-/// Width of a tile of the mask in pixels.
+/// Width of a tile in pixels.
 pub const TILE_WIDTH: u32 = 8;
 
-/// Height of a tile of the mask in pixels.
+/// Height of a tile in pixels.
 pub const TILE_HEIGHT: u32 = 4;
 
-/// What makes two neighbours contrast. Thresholds are in 8-bit code values of the displayed colour: a channel must
+/// Rule by which two neighbours contrast. Thresholds are in 8-bit code values of the displayed colour: a channel must
 /// differ by more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Another colour, whatever the surfaces.
+    /// Another colour, on any surface.
     Contrast(u8),
-    /// Another surface in another colour.
+    /// Another surface with another colour.
     Edges(u8),
-    /// Another surface, whatever the colours.
+    /// Another surface with any colour.
     Exact,
 }
 
-/// An image as detection reads it, row by row from the top left.
+/// Image as detection reads it, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
     width: u32,
@@ -35,27 +35,27 @@ pub struct Frame<'a> {
     colours: &'a [u32],
 }
 
-/// A plane of an image that does not have one value for each pixel.
+/// Error: a plane of an image whose length is not the number of pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("the {plane} of a {width} x {height} image are {found} values; give one for each pixel")]
 pub struct PlaneError {
-    /// Which values.
+    /// Name of the plane.
     pub plane: &'static str,
     /// Width of the image in pixels.
     pub width: u32,
     /// Height of the image in pixels.
     pub height: u32,
-    /// How many values there are.
+    /// Number of values in the plane.
     pub found: usize,
 }
 
 impl<'a> Frame<'a> {
-    /// An image of `width` x `height` pixels: the ID of the nearest opaque or masked triangle of each, that of the
-    /// nearest blended triangle (0 where there is none), and the displayed colour as RGBA, 8 bits each, red in the
-    /// lowest.
+    /// Image of `width` x `height` pixels. For each pixel it has the ID of the nearest opaque or masked triangle, the
+    /// ID of the nearest blended triangle (0 for none), and the displayed colour as RGBA, 8 bits each, red in the
+    /// lowest byte.
     ///
     /// # Errors
-    /// One of the slices is not as long as the image has pixels.
+    /// [`PlaneError`] if the length of a slice is not the number of pixels.
     pub fn new(
         width: u32,
         height: u32,
@@ -86,7 +86,7 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Whether two pixels, given by their places in the planes, contrast.
+    /// Whether two pixels contrast; `a` and `b` are their indices.
     fn contrast(&self, a: usize, b: usize, mode: Mode) -> bool {
         let surface = || self.ids[a] != self.ids[b] || self.blend_ids[a] != self.blend_ids[b];
         let colour = |threshold: u8| {
@@ -102,8 +102,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// The superpixels of an image: one word per tile of [`TILE_WIDTH`] x [`TILE_HEIGHT`] pixels, tiles row by row,
-/// ceil(width / 8) of them in a row; pixel (x, y) is bit 8 (y mod 4) + x mod 8 of its tile's word. Bits outside the
+/// Superpixels of an image: one word for each tile of [`TILE_WIDTH`] x [`TILE_HEIGHT`] pixels, tiles row by row,
+/// ceil(width / 8) of them in a row. Pixel (x, y) is bit 8 (y mod 4) + x mod 8 of its tile's word. Bits outside the
 /// image are 0.
 pub fn superpixels(frame: &Frame<'_>, mode: Mode) -> Vec<u32> {
     let tiles_x = frame.width.div_ceil(TILE_WIDTH);
@@ -114,7 +114,7 @@ pub fn superpixels(frame: &Frame<'_>, mode: Mode) -> Vec<u32> {
         let tile = (y / TILE_HEIGHT) as usize * tiles_x as usize + (x / TILE_WIDTH) as usize;
         mask[tile] |= 1 << (y % TILE_HEIGHT * TILE_WIDTH + x % TILE_WIDTH);
     };
-    // Each pair of neighbours is tested once, from the pixel that comes first.
+    // Each pair of neighbours is tested once, from its first pixel.
     for (y, x) in (0..frame.height).flat_map(|y| (0..frame.width).map(move |x| (y, x))) {
         for (dx, dy) in [(1, 0), (-1, 1), (0, 1), (1, 1)] {
             let Some(nx) = x.checked_add_signed(dx).filter(|&nx| nx < frame.width) else {

@@ -1,32 +1,32 @@
-//! Which tile and which cell each location of a list belongs to.
+//! Distribution of a list's locations over tiles and cells.
 
-/// Columns and rows of a tile.
+/// Width and height of a tile in pixels.
 const TILE: [i32; 2] = [8, 4];
-/// The farthest that a sample may lie from its location's pixel, in pixels.
+/// Largest distance of a sample from its location's pixel, in pixels.
 const FARTHEST: f32 = 1_048_576.0;
 
-/// A sample location.
+/// A sampling location.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Location {
-    /// The pixel that it lies in.
+    /// Column and row of the pixel in which it lies.
     pub pixel: [i32; 2],
-    /// Where it lies in the pixel, from 0 to 1.
+    /// Place within the pixel, from 0 to 1.
     pub within: [f32; 2],
-    /// Change of x and y to the next column and to the next row.
+    /// Changes of x and y to the next column and to the next row of the output.
     pub jacobian: [[f32; 2]; 2],
 }
 
-/// What a list is distributed over.
+/// Region over which a list is distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// Its size in tiles.
+    /// Width and height in tiles.
     pub tiles: [u32; 2],
-    /// Whether locations are sampled once each, where they are, so that they have no extent.
+    /// Whether locations are sampled once each, so that they have no extent.
     pub points: bool,
 }
 
 impl Location {
-    /// Half the width and height of what its samples spread over.
+    /// Half of the width and height of the area over which the samples spread.
     fn half_extent(&self, points: bool) -> [f32; 2] {
         let [[a, b], [c, d]] = self.jacobian;
         if points {
@@ -36,7 +36,7 @@ impl Location {
         }
     }
 
-    /// Where it lies from the centre of its tile.
+    /// Place relative to the centre of its tile, in pixels.
     #[must_use]
     pub fn place_in_tile(&self) -> [f32; 2] {
         [0, 1].map(|axis| {
@@ -45,7 +45,7 @@ impl Location {
         })
     }
 
-    /// Its place along a Morton curve over the pixels of its tile.
+    /// Position on a Morton curve over the pixels of its tile.
     #[must_use]
     pub fn place_on_curve(&self) -> u32 {
         let [x, y] = [0, 1].map(|axis| self.pixel[axis].rem_euclid(TILE[axis]) as u32);
@@ -54,8 +54,8 @@ impl Location {
 }
 
 impl Region {
-    /// The tile that a location lies in; nothing for one that is left out: off the region, no number, or with samples too far
-    /// off.
+    /// Index of the tile in which a location lies. `None` for a location that is left out: outside of the region, NaN,
+    /// or with samples too far away.
     #[must_use]
     pub fn tile(&self, location: &Location) -> Option<u32> {
         let extent = location.half_extent(self.points);
@@ -67,7 +67,7 @@ impl Region {
             .then(|| row as u32 * self.tiles[0] + column as u32)
     }
 
-    /// How far a location's samples lie from the centre of its pixel at the most, and half a pixel at the least.
+    /// Largest distance of a location's samples from the centre of its pixel, and at least half a pixel.
     #[must_use]
     pub fn reach(&self, location: &Location) -> f32 {
         let extent = location.half_extent(self.points);
@@ -79,7 +79,8 @@ impl Region {
         }
     }
 
-    /// The least rectangle around the samples of some locations of a tile, from its centre: low and high corner.
+    /// Smallest rectangle, relative to the centre of the tile, around the samples of some locations of a tile: lowest
+    /// and highest corner.
     #[must_use]
     pub fn bounds(&self, locations: &[Location]) -> [[f32; 2]; 2] {
         let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];

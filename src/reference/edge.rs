@@ -1,30 +1,30 @@
-//! Closed forms of the share of a pixel that lies behind straight edges.
+//! Areas of a pixel behind straight edges and in triangles.
 //!
 //! A pixel is the unit square around its centre, x to the right, y down. A line `[a, b, c]` bounds the half-plane of
 //! the points (x, y), in pixels from the centre, with a x + b y + c > 0.
 
-/// The area of the pixel that lies in a half-plane, 0 to 1.
+/// Area of the pixel that lies in a half-plane, 0 to 1.
 ///
-/// A line with a = b = 0 has no direction: its half-plane is everything where c > 0, nothing elsewhere.
+/// A line with a = b = 0 has no direction: its half-plane is the whole plane if c > 0, and empty otherwise.
 pub fn half_plane_area([a, b, c]: [f64; 3]) -> f64 {
     let (wide, narrow) = (a.abs().max(b.abs()), a.abs().min(b.abs()));
-    // The values of c at which the line passes through the nearer and the farther pair of corners.
+    // Values of c at which the line passes through the nearer and the farther pair of corners.
     let (near, far) = ((wide - narrow) / 2.0, (wide + narrow) / 2.0);
     let distance = c.abs();
     let smaller = if distance >= far {
         0.0
     } else if distance <= near {
-        // The line leaves through two opposite sides: a trapezium.
+        // The line leaves through two opposite sides, and cuts off a trapezium.
         0.5 - distance / wide
     } else {
-        // It cuts off one corner: a triangle.
+        // The line cuts off one corner, a triangle.
         (far - distance).powi(2) / (2.0 * wide * narrow)
     };
     if c > 0.0 { 1.0 - smaller } else { smaller }
 }
 
-/// The area of the pixel that lies in all of the half-planes, 0 to 1: the square is clipped by one after the other
-/// (Sutherland and Hodgman 1974) and the rest measured.
+/// Area of the pixel that lies in all of the half-planes, 0 to 1. The square is clipped by each of them (Sutherland
+/// and Hodgman, "Reentrant Polygon Clipping", 1974).
 pub fn clipped_area(lines: &[[f64; 3]]) -> f64 {
     let square = vec![[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
     let polygon = lines
@@ -36,8 +36,8 @@ pub fn clipped_area(lines: &[[f64; 3]]) -> f64 {
     twice.max(0.0) / 2.0
 }
 
-/// The area of the pixel with centre (x, y) that a triangle covers, 0 to 1. All coordinates are in pixels and finite;
-/// the winding does not matter.
+/// Area of the pixel with centre (x, y) that a triangle covers, 0 to 1. All coordinates are in pixels and finite; the
+/// winding does not matter.
 pub fn triangle_area(corners: [[f64; 2]; 3], [x, y]: [f64; 2]) -> f64 {
     let [p, q, r] = corners.map(|corner| [corner[0] - x, corner[1] - y]);
     let turn = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
@@ -54,7 +54,7 @@ pub fn triangle_area(corners: [[f64; 2]; 3], [x, y]: [f64; 2]) -> f64 {
     clipped_area(&lines)
 }
 
-/// The part of a convex polygon that lies in a half-plane.
+/// Part of a convex polygon that lies in a half-plane.
 fn clip(polygon: &[[f64; 2]], &[a, b, c]: &[f64; 3]) -> Vec<[f64; 2]> {
     let height = |[x, y]: [f64; 2]| a * x + b * y + c;
     let mut kept = Vec::with_capacity(polygon.len() + 1);
@@ -74,7 +74,7 @@ fn clip(polygon: &[[f64; 2]], &[a, b, c]: &[f64; 3]) -> Vec<[f64; 2]> {
     kept
 }
 
-/// A polygon's sides, each as its two ends.
+/// Sides of a polygon, each as its two ends.
 fn sides(polygon: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
     polygon
         .iter()

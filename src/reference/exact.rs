@@ -1,18 +1,18 @@
-//! Exact signs and faithfully rounded values of sums of products (J. R. Shewchuk, "Adaptive Precision Floating-Point
+//! Exact signs and accurately rounded values of sums of products (J. R. Shewchuk, "Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates", 1997).
 //!
-//! Everything holds unless a product's last bit falls below 2^-1074: with 32-bit floating-point vertices that takes a
-//! point that is finer than 2^-700.
+//! The results are exact unless the last bit of a product falls below 2^-1074. With 32-bit floating-point vertices
+//! this takes a point with coordinates finer than 2^-700.
 
-/// A number as the unevaluated sum of a 64-bit value and its rounding error, the value first.
+/// Unevaluated sum of a 64-bit value and its rounding error, the value first.
 pub(super) type Pair = [f64; 2];
 
-/// a b - c d, exactly; the arguments have at most 24 significant bits, as 32-bit floating-point values have.
+/// a b - c d, exactly. The arguments have at most 24 significant bits, like 32-bit floats.
 pub(super) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> Pair {
     two_sum(a * b, -(c * d))
 }
 
-/// The inner product of a vector of exact coefficients and a point, rounded: its sign is exact, and its relative error
+/// Inner product of a vector of exact coefficients and a point, rounded. Its sign is exact, and its relative error is
 /// below 2^-51.
 pub(super) fn dot(coefficients: &[Pair; 3], point: [f64; 3]) -> f64 {
     let mut terms = [0.0; 12];
@@ -26,21 +26,22 @@ pub(super) fn dot(coefficients: &[Pair; 3], point: [f64; 3]) -> f64 {
     sum(&terms)
 }
 
-/// The sign of the same inner product, 1, 0 or -1, found from the rounded value where its error allows.
+/// Sign of the same inner product: 1, 0 or -1. It is taken from the rounded value if the error of that permits.
 pub(super) fn dot_sign(coefficients: &[Pair; 3], point: [f64; 3]) -> i8 {
     let (mut value, mut size) = (0.0, 0.0);
     for ([high, _], x) in coefficients.iter().zip(point) {
         value += high * x;
         size += (high * x).abs();
     }
-    // Each term is rounded at most four times, by 2^-53 of its size; the rest is room for the products that underflow.
+    // Each term is rounded at most four times, each time by up to 2^-53 of its size. The rest is a margin for products
+    // that underflow.
     if value.abs() <= size * 2.0_f64.powi(-50) + f64::MIN_POSITIVE {
         value = dot(coefficients, point);
     }
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
-/// a + b and its rounding error (Knuth).
+/// Sum a + b and its rounding error (Knuth).
 fn two_sum(a: f64, b: f64) -> Pair {
     let sum = a + b;
     let b_part = sum - a;
@@ -48,14 +49,14 @@ fn two_sum(a: f64, b: f64) -> Pair {
     [sum, (a - a_part) + (b - b_part)]
 }
 
-/// a b and its rounding error.
+/// Product a b and its rounding error.
 fn two_product(a: f64, b: f64) -> Pair {
     let product = a * b;
     [product, a.mul_add(b, -product)]
 }
 
-/// The sum of twelve terms, rounded after it has been found exactly: the terms are added to an expansion whose
-/// components do not overlap, and the components are summed from the smallest.
+/// Sum of twelve terms, rounded once after it was computed exactly: the terms are added to an expansion of
+/// non-overlapping components, which are summed from the smallest.
 fn sum(terms: &[f64; 12]) -> f64 {
     let mut expansion = [0.0; 12];
     for (count, term) in terms.iter().enumerate() {
@@ -74,7 +75,7 @@ fn sum(terms: &[f64; 12]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Cancellation that leaves one unit in the last place of a product's error.
+    /// The sign survives cancellation that leaves one unit in the last place of a product's error.
     #[test]
     fn sign_survives_cancellation() {
         let epsilon = 2.0_f64.powi(-52);
@@ -86,7 +87,7 @@ mod tests {
         assert_eq!(dot(&coefficients, [big, 1.0, 0.0]), epsilon * epsilon);
     }
 
-    /// The low parts of the coefficients count.
+    /// The low parts of the coefficients decide if the high parts cancel.
     #[test]
     fn low_parts_decide() {
         let coefficients = [[1.0, -1e-30], [-1.0, 0.0], [0.0, 0.0]];
@@ -94,7 +95,7 @@ mod tests {
         assert_eq!(dot_sign(&[[0.0, 0.0]; 3], [3.0, 3.0, 1.0]), 0);
     }
 
-    /// Against 128-bit integers, near zero.
+    /// Signs near zero agree with those of 128-bit integers.
     #[test]
     fn agrees_with_integers() {
         let mut state = 1_u64;
@@ -106,7 +107,7 @@ mod tests {
         };
         for _ in 0..20_000 {
             let [a, b, c, x, y] = [24, 24, 3, 24, 24].map(&mut next);
-            // a x + b y + c z with c z close to -(a x + b y).
+            // c z is close to -(a x + b y), so that a x + b y + c z is near zero.
             let z = -(a * x + b * y) / c.max(1);
             let exact = i128::from(a) * i128::from(x)
                 + i128::from(b) * i128::from(y)

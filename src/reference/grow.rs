@@ -1,18 +1,18 @@
-//! Which superpixels grow beside others.
+//! Growth: superpixels that grow beside others.
 //!
-//! A feature that the centre of no pixel saw shows in the samples of a superpixel beside it. So a pixel that is none
-//! becomes a superpixel if it differs in colour from one of its up to 8 neighbours that is a superpixel: that
-//! neighbour as its samples resolved it, the pixel as its own centre saw it.
+//! A feature that covers no pixel centre may show in the samples of a superpixel. The pixels beside it then become
+//! superpixels too, if they contrast with it. A pixel's own colour is that of its centre; the colour of a superpixel
+//! beside it is the resolved colour of its samples.
 
 use super::detect::{TILE_HEIGHT, TILE_WIDTH};
 
-/// The superpixels that grow, as one word per tile in the order of [`superpixels`](super::detect::superpixels), of which
-/// `superpixels` is the result: none of them grows again. `seen` are the displayed colours of all pixels as their centres saw
-/// them, `resolved` those of superpixels; both as RGBA, 8 bits each, red in the lowest, row by row of `width` pixels. A
-/// channel must differ by more than `threshold` code values.
+/// Superpixels that grow, as one word for each tile in the order of [`superpixels`](super::detect::superpixels).
+/// `superpixels` holds the existing ones, none of which grows again. `seen` holds the displayed colours of all pixels'
+/// centres, `resolved` the colours of superpixels; both as RGBA, 8 bits each, red in the lowest byte, row by row of
+/// `width` pixels. A channel must differ by more than `threshold` code values.
 ///
 /// # Panics
-/// `seen` and `resolved` differ in length, or `superpixels` is too short for them.
+/// If `seen` and `resolved` differ in length, or `superpixels` is too short for them.
 pub fn grown(
     width: u32,
     seen: &[u32],

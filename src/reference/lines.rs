@@ -1,11 +1,11 @@
-//! Samples on straight lines across a pixel: where they lie.
+//! Places of the samples on straight lines across a pixel.
 
-/// Samples of a line.
+/// Number of samples of a line.
 pub const BITS: u32 = 64;
 
-/// The samples of a pixel on `lines` rows, or columns, a power of two, from its centre in pixels: one line after the other.
-/// Those of a line are evenly spaced; where the first one is differs from line to line, so that all together are evenly
-/// spread over both axes.
+/// Offsets of the samples of a pixel on `lines` rows, or columns, from its centre in pixels, one line after the other.
+/// `lines` is a power of two. The samples of a line are evenly spaced; the place of the first one differs from line to
+/// line, so that all samples together are evenly spread over both axes.
 #[must_use]
 pub fn offsets(columns: bool, lines: u32) -> Vec<[f64; 2]> {
     let samples = (0..lines).flat_map(|line| (0..BITS).map(move |bit| (line, bit)));

@@ -1,11 +1,10 @@
 //! Scalar twins, in exact or 64-bit arithmetic, of the decisions that the GPU makes.
 //!
-//! They are slow and plain, and share no code with the shaders; tests hold the shaders against them. All positions are
-//! in pixels, x to the right and y down.
+//! The twins are slow and simple, and share no code with the shaders; tests compare the shaders with them. All
+//! positions are in pixels, x to the right and y down.
 
 #![forbid(unsafe_code)]
 
-pub mod area;
 pub mod behind;
 pub mod coverage;
 #[cfg(feature = "gltf")]

@@ -1,17 +1,18 @@
-//! What a surface reflects of an environment along its normal: the average that `prefilter` makes of cubes.
+//! Prefiltered reflection of an environment along a surface's normal: the average that `prefilter` computes from
+//! cubes.
 
 use glam::{DMat3, DVec3};
 
-/// A cube of `side` texels along a face; face by face in Vulkan's order, row by row.
+/// A cube map, face by face in Vulkan's order, row by row.
 #[derive(Clone, Debug)]
 pub struct Cube {
-    /// Texels along the side of a face.
+    /// Side of a face in texels.
     pub side: u32,
-    /// Radiance.
+    /// Radiance of each texel.
     pub texels: Vec<DVec3>,
 }
 
-/// Unit vectors along which faces lie, to the right on them, and down.
+/// For each face, unit vectors: outwards, to the right in the face, and down.
 const FACES: [[DVec3; 3]; 6] = [
     [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y],
     [DVec3::NEG_X, DVec3::Z, DVec3::NEG_Y],
@@ -22,7 +23,7 @@ const FACES: [[DVec3; 3]; 6] = [
 ];
 
 impl Cube {
-    /// The unit vector to the middle of a texel.
+    /// Unit vector to the middle of a texel.
     #[must_use]
     pub fn direction(side: u32, index: u32) -> DVec3 {
         let place = index % (side * side);
@@ -31,7 +32,7 @@ impl Cube {
         (ahead + right * middle(place % side) + down * middle(place / side)).normalize()
     }
 
-    /// Between the nearest texels of the face that a direction falls on.
+    /// Radiance interpolated between the nearest texels of the face in this direction.
     fn read(&self, direction: DVec3) -> DVec3 {
         let ahead = |face: usize| direction.dot(FACES[face][0]);
         let face = (0..6).fold(0, |best, face| {
@@ -57,7 +58,8 @@ impl Cube {
     }
 }
 
-/// The average about a unit vector of what rays about +z read: each a direction, whose z it is weighed by, and a level.
+/// Average of `levels` around the direction `normal`. `rays` are given around +z: each is a direction, by whose z it
+/// is weighted, and the level that it reads.
 #[must_use]
 pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
     let turn = if normal.z >= 0.0 { 1.0 } else { -1.0 };

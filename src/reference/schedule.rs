@@ -1,90 +1,90 @@
-//! Which tiles a round takes, and where their lists of candidates, headers and entries are.
+//! Schedule: the tiles of each round, and the places of their lists of candidates, headers and entries.
 //!
-//! A round takes tiles in the order of the region, as long as what they may need fits; its first tile in any case. A tile
-//! without a superpixel needs nothing.
+//! A round takes tiles in the order of the region as long as their largest possible needs fit, and always its first
+//! tile. A tile without superpixels needs nothing.
 
 use std::ops::Range;
 
-/// Trials of a triangle in a cell that a round takes where tiles have no list.
+/// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
 const MOST_TRIALS: u64 = 1 << 31;
 
-/// What is known of a tile before the first round.
+/// Facts about a tile before the first round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
-    /// Superpixels.
+    /// Number of superpixels.
     pub cells: u32,
-    /// Pairs of a triangle and this tile.
+    /// Number of pairs of a triangle and this tile.
     pub candidates: u32,
-    /// Whether some of these pairs were not kept.
+    /// Whether some of these pairs did not fit into memory.
     pub overflows: bool,
-    /// Whether some are of alpha-tested triangles.
+    /// Whether some of the triangles are alpha-tested.
     pub has_mask: bool,
-    /// Whether some are of BLEND triangles.
+    /// Whether some of the triangles are BLEND.
     pub has_blend: bool,
 }
 
-/// Which list a tile is entered in.
+/// List in which a tile is entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum List {
-    /// Opaque triangles alone.
+    /// Tiles with opaque triangles only.
     Plain,
-    /// Alpha-tested triangles too.
+    /// Tiles that also have alpha-tested triangles.
     Masked,
-    /// BLEND triangles too.
+    /// Tiles that also have BLEND triangles.
     Blended,
-    /// Every triangle is a candidate.
+    /// Tiles without a list, for which every triangle is a candidate.
     Unlisted,
 }
 
-/// What samples write, and the room that a round has for it.
+/// Options of sampling that determine the needs of a tile, and the room that a round has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rounds {
-    /// Samples of a cell.
+    /// Number of samples of a cell.
     pub samples: u32,
-    /// Samples of a block.
+    /// Number of samples of a block.
     pub block: u32,
     /// Whether each sample is a record.
     pub per_sample: bool,
-    /// Most records of a triangle in a block.
+    /// Largest number of records of a triangle in a block.
     pub parts: u32,
-    /// BLEND layers of a list that a tile is admitted with.
+    /// Number of BLEND layers of a list for which a tile is admitted.
     pub layers: u32,
-    /// Triangles of the scene.
+    /// Number of triangles of the scene.
     pub triangles: u32,
-    /// Most triangles that are tried in a cell.
+    /// Largest number of triangles that can be tested in a cell.
     pub longest_list: u32,
-    /// Whether some of them are BLEND.
+    /// Whether the scene has BLEND triangles.
     pub blends: bool,
-    /// Candidates that a round has room for.
+    /// Number of candidates for which a round has room.
     pub candidates: u32,
-    /// Records, and also headers.
+    /// Number of records, and of headers, for which a round has room.
     pub records: u32,
 }
 
-/// A tile with superpixels in a round.
+/// Place of a tile with superpixels in a round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// Its number in the region.
+    /// Index of the tile in the region.
     pub tile: usize,
-    /// The list that it is entered in.
+    /// List in which the tile is entered.
     pub list: List,
-    /// Its first candidate among those of the round.
+    /// Index of its first candidate in the round.
     pub first_candidate: u64,
-    /// Its first header.
+    /// Index of its first header.
     pub first_header: u64,
 }
 
-/// What a round takes.
+/// Tiles of a round.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Round {
-    /// The tiles, with and without superpixels.
+    /// Range of the tiles, with and without superpixels.
     pub tiles: Range<usize>,
-    /// Those with superpixels.
+    /// Places of the tiles with superpixels.
     pub placed: Vec<Placed>,
 }
 
 impl Rounds {
-    /// Which list a tile with superpixels is entered in.
+    /// List in which a tile with superpixels is entered.
     #[must_use]
     pub fn list(&self, tile: Tile) -> List {
         if tile.overflows || tile.candidates > self.candidates {
@@ -98,7 +98,7 @@ impl Rounds {
         }
     }
 
-    /// What a tile is admitted with: candidates, records, headers and cells in which every triangle is tried.
+    /// Needs of a tile: candidates, records, headers, and cells in which every triangle is tested.
     fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] =
             [self.samples, self.block, self.parts, self.layers].map(u64::from);
@@ -137,7 +137,7 @@ impl Rounds {
         }
     }
 
-    /// The rounds that all tiles take.
+    /// Rounds for all tiles.
     #[must_use]
     pub fn of(&self, tiles: &[Tile]) -> Vec<Round> {
         let [candidates, records] = [self.candidates, self.records].map(u64::from);

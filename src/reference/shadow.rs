@@ -1,54 +1,55 @@
-//! Whether light is kept from a place of a triangle: by the rays between them, triangle by triangle.
+//! Shadows: whether a triangle blocks the ray between a place and a light, tested triangle by triangle.
 
 use glam::DVec3;
 
-/// What shines.
+/// Kind and place of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shining {
-    /// From far away.
+    /// Distant light.
     Distant {
-        /// Unit vector to it.
+        /// Unit vector to the light.
         to_light: DVec3,
-        /// Extent of the scene along it.
+        /// Extent of the scene along the light.
         depth: f64,
     },
-    /// From a point.
+    /// Point or spot light.
     Local {
-        /// Where it is.
+        /// Position of the light.
         position: DVec3,
-        /// Unit vector that light goes around, and the cosine of the angle from it up to which it goes; -2 for all directions.
+        /// Unit vector of the cone's axis, and the cosine of its half angle; -2 for light in all directions.
         cone: (DVec3, f64),
-        /// How far it goes.
+        /// Distance past which the light has no effect.
         range: f64,
     },
 }
 
-/// A place that light may reach.
+/// A place that a light may reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
     /// Index of its triangle.
     pub triangle: usize,
-    /// Where it is.
+    /// Position of the place.
     pub position: DVec3,
-    /// From where it is seen.
+    /// Position from which the place is seen.
     pub eye: DVec3,
     /// Whether light from behind shines through its triangle.
     pub is_backlit: bool,
 }
 
-/// Where a pixel is asked, from its centre, besides there: it is a superpixel where a light reaches one of these places of the
-/// same triangle and not the centre, or the centre alone.
+/// Further places in a pixel that are probed, relative to its centre. The pixel becomes a superpixel if a light
+/// reaches only one of its centre and a probe on the same triangle.
 pub const PROBES: [[f64; 2]; 3] = [
     [0.34375, 0.34375],
     [-0.296_875, 0.40625],
     [0.46875, -0.296_875],
 ];
 
-/// What lies nearer than this part of the distance, or of the scene's depth, is the receiver itself.
+/// Fraction of the distance, or of the scene's depth, within which a triangle does not block light, because it may be
+/// the receiver itself.
 const BIAS: f64 = 1.0 / 131_072.0;
 
-/// Whether the place lies in shadow, as the passes `receivers`, `sample` and `shadow` tell it; nothing where less than `doubt`
-/// decides, a part of the lengths and of the triangles' sides.
+/// Whether the place lies in shadow, as the passes `receivers`, `sample` and `shadow` decide it. `None` if the
+/// decision is closer than `doubt`, a fraction of the lengths and of the triangles' sides.
 #[must_use]
 pub fn is_in_shadow(
     triangles: &[[DVec3; 3]],
@@ -78,7 +79,7 @@ pub fn is_in_shadow(
             if length > range || along < cosine {
                 return Some(false);
             }
-            // Depth is the reciprocal of the distance.
+            // Depth is the reciprocal of the distance, so that the bias is relative to the distance.
             (way / length, length, BIAS * length)
         }
     };
@@ -112,11 +113,11 @@ pub fn is_in_shadow(
 enum Crossing {
     None,
     Doubtful,
-    /// At this distance along the ray.
+    /// The ray meets the triangle at this distance.
     At(f64),
 }
 
-/// Where a ray meets a triangle.
+/// Intersection of a ray and a triangle.
 fn between(&[a, b, c]: &[DVec3; 3], from: DVec3, along: DVec3, doubt: f64) -> Crossing {
     let (ab, ac) = (b - a, c - a);
     let cross = along.cross(ac);
@@ -130,7 +131,7 @@ fn between(&[a, b, c]: &[DVec3; 3], from: DVec3, along: DVec3, doubt: f64) -> Cr
     let across = to.cross(ab);
     let v = along.dot(across) / determinant;
     let edge = [u, v, 1.0 - u - v].into_iter().fold(f64::MAX, f64::min);
-    // How far a place moves in these coordinates if the ray moves by a part of the sides.
+    // Movement of the intersection, in these coordinates, if the ray moves by a fraction of the sides.
     let reach = doubt * size / determinant.abs();
     if edge.abs() < reach {
         return Crossing::Doubtful;

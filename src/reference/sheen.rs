@@ -1,9 +1,10 @@
-//! The share of a uniform environment that white sheen reflects (`KHR_materials_sheen`): the integral that shaders fit.
+//! Share of a uniform environment's light that white sheen reflects (`KHR_materials_sheen`): the integral that shaders
+//! approximate.
 
 use std::f64::consts::{PI, TAU};
 
-/// Sheen of a perceptual roughness from 0.15 to 1, seen at the angle to the normal whose cosine is `n_v`, above 0. At most
-/// 1, which the model passes at grazing angles.
+/// Reflected share for a perceptual roughness from 0.15 to 1 and a viewing angle to the normal with the cosine `n_v`,
+/// above 0. It is clamped to 1, which the model exceeds at grazing angles.
 #[must_use]
 pub fn albedo(roughness: f64, n_v: f64) -> f64 {
     const STEPS: u32 = 300;
@@ -12,7 +13,7 @@ pub fn albedo(roughness: f64, n_v: f64) -> f64 {
     let eye_across = (1.0 - n_v * n_v).sqrt();
     let mut sum = 0.0;
     for root in (0..STEPS).map(middle) {
-        // Squares, since most is reflected of light that grazes.
+        // Squares place more steps at grazing angles, from which most light is reflected.
         let n_l = root * root;
         let across = (1.0 - n_l * n_l).sqrt();
         for angle in (0..STEPS).map(|step| PI * middle(step)) {
@@ -36,8 +37,8 @@ pub fn albedo(roughness: f64, n_v: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Seen along the normal, the roughest sheen of light at the angle t is 3 sin(t / 2) / (8 pi), whose integral with the
-    /// cosine over the hemisphere is a tenth of the root of 2.
+    /// For the roughest sheen seen along the normal, light at the angle t gives 3 sin(t / 2) / (8 pi). Its integral
+    /// with the cosine over the hemisphere is sqrt(2) / 10.
     #[test]
     fn the_roughest_sheen_seen_along_the_normal_has_a_closed_form() {
         let found = albedo(1.0, 1.0);

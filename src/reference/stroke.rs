@@ -1,18 +1,18 @@
-//! What lines and points cover in an image: the polygons that stand for them; and which edges of meshes are drawn.
+//! Polygons that lines and points cover in an image, and the choice of the mesh edges that are drawn.
 //!
-//! A vertex is in clip space: (pixel x * w, pixel y * w, z, w), with z = w on the near plane and less beyond it. Polygons
-//! are in pixels and run counter-clockwise on the screen, whose y is down.
+//! A vertex is in clip space: (pixel x * w, pixel y * w, z, w), with z = w on the near plane and less beyond it.
+//! Polygons are in pixels and counter-clockwise on the screen, whose y points down.
 
 /// A vertex in clip space.
 pub type Clip = [f64; 4];
 
-/// Longest mitre, in widths of the line; a sharper joint is cut off.
+/// Longest mitre, in widths of the line; a sharper joint is bevelled.
 const LONGEST_MITRE: f64 = 4.0;
 
-/// The corners of a disc's polygon.
+/// Number of corners of a disc's polygon.
 const DISC_CORNERS: u32 = 16;
 
-/// The part of a segment beyond the near plane; `None` if it has none.
+/// Part of a segment beyond the near plane; `None` if there is none.
 fn clipped(from: Clip, to: Clip) -> Option<[Clip; 2]> {
     let before = |p: Clip| p[3] - p[2];
     let at_plane = |front: Clip, behind: Clip| {
@@ -31,7 +31,7 @@ fn pixel(p: Clip) -> [f64; 2] {
     [p[0] / p[3], p[1] / p[3]]
 }
 
-/// Direction and length of what is seen of the way from `p` to `q`, in pixels; `None` if it has no length.
+/// Direction and length in pixels of the visible part of the segment from `p` to `q`; `None` if it has no length.
 fn way(p: Clip, q: Clip) -> Option<([f64; 2], f64)> {
     let [a, b] = clipped(p, q)?.map(pixel);
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
@@ -47,15 +47,15 @@ fn moved(p: [f64; 2], by: [f64; 2], factor: f64) -> [f64; 2] {
     [p[0] + factor * by[0], p[1] + factor * by[1]]
 }
 
-/// Where a line goes on from one segment to another.
+/// Joint of two segments of a line.
 enum Joint {
-    /// From the middle of the line to the left end of the mitre, in halves of the width.
+    /// Mitre: the vector from the middle of the line to the left end of the mitre, in halves of the width.
     Mitre([f64; 2]),
-    /// The directions of both segments, and whether the line turns right.
+    /// Bevel: the directions of both segments, and whether the line turns right.
     Cut([[f64; 2]; 2], bool),
 }
 
-/// The joint at `at` of the segments from `from` and to `to`, if both are seen there.
+/// Joint at `at` between the segments from `from` and to `to`; `None` unless both are visible there.
 fn joint_at(from: Clip, at: Clip, to: Clip, width: f64) -> Option<Joint> {
     if at[2] > at[3] {
         return None;
@@ -65,7 +65,7 @@ fn joint_at(from: Clip, at: Clip, to: Clip, width: f64) -> Option<Joint> {
     let (f, second) = second;
     let cosine = e[0] * f[0] + e[1] * f[1];
     let sine = e[0] * f[1] - e[1] * f[0];
-    // Of half the angle.
+    // This is the square of the cosine of half the angle.
     let squared_cosine = 0.5 * (1.0 + cosine);
     let fits = 0.5 * width * sine.abs() <= (1.0 + cosine) * first.min(second);
     if squared_cosine * LONGEST_MITRE * LONGEST_MITRE >= 1.0 && fits {
@@ -76,8 +76,8 @@ fn joint_at(from: Clip, at: Clip, to: Clip, width: f64) -> Option<Joint> {
     Some(Joint::Cut([e, f], sine > 0.0))
 }
 
-/// What a line `width` pixels wide covers between `from` and `to`; the line comes from `before` and goes on to `after`,
-/// if there are such.
+/// Polygon of a line `width` pixels wide between `from` and `to`; the line comes from `before` and continues to
+/// `after`, if they exist.
 #[must_use]
 pub fn segment(
     before: Option<Clip>,
@@ -104,7 +104,7 @@ pub fn segment(
     ]
 }
 
-/// What fills the joint of two segments beside them, where a mitre would be too long.
+/// Polygon that fills the joint of two segments if a mitre would be too long.
 #[must_use]
 pub fn joint(from: Clip, at: Clip, to: Clip, width: f64) -> Vec<[f64; 2]> {
     let Some(Joint::Cut([e, f], turns_right)) = joint_at(from, at, to, width) else {
@@ -120,7 +120,7 @@ pub fn joint(from: Clip, at: Clip, to: Clip, width: f64) -> Vec<[f64; 2]> {
     vec![middle, second, third]
 }
 
-/// The polygon of a point of that diameter, which has the area of its disc.
+/// Polygon of a point with the diameter `size` in pixels; it has the area of the disc.
 #[must_use]
 pub fn disc(at: Clip, size: f64) -> Vec<[f64; 2]> {
     if at[2] > at[3] {
@@ -135,7 +135,7 @@ pub fn disc(at: Clip, size: f64) -> Vec<[f64; 2]> {
     (0..DISC_CORNERS).map(corner).collect()
 }
 
-/// What an edge of a mesh that is drawn `width` pixels wide covers, where its ends do not lie far apart in depth.
+/// Polygon of a mesh edge that is drawn `width` pixels wide, if the depths of its ends are similar.
 #[must_use]
 pub fn edge(ends: [Clip; 2], is_smooth: bool, width: f64) -> Vec<[f64; 2]> {
     let [from, to] = ends;
@@ -155,30 +155,31 @@ pub fn edge(ends: [Clip; 2], is_smooth: bool, width: f64) -> Vec<[f64; 2]> {
     ]
 }
 
-/// Where lines of sight come from.
+/// Origin of the lines of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye {
-    /// A place.
+    /// Position of the eye.
     At([f64; 3]),
-    /// A direction, along which all of them go.
+    /// Direction of all lines of sight, for an orthographic camera.
     Along([f64; 3]),
 }
 
-/// An edge of a mesh in space.
+/// Edge of a mesh in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// Its ends.
+    /// Ends of the edge.
     pub ends: [[f64; 3]; 2],
-    /// The third corners of the face that runs from the first end to the second, and of the one that runs back.
+    /// Third corners of its faces: of the face in which the edge runs from the first end to the second, and of the
+    /// other one.
     pub faces: [Option<[f64; 3]>; 2],
-    /// Whether it shows as a silhouette alone.
+    /// Whether the edge is visible only as a silhouette.
     pub is_smooth: bool,
-    /// Whether it shows where its faces are seen from behind, too.
+    /// Whether the edge is visible even if its faces are seen from behind.
     pub is_double_sided: bool,
 }
 
 impl Edge {
-    /// Whether it is drawn.
+    /// Whether the edge is drawn.
     #[must_use]
     pub fn shows(&self, eye: Eye) -> bool {
         let minus = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|i| p[i] - q[i]);
@@ -232,7 +233,7 @@ mod tests {
     fn areas_are_widths_times_lengths() {
         let line = segment(None, [at(1.0, 2.0), at(4.0, 6.0)], None, 0.3);
         assert!((area(&line) - 1.5).abs() < 1e-12);
-        // A mitre gives outside what it takes inside.
+        // A mitre adds as much area outside as it removes inside.
         let (a, b, c) = (at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0));
         let both =
             area(&segment(None, [a, b], Some(c), 2.0)) + area(&segment(Some(a), [b, c], None, 2.0));
@@ -255,12 +256,12 @@ mod tests {
                     .all(|p| p[1] * outside >= -1.0 && p[0] >= 10.0 - 1e-12)
             );
         }
-        // As sharp as a mitre may be: four widths long.
+        // This joint is as sharp as a mitre may be: four widths long.
         let turn = 2.0 * (1.0_f64 / 4.0).acos();
         let c = |turn: f64| at(10.0 + 100.0 * turn.cos(), 100.0 * turn.sin());
         assert!(joint(at(-100.0, 0.0), b, c(turn - 1e-6), 2.0).is_empty());
         assert!(!joint(at(-100.0, 0.0), b, c(turn + 1e-6), 2.0).is_empty());
-        // Longer than one of the segments.
+        // The mitre would be longer than one of the segments.
         assert!(!joint(at(9.5, 0.0), b, at(10.0, 10.0), 2.0).is_empty());
     }
 
@@ -273,7 +274,7 @@ mod tests {
             is_double_sided: false,
         };
         let from = |x: f64, z: f64| Eye::At([x, 0.0, z]);
-        // From before, from beside and from behind.
+        // The edge is seen from in front, from the side and from behind.
         let places = [from(0.0, 5.0), from(5.0, 0.0), from(0.0, -5.0)];
         assert_eq!(places.map(|eye| edge.shows(eye)), [false, true, false]);
         assert!(edge.shows(Eye::Along([-1.0, 0.0, 0.0])));
@@ -296,7 +297,7 @@ mod tests {
 
     #[test]
     fn what_lies_behind_the_near_plane_is_cut_off() {
-        // From the middle of the image to behind the eye: it leaves upwards.
+        // The line runs from the middle of the image to behind the eye, so that it leaves the image upwards.
         let (from, to) = ([0.0, 0.0, 1.0, 3.0], [-100.0, -100.0, 1.0, -1.0]);
         let line = segment(None, [from, to], None, 1.0);
         assert_eq!(line.len(), 4);

@@ -1,42 +1,47 @@
-//! In how many parts of a superpixel a triangle is shaded, from the colours that pixels' centres see around it.
+//! Number of parts in which a triangle is shaded in a superpixel, chosen by the colours of the surrounding pixel
+//! centres.
 
-/// What the centres of a pixel and of the 8 around it see, in the order of rows from the upper left one.
+/// Centres of a pixel and its 8 neighbours, row by row from the upper left one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Neighbourhood {
-    /// IDs of triangles, 0 for none and outside of the image.
+    /// IDs of the visible triangles; 0 for none and outside of the image.
     pub ids: [u32; 9],
-    /// Colours as they will be displayed: red, green and blue code values.
+    /// Displayed colours: red, green and blue code values.
     pub colours: [[u8; 3]; 9],
 }
 
-/// The pixel itself.
+/// Index of the pixel itself.
 const CENTRE: usize = 4;
 
-/// In which parts of a superpixel a triangle is shaded.
+/// Parts of a superpixel in which a triangle is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parts {
-    /// In all that there are.
+    /// All parts.
     All,
-    /// In these, merged in pairs.
+    /// Parts merged in pairs.
     Pairs,
-    /// In these, merged in fours.
+    /// Parts merged in fours.
     Fours,
-    /// In one.
+    /// A single part.
     One,
 }
 
-/// In which parts `triangle` is shaded.
+/// Parts in which `triangle` is shaded.
 ///
-/// Around the pixel, two triangles are looked at: that of its centre, and the first other one. Where 4 centres or more
-/// see the triangle and their colours differ by at most a quarter of `alike` code values, it is shaded once. Otherwise
-/// the colours of its material count, where 3 centres or more see it: it is shaded once if they differ by at most `alike`,
-/// in parts merged in fours if by at most four times that, and in all parts otherwise; these are merged in pairs where the
-/// triangle's own colours differ as little as said, though but 2 or 3 centres see it. Where fewer centres tell, or the
-/// triangle is neither of the two and not of their materials, parts are merged in pairs.
+/// Two triangles around the pixel are examined: that of its centre, and the first other one. The rules are, in order:
 ///
-/// Parts of one sample are merged once less: in pairs in the place of fours, and not in that of pairs.
+/// - If 4 or more centres see the triangle and their colours differ by at most a quarter of `alike` code values, it is
+///   shaded once.
+/// - Otherwise, if 3 or more centres see its material, the difference of their colours decides: up to `alike`, it is
+///   shaded once; up to four times that, in parts merged in fours; above, in all parts. All parts are merged in pairs
+///   if the triangle's own colours differ by at most a quarter of `alike`, though only 2 or 3 centres see it.
+/// - If fewer centres see it, or the triangle is neither of the two and has neither of their materials, parts are
+///   merged in pairs.
 ///
-/// `alike` is the threshold of contrast, but 0 in superpixels that grew: what these contrast with, no centre saw.
+/// Parts of a single sample are merged one step less: in pairs instead of fours, and not at all instead of in pairs.
+///
+/// `alike` is the contrast threshold, and 0 in superpixels that grew, because no centre saw the colours with which
+/// they contrast.
 #[must_use]
 pub fn parts(
     around: &Neighbourhood,
@@ -80,7 +85,7 @@ fn count(around: &Neighbourhood, seen: impl Fn(u32) -> bool) -> usize {
     around.ids.iter().filter(|id| seen(**id)).count()
 }
 
-/// The widest difference of a channel among centres that see what is asked for.
+/// Largest difference of a channel among the centres whose ID satisfies `seen`.
 fn range(around: &Neighbourhood, seen: impl Fn(u32) -> bool) -> u32 {
     let channel = |channel: usize| {
         let codes = around.ids.iter().zip(&around.colours);

@@ -1,57 +1,57 @@
-//! Which triangle a sample sees.
+//! Visibility: which triangle a sample sees.
 //!
-//! Depth is z/w in [0, 1], 1 at the near plane (reversed): the larger is the nearer. It is linear over the screen, and
-//! found per sample from the clip-space vertices. A surface is there only where 0 <= depth <= 1 and w > 0. Of equal
-//! depths the smaller triangle ID wins, and triangles with identical vertices have identical depths in whatever order
-//! their vertices come.
+//! Depth is z/w in [0, 1], with 1 at the near plane (reversed), so that larger values are nearer. It is linear over
+//! the screen, and computed at each sample from the clip-space vertices. A surface exists only where 0 <= depth <= 1
+//! and w > 0. Of equal depths the smaller triangle ID wins; triangles with identical vertices have identical depths,
+//! whatever the order of their vertices.
 
 use super::coverage::EdgeFunctions;
 
-/// Distance from an edge in pixels below which a result that is rounded to 32 bits may fall on the other side of it.
+/// Distance from an edge in pixels within which a result that was rounded to 32 bits may be on the other side.
 const EDGE_MARGIN: f64 = 1.0 / 1024.0;
 
-/// Relative difference of depths below which a result that is rounded to 32 bits may order them otherwise.
+/// Relative difference of depths within which results that were rounded to 32 bits may have another order.
 const DEPTH_MARGIN: f64 = 1.0 / 1048576.0;
 
-/// A triangle that can be seen.
+/// A triangle that can be visible.
 #[derive(Clone, Debug)]
 pub struct Surface {
     id: u32,
     edges: EdgeFunctions,
-    /// The vertices' clip-space z.
+    /// Clip-space z of the vertices.
     z: [f64; 3],
-    /// The vertices' places in an order of their own.
+    /// Indices of the vertices in an order that depends on the vertices alone.
     order: [usize; 3],
 }
 
-/// What a sample sees.
+/// A surface at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The triangle's ID.
+    /// ID of the triangle.
     pub id: u32,
-    /// Its depth at the sample.
+    /// Depth at the sample.
     pub depth: f64,
 }
 
-/// The answer for one sample, and how close it was.
+/// Visible surface at a sample, and how close the decision was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Visibility {
-    /// The nearest surface; `None` is the background.
+    /// The nearest surface; `None` for background.
     pub nearest: Option<Hit>,
-    /// The depth of the next surface behind it, or of an equally near one.
+    /// Depth of the next surface behind it, or of an equally near one.
     pub second: Option<f64>,
-    /// Distance in pixels of the sample from the nearest edge of any triangle, hidden ones included. Infinite if there
-    /// are none.
+    /// Distance in pixels of the sample from the nearest edge of any triangle, including hidden ones; infinite without
+    /// triangles.
     pub edge_margin: f64,
-    /// Distance of the depths of the triangles at the sample from the bounds 0 and 1, relative to the size of the terms
-    /// that they are summed from; the least of all triangles. Infinite if there are none.
+    /// Smallest distance of the triangles' depths at the sample from the bounds 0 and 1, relative to the size of the
+    /// terms of which they are sums; infinite without triangles.
     pub clip_margin: f64,
 }
 
 impl Surface {
-    /// A triangle with clip-space vertices (X, Y, z, w), where X and Y are pixel-scaled as in
-    /// [`coverage`](super::coverage) and z/w is the depth. `None` where it covers no sample at all, or a coordinate is
-    /// not finite.
+    /// Triangle with clip-space vertices (X, Y, z, w), where X and Y are pixel-scaled as in
+    /// [`coverage`](super::coverage) and z/w is the depth. `None` if it covers no sample, or a coordinate is not
+    /// finite.
     pub fn new(id: u32, vertices: [[f32; 4]; 3], double_sided: bool) -> Option<Self> {
         let edges = EdgeFunctions::new(vertices.map(|[x, y, _, w]| [x, y, w]), double_sided)?;
         let z = vertices.map(|[_, _, z, _]| f64::from(z));
@@ -68,20 +68,20 @@ impl Surface {
         })
     }
 
-    /// The triangle's ID.
+    /// ID of the triangle.
     pub fn id(&self) -> u32 {
         self.id
     }
 
-    /// The triangle's edge functions.
+    /// Edge functions of the triangle.
     pub fn edges(&self) -> &EdgeFunctions {
         &self.edges
     }
 
-    /// The depth of the triangle's plane at a sample, and the size of the terms that it is summed from.
+    /// Depth of the triangle's plane at a sample, and the size of the terms of which it is the sum.
     fn depth(&self, sample: [f64; 2]) -> [f64; 2] {
         let values = self.edges.values(sample);
-        // Summed in the vertices' own order, so that coincident triangles agree to the bit.
+        // The order depends on the vertices alone, so that coincident triangles agree to the bit.
         let terms = self.order.map(|vertex| values[vertex] * self.z[vertex]);
         let sums: [f64; 2] = [
             terms.iter().sum(),
@@ -92,9 +92,9 @@ impl Surface {
 }
 
 impl Visibility {
-    /// Whether a result that is rounded to 32 bits may differ: the sample is within 2^-10 pixel of an edge, the two
-    /// nearest depths differ by less than 2^-20 of the nearer, or a triangle's depth is as near to the near or the far
-    /// plane.
+    /// Whether a result that was rounded to 32 bits may differ: the sample is within 2^-10 pixel of an edge, the two
+    /// nearest depths differ by less than 2^-20 of the nearer one, or a triangle's depth is that close to the near or
+    /// the far plane.
     pub fn contested(&self) -> bool {
         let depths_agree = match (self.nearest, self.second) {
             (Some(hit), Some(second)) => hit.depth - second <= hit.depth * DEPTH_MARGIN,
@@ -103,7 +103,7 @@ impl Visibility {
         depths_agree || self.edge_margin < EDGE_MARGIN || self.clip_margin < DEPTH_MARGIN
     }
 
-    /// Puts a hit into its place.
+    /// Inserts a hit in order of depth.
     fn add(&mut self, hit: Hit) {
         let behind = match self.nearest {
             Some(nearest)
@@ -127,7 +127,8 @@ impl Visibility {
     }
 }
 
-/// What a sample, in pixels from the screen's centre, sees of some surfaces. Their order does not matter.
+/// Visible surface at a sample, which is in pixels from the screen's centre. The order of the surfaces does not
+/// matter.
 pub fn nearest<'a>(
     surfaces: impl IntoIterator<Item = &'a Surface>,
     sample: [f64; 2],

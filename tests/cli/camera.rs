@@ -1,16 +1,16 @@
-//! What the commands of the camera family have in common: figures, silence and how they refuse what can't be. `gpc
-//! project` with the light on the wall.
+//! Common behaviour of `gpc zoom`, `sample`, `panorama` and `project`: figures, `--quiet`, and refusal of impossible
+//! requests. Also `gpc project` with the light on the wall.
 
 use crate::command::{Run, asset, files, gpc};
 use gpc::output;
 use serde_json::Value;
 use std::path::Path;
 
-/// Four correspondences of a projector that shows the upper left 100 x 100 pixels.
+/// Four correspondences of a projector whose pixels are the upper left 100 x 100 pixels of the picture.
 const FOUR: &str = "x,y,u,v\n0,0,0,0\n100,0,100,0\n0,100,0,100\n100,100,100,100\n";
 const EMPTY_SCENE: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}]}"#;
 
-/// Runs the command with the words of a line.
+/// Runs the command with the words of `line`.
 fn run(folder: &Path, line: &str) -> Run {
     let words: Vec<_> = line.split_whitespace().collect();
     gpc(folder, &words)
@@ -22,7 +22,7 @@ fn write(folder: &Path, files: &[(&str, &str)]) {
     }
 }
 
-/// Command lines of the family for a scene, without the output.
+/// Command lines of the four subcommands for a scene, without the output.
 fn commands(scene: &str) -> [String; 4] {
     [
         format!("zoom {scene} --size 48x32 --center 20,16 --radius 6 --multiplicity 0.4"),
@@ -32,7 +32,7 @@ fn commands(scene: &str) -> [String; 4] {
     ]
 }
 
-/// The object that describes an image.
+/// The JSON object that describes an image.
 fn image(json: &Value) -> &Value {
     json.get("images").map_or(json, |images| &images[0])
 }
@@ -99,7 +99,7 @@ fn every_command_has_figures_and_can_be_silent() {
                 assert!(json["wall"].is_null());
             }
         }
-        // The same without either says something, and on standard error.
+        // Without either option, the same command prints to standard error.
         let loud = run(folder.path(), &format!("{command} -o a.csv"));
         if command.starts_with("sample") {
             assert!(loud.ok().says(&["3 samples"]).stdout.is_empty());
@@ -177,7 +177,7 @@ fn the_light_on_the_wall_is_the_picture_without_a_seam() {
         rmse(0),
         rmse(1)
     );
-    // Below the left frame, and beside the right one.
+    // One pixel is below the left frame, and one beside the right one.
     for unlit in [295 * 480 + 150, 479] {
         assert_eq!(wall[unlit], [0.0, 0.0, 0.0, 1.0]);
     }
@@ -346,7 +346,7 @@ fn what_can_not_be_is_refused_with_one_error() {
         assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
     }
     assert_eq!(files(folder.path()), before);
-    // A region that is larger than any image can still be zoomed, but not turned back.
+    // A region that is larger than any image can still be zoomed, but not unzoomed.
     let huge =
         format!("zoom {scene} -o z.png --size 8x8 --center 4,4 --radius 1e300 --multiplicity .5");
     run(folder.path(), &huge).ok();
@@ -359,7 +359,8 @@ fn what_can_not_be_is_refused_with_one_error() {
         .says(&["--region 1"]);
 }
 
-/// All 51,113 triangles of the scene lie in a pixel or two: more than a subgroup goes through for several cells.
+/// All 51,113 triangles of the scene lie in a pixel or two: more than a subgroup can process for several cells at a
+/// time.
 #[test]
 fn a_scene_fits_in_a_pixel() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The workflow that `docs/ci.md` recommends: its steps, run one by one.
+//! The workflow that `docs/ci.md` recommends; its steps are run one by one.
 
 use crate::command::{asset, files};
 use std::path::Path;
@@ -7,17 +7,17 @@ use yaml_rust2::{Yaml, YamlLoader};
 
 const WORKFLOW: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/ci/golden-images.yml");
 
-/// Steps that install packages; all others are run.
+/// Steps that install packages; all other steps are run.
 const INSTALLS: [&str; 2] = ["Install the driver", "Install gpc"];
 
-/// The job of the workflow.
+/// The workflow's only job.
 fn job() -> Yaml {
     let text = std::fs::read_to_string(WORKFLOW).unwrap();
     let mut documents = YamlLoader::load_from_str(&text).unwrap();
     documents.remove(0)["jobs"]["images"].clone()
 }
 
-/// Runs the script of a step as the forge does, in a folder, with the built command in PATH.
+/// Runs the script of a step in a folder as the forge does, with the built command in PATH.
 fn run(job: &Yaml, step: &str, folder: &Path) -> Output {
     let steps = job["steps"].as_vec().unwrap();
     let found = steps
@@ -34,7 +34,7 @@ fn run(job: &Yaml, step: &str, folder: &Path) -> Output {
         .env_remove("RUST_LOG")
         .stdin(Stdio::null());
     for (name, value) in job["env"].as_hash().unwrap() {
-        // The tests' driver may run with other vectors, whose kernels share its cache.
+        // The variable would change the kernels in the driver's cache, which all tests share.
         if name.as_str() != Some("LP_NATIVE_VECTOR_WIDTH") {
             command.env(name.as_str().unwrap(), value.as_str().unwrap());
         }
@@ -90,9 +90,9 @@ fn the_steps_accept_golden_images_and_notice_changes() {
     exits(&run(&job, "Render", folder), 0);
     assert_eq!(files(&folder.join("images")), ["letters.png"]);
 
-    // Nothing is accepted yet.
+    // No golden image exists yet.
     exits(&run(&job, "Compare", folder), 5);
-    // As the page says, accepting is copying.
+    // As the page says, copying an image accepts it.
     std::fs::copy(
         folder.join("images/letters.png"),
         folder.join("golden/letters.png"),
@@ -100,7 +100,7 @@ fn the_steps_accept_golden_images_and_notice_changes() {
     .unwrap();
     exits(&run(&job, "Compare", folder), 0);
 
-    // One pixel turns from light to dark.
+    // One pixel is inverted.
     let mut image = image::open(folder.join("images/letters.png"))
         .unwrap()
         .to_rgb8();

@@ -1,4 +1,4 @@
-//! `gpc compare`: its numbers, its exit codes, and that it can fail.
+//! `gpc compare`: its figures, its exit codes, and that it can fail.
 
 use crate::command::{files, gpc};
 use image::{Rgb, RgbImage};
@@ -101,7 +101,8 @@ fn wrong_usage_exits_with_2() {
     .exits(2);
 }
 
-/// Two folders: an image that is equal, one that differs, one of another size, one that is broken, and one in each alone.
+/// Writes two folders: one image is equal, one differs, one has another size, one is broken, and one exists only in
+/// each.
 fn write_folders(folder: &Path) {
     let [golden, images] = ["golden", "images"].map(|name| folder.join(name));
     for folder in [&golden, &images] {
@@ -155,7 +156,7 @@ fn folders_are_compared_image_by_image() {
     let counts = ["equal", "different", "missing", "new"].map(|name| json[name].as_u64().unwrap());
     assert_eq!(counts, [1, 3, 1, 1]);
     assert!(json["images"][0]["rmse"].as_f64().unwrap() > 0.0);
-    // What has the same size has a picture of the difference, and nothing else has.
+    // Only images of the same size have a picture of the difference.
     assert_eq!(files(&folder.path().join("differences")), ["a.png"]);
     let junit = std::fs::read_to_string(folder.path().join("junit.xml")).unwrap();
     assert!(

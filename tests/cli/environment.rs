@@ -1,4 +1,4 @@
-//! `--environment` from files to images.
+//! `--environment`, from files to images.
 
 use crate::command::{Run, asset, gpc};
 use gpc::compare::compare;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 const SIZE: (u32, u32) = (64, 32);
 
-/// A sky that is bright and red on the right half of the image, and dim on the other.
+/// A sky that is bright and red on the right half of the image, and dim on the left.
 fn sky() -> Rgb32FImage {
     Rgb32FImage::from_fn(SIZE.0, SIZE.1, |x, _| {
         Rgb(if x < SIZE.0 / 2 {
@@ -49,14 +49,14 @@ fn skies_light_the_scene_from_their_side() {
     let studio = image("studio.png", &[]);
     let hdr = image("hdr.png", &["--environment", "sky.hdr"]);
     let exr = image("exr.png", &["--environment", "sky.exr"]);
-    // A Radiance file has 8 bits of a colour.
+    // A Radiance file has 8 bits for each colour.
     assert!(compare(&hdr, &exr).unwrap().rmse < 0.005);
     assert!(compare(&studio, &exr).unwrap().rmse > 0.05);
     let back = image(
         "back.png",
         &["--environment", "sky.exr", "--environment-rotation", "180"],
     );
-    // Green light of the halves of the sphere in the middle.
+    // Green light on the left and right half of the sphere in the middle.
     let halves = |image: &gpc::output::DecodedImage| {
         let mut sums = [0.0; 2];
         for row in 32..56 {
@@ -74,7 +74,7 @@ fn skies_light_the_scene_from_their_side() {
     );
 }
 
-/// The sky is seen where nothing else is, and scenes are antialiased before it.
+/// The sky is the background of scenes, and scenes are antialiased against it.
 #[test]
 fn the_sky_is_seen_behind_the_scene() {
     let folder = tempfile::tempdir().unwrap();
@@ -92,12 +92,12 @@ fn the_sky_is_seen_behind_the_scene() {
     ];
     render(folder.path(), "sky.png", &[&sky[..], &behind[..]].concat()).ok();
     let image = read(&at("sky.png")).unwrap();
-    // A quarter of the red and all of it, left and right of straight ahead.
+    // Left and right of straight ahead, the sky has a quarter of the red and all of it.
     let row = &image.pixels[45 * 160..46 * 160];
     assert!((row[20][0] - 0.537).abs() < 0.01, "{:?}", row[20]);
     assert!((row[140][0] - 1.0).abs() < 0.01, "{:?}", row[140]);
     assert!(image.pixels.iter().all(|pixel| pixel[3] == 1.0));
-    // Over a colour that is like the sky, the scene looks the same.
+    // Against a background colour that equals the sky, the scene looks the same.
     let uniform = Rgb32FImage::from_pixel(SIZE.0, SIZE.1, Rgb([0.5; 3]));
     uniform
         .save_with_format(at("grey.hdr"), ImageFormat::Hdr)

@@ -1,4 +1,4 @@
-//! The built command: what it writes, prints and refuses.
+//! The built command: its output, its files and its errors.
 
 mod camera;
 mod ci;

@@ -1,4 +1,4 @@
-//! Images and sequences in parts, for many machines: each part is what the whole has there.
+//! Images and sequences rendered in parts, for several machines: each part equals that part of the whole.
 
 use crate::command::{Run, asset, files, gpc};
 use std::path::Path;
@@ -68,7 +68,7 @@ fn shares_are_together_the_sequence() {
             );
         }
     }
-    // What the device changed is what is there at that time.
+    // An image that the device moved to a time equals a still image of that time.
     let still = ["-o", "still.png", "--time", "0.5"];
     render(folder.path(), "pointer", &still);
     assert!(read("still.png") == read("whole-move-0006.png"));

@@ -150,7 +150,7 @@ fn the_camera_in_json_is_the_one_that_was_used() {
     assert!(ahead.truncate().length() < 1e-9 && ahead.z < 0.0, "{ahead}");
     let above = matrix("view").transform_point3(vector("target") + vector("up"));
     assert!((above - ahead).distance(glam::DVec3::Y) < 1e-9);
-    // A point at the upper edge of the view, and two points in depth order.
+    // The first point is at the upper edge of the view; the other two are in order of depth.
     let clip = |p: glam::DVec3| matrix("projection") * p.extend(1.0);
     let edge = clip(glam::DVec3::new(0.0, 25_f64.to_radians().tan(), -1.0));
     assert!((edge.y / edge.w - 1.0).abs() < 1e-9);
@@ -439,7 +439,7 @@ fn a_dozen_real_scenes_render() {
     }
 }
 
-/// Without `--variant` the first materials show; a hidden node never does.
+/// Without `--variant` the first materials are used, and a hidden node is never visible.
 #[test]
 fn variants_choose_materials_and_hidden_nodes_stay_hidden() {
     let folder = tempfile::tempdir().unwrap();
@@ -465,7 +465,7 @@ fn variants_choose_materials_and_hidden_nodes_stay_hidden() {
         "{day_red}, {night_red}"
     );
     assert!(night_blue > 2.0 * night_red, "{night_blue}");
-    // The hidden sphere is of a pure green that nothing else has.
+    // Only the hidden sphere is pure green.
     for [r, g, b, _] in day.pixels.iter().chain(&night.pixels) {
         assert!(*g < 0.5 || r + b > 0.3, "{r}, {g}, {b}");
     }

@@ -11,7 +11,7 @@ const VIEW: [&str; 8] = [
     "--size", "96x64", "--eye", "0,3,5", "--target", "0,0,0", "--fov", "45",
 ];
 
-/// A floor, a triangle over its middle, and light from straight above.
+/// A floor with a triangle above its middle, and light from straight above.
 fn scene(folder: &Path) -> String {
     let mut builder = Builder::new();
     let floor = [
@@ -43,7 +43,7 @@ fn scene(folder: &Path) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// Green light of the pixel that shows a place of the plane y = 0 that the camera of [`VIEW`] sees.
+/// Green light of the pixel that shows a place `[x, z]` of the plane y = 0, in the view [`VIEW`].
 fn at(image: &[[f32; 4]], [x, z]: [f64; 2]) -> f32 {
     // The camera looks along (0, -3, -5) / sqrt(34).
     let norm = 34.0_f64.sqrt();
@@ -69,7 +69,8 @@ fn a_triangle_casts_its_shadow() {
     let open = render("open.exr", &[]);
     for method in ["superpixel", "none", "msaa", "ssaa"] {
         let shadowed = render("shadowed.exr", &["--shadows", "exact", "--aa", method]);
-        // Beside the triangle's shadow, and under its nearer side, where the triangle itself does not hide the floor.
+        // These places are beside the triangle's shadow, or under its nearer side, where the triangle does not hide
+        // the floor.
         for beside in [[2.0, 0.0], [-2.0, 0.5], [0.0, 2.0], [1.2, 0.3]] {
             assert!((at(&open, beside) - at(&shadowed, beside)).abs() < 0.01);
             assert!(at(&shadowed, beside) > 0.1);

@@ -1,4 +1,4 @@
-//! What the command refuses, with which exit code, and what it says then. Nothing here needs a device.
+//! Requests that the command refuses: exit codes and messages. No test here needs a device.
 
 use crate::command::{asset, files, gpc};
 

@@ -11,7 +11,7 @@ fn render(folder: &Path, options: &[&str]) -> Run {
     gpc(folder, &[&["render", &scene], &small[..], options].concat()).ok()
 }
 
-/// The frames of a turntable as PNG files, opaque.
+/// The opaque frames of a turntable, as PNG files.
 fn images(folder: &Path, background: &[&str]) -> Vec<image::RgbaImage> {
     let options = ["-o", "{frame}.png", "--turntable", "3"];
     render(folder, &[&options, background].concat());
@@ -34,7 +34,7 @@ fn raw_frames_are_the_images() {
     }
 }
 
-/// Read by another program's decoder: colours are those of the images but for the rounding of both.
+/// Another program's decoder reads the frames; their colours are those of the images, except for the rounding of both.
 #[test]
 fn y4m_frames_are_the_images() {
     let folder = tempfile::tempdir().unwrap();

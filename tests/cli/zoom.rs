@@ -1,4 +1,4 @@
-//! `gpc zoom` of photographs and `gpc unzoom`. Nothing here needs a device.
+//! `gpc zoom` of photographs, and `gpc unzoom`. No test here needs a device.
 
 use crate::command::{files, gpc};
 use glam::DVec2;
@@ -27,7 +27,7 @@ const OPTIONS: [&str; 6] = [
     "0.5",
 ];
 
-/// A test card that says where it was sampled: red is u and green v, in 512ths.
+/// Writes a test card whose colour tells the place: red is u and green is v, in 512ths.
 fn write_card(path: &Path) {
     let pixel = |i: u32| {
         let (u, v) = (i % SIZE[0], i / SIZE[0]);
@@ -38,7 +38,7 @@ fn write_card(path: &Path) {
     std::fs::write(path, output::encode(Format::Png16, &picture, &[]).unwrap()).unwrap();
 }
 
-/// Where a pixel of a picture was sampled, and whether there is one.
+/// Place of the test card that a pixel shows; `None` for a transparent pixel.
 fn sampled(image: &output::DecodedImage, x: u32, y: u32) -> Option<DVec2> {
     let [r, g, _, a] = image.pixels[(y * image.size[0] + x) as usize];
     let decode = |v: f32| 512.0 * srgb::decode(f64::from(v));
@@ -78,11 +78,11 @@ fn every_step_of_a_test_card_shows_the_locations_of_the_formulas() {
     let original = read("a.original.png");
     for (x, y, place) in pixels(SIZE) {
         let expected = map.location(place);
-        // The card ends half a pixel inside of its border.
+        // The card's colours are clamped half a pixel inside of its border.
         let error = |found: DVec2| (found - expected).abs().max_element();
         assert!(error(sampled(&result, x, y).unwrap()) < 0.1, "{place}");
         let fades = REGION.in_transition(place);
-        // 8 bits tell pixels apart to about 4.
+        // With 8 bits, places are known to about 4 pixels.
         for (step, shown) in [(&resampled, !fades), (&transition, fades)] {
             let found = sampled(step, x, y);
             assert_eq!(found.is_some(), shown, "{place}");
@@ -95,7 +95,7 @@ fn every_step_of_a_test_card_shows_the_locations_of_the_formulas() {
                 < 2.0
         );
     }
-    // A dot is where a location was drawn: the middle of the region, where they are dense, has most.
+    // Dots mark the locations; there are most in the middle of the region, where locations are dense.
     let dots = read("a.locations.png");
     let count = |x: std::ops::Range<u32>, y: std::ops::Range<u32>| {
         let white = |(x, y): (u32, u32)| dots.pixels[(y * SIZE[0] + x) as usize][2] > 0.99;
@@ -198,7 +198,7 @@ fn a_photograph_may_be_a_jpeg_with_several_regions() {
     let region = output::read(&folder.path().join("r.png")).unwrap();
     assert_eq!(region.size, [24, 40]);
     let found = sampled(&region, 12, 20).unwrap();
-    // JPEG and 8 bits.
+    // JPEG and 8 bits limit the accuracy.
     assert!(found.distance(DVec2::new(230.4, 170.4)) < 12.0, "{found}");
     let aov = [&zoom[..], &regions, &rest, &["--aov", "depth"]].concat();
     gpc(folder.path(), &aov).exits(2).says(&["photograph"]);
@@ -275,7 +275,7 @@ fn images_without_a_zoom_can_not_be_unzoomed() {
     )
     .exits(2)
     .says(&["--region 1", "image has 1"]);
-    // A text that is no zoom, and a zoom that is none.
+    // The first text is no zoom, the second a zoom with an invalid region.
     let bytes = std::fs::read(&card).unwrap();
     for (text, expected) in [
         ("{", "can't be read"),

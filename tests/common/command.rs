@@ -1,9 +1,9 @@
-//! Runs the built command.
+//! Running the built command.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// A run of the command that is over.
+/// Result of a run of the command.
 pub struct Run {
     pub code: Option<i32>,
     pub stdout: Vec<u8>,
@@ -11,20 +11,20 @@ pub struct Run {
 }
 
 impl Run {
-    /// Asserts that it ended well.
+    /// Asserts that the command succeeded.
     #[track_caller]
     pub fn ok(self) -> Self {
         self.exits(0)
     }
 
-    /// Asserts its exit code.
+    /// Asserts the command's exit code.
     #[track_caller]
     pub fn exits(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "standard error: {}", self.stderr);
         self
     }
 
-    /// Asserts that standard error says all of this.
+    /// Asserts that standard error contains all of these texts.
     #[track_caller]
     pub fn says(self, texts: &[&str]) -> Self {
         for text in texts {
@@ -44,7 +44,7 @@ impl Run {
     }
 }
 
-/// The command with arguments, in a folder, under the validation layer: any message of it is an error.
+/// Command with arguments and a working folder, under the validation layer, whose messages count as errors.
 pub fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gpc"));
     command
@@ -69,7 +69,7 @@ pub fn finish(output: Output) -> Run {
     }
 }
 
-/// A scene of `assets/`.
+/// Path of a scene in `assets/`.
 pub fn asset(name: &str) -> String {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "assets", name]
         .iter()
@@ -77,7 +77,7 @@ pub fn asset(name: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// Names of the files in a folder, sorted.
+/// Sorted names of the files in a folder.
 pub fn files(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = std::fs::read_dir(folder)
         .unwrap()

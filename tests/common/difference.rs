@@ -1,6 +1,6 @@
-//! How far two images are apart.
+//! Differences of images.
 
-/// Root of the mean squared difference of all channels.
+/// Root mean squared difference over all channels.
 pub fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let squares = a.as_flattened().iter().zip(b.as_flattened());

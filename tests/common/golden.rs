@@ -1,26 +1,26 @@
-//! Comparison with images that are kept in `tests/goldens`, under one tolerance.
+//! Comparison with the golden images in `tests/goldens`, with a common tolerance.
 //!
-//! They were made on lavapipe. With `GPC_BLESS` set in the environment a test writes its image instead, and fails, so
-//! that no run both makes and passes a golden.
+//! The images were made on lavapipe. With `GPC_BLESS` set in the environment, a test writes its image and fails, so
+//! that no run both makes and passes a golden image.
 
 use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 
-/// Largest difference of a channel, in code values, that does not count.
+/// Largest difference of a channel, in code values, that is ignored.
 const TOLERANCE: u8 = 3;
-/// How many pixels may differ by more.
+/// Largest number of pixels that may differ by more.
 const OUTLIERS: usize = 10;
 
-/// Where the goldens are.
+/// Folder of the golden images.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens")
 }
 
-/// Compares an image with the golden `name`.png in a folder.
+/// Compares an image with the golden image `name`.png in a folder.
 ///
 /// # Errors
-/// What differs, or that there is nothing to compare with.
+/// A description of the difference, or a message that the golden image is missing.
 pub fn compare(folder: &Path, name: &str, found: &RgbaImage) -> Result<(), String> {
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GPC_BLESS").is_some() {

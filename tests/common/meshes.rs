@@ -1,6 +1,6 @@
 //! The meshes of the stress suite.
 
-// Each test program uses some of them.
+// Each test program uses only some of them.
 #![allow(unused_imports)]
 
 pub use gpc::bench::Random;

@@ -1,12 +1,12 @@
 //! Small glTF files made in memory.
 
-// Every test program uses a part of this.
+// Each test program uses only a part of this module.
 #![allow(dead_code)]
 
 use gpc::scene::{Geometry, Loaded, Pose, PoseRequest, Scene, SceneError};
 use serde_json::{Value, json};
 
-/// A file in the making: one buffer, the GLB's.
+/// A glTF file that is being built, with a single buffer, the GLB's.
 pub struct Builder {
     pub json: Value,
     binary: Vec<u8>,
@@ -23,7 +23,7 @@ impl Builder {
         }
     }
 
-    /// Appends to the array `key`; the index.
+    /// Appends a value to the array `key`; returns its index.
     pub fn push(&mut self, key: &str, value: Value) -> usize {
         if self.json[key].is_null() {
             self.json[key] = json!([]);
@@ -33,7 +33,7 @@ impl Builder {
         array.len() - 1
     }
 
-    /// Appends bytes as a buffer view with further members.
+    /// Appends bytes as a buffer view, with further members.
     pub fn view(&mut self, bytes: &[u8], members: Value) -> usize {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let mut view = json!({
@@ -44,7 +44,7 @@ impl Builder {
         self.push("bufferViews", view)
     }
 
-    /// An accessor of `kind` over bytes of its own, with further members.
+    /// Adds an accessor of `kind` over these bytes, with further members.
     pub fn accessor(&mut self, kind: &str, component: u32, bytes: &[u8], members: Value) -> usize {
         let size = match component {
             5120 | 5121 => 1,
@@ -79,7 +79,7 @@ impl Builder {
         self.accessor("SCALAR", 5123, &bytes, json!({}))
     }
 
-    /// A mesh of one primitive, and a node that draws it with further members.
+    /// Adds a mesh of one primitive, and a node that draws it, with further members.
     pub fn node_with(&mut self, primitive: Value, members: Value) -> usize {
         let mesh = self.push("meshes", json!({"primitives": [primitive]}));
         let mut node = json!({"mesh": mesh});
@@ -87,13 +87,13 @@ impl Builder {
         self.push("nodes", node)
     }
 
-    /// The triangle (0,0,0), (1,0,0), (0,1,0), drawn by a node with further members.
+    /// Adds the triangle (0,0,0), (1,0,0), (0,1,0) and a node that draws it, with further members.
     pub fn triangle(&mut self, node: Value) -> usize {
         let positions = self.floats(&TRIANGLE);
         self.node_with(json!({"attributes": {"POSITION": positions}}), node)
     }
 
-    /// A 1 x 1 PNG of one colour; the index of a texture.
+    /// Adds a texture: a 1 x 1 PNG of one colour.
     pub fn texture(&mut self, rgb: [u8; 3]) -> usize {
         let view = self.view(&png(rgb), json!({}));
         let image = self.push(
@@ -103,7 +103,7 @@ impl Builder {
         self.push("textures", json!({"source": image}))
     }
 
-    /// A 1 x 1 PNG with alpha; the index of an image.
+    /// Adds an image: a 1 x 1 PNG with alpha.
     pub fn rgba(&mut self, texel: [u8; 4]) -> usize {
         let png = png_of(&image::RgbaImage::from_pixel(1, 1, image::Rgba(texel)));
         let view = self.view(&png, json!({}));
@@ -111,7 +111,7 @@ impl Builder {
         self.push("images", image)
     }
 
-    /// A checker of black and white texels; the index of a texture.
+    /// Adds a texture: a checker of black and white texels.
     pub fn checker(&mut self, [width, height]: [u32; 2]) -> usize {
         let texel = |x: u32, y: u32| image::Luma([if (x + y).is_multiple_of(2) { 255 } else { 0 }]);
         let view = self.view(
@@ -123,7 +123,7 @@ impl Builder {
         self.push("textures", json!({"source": image}))
     }
 
-    /// An animation from time 0 to 1, with a channel for each pointer: its value at first and at last.
+    /// Adds an animation from time 0 to 1, with a channel for each pointer: its first and its last value.
     pub fn pointers(&mut self, pointers: &[(&str, Vec<f32>)]) {
         let input = self.floats(&[[0.0], [1.0]]);
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
@@ -175,7 +175,7 @@ impl Builder {
 
 pub const TRIANGLE: [[f32; 3]; 3] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
 
-/// Little-endian bytes.
+/// Little-endian bytes of the values.
 pub fn le<const N: usize>(values: &[[f32; N]]) -> Vec<u8> {
     let numbers = values.as_flattened().iter();
     numbers.flat_map(|x| x.to_le_bytes()).collect()
@@ -208,7 +208,7 @@ pub fn corners(geometry: &Geometry, t: usize) -> [[f64; 3]; 3] {
     })
 }
 
-/// Fails unless all numbers agree to 1e-6.
+/// Asserts that all numbers agree to 1e-6.
 #[track_caller]
 pub fn assert_near(found: impl AsRef<[[f64; 3]]>, expected: impl AsRef<[[f64; 3]]>) {
     let (found, expected) = (found.as_ref(), expected.as_ref());

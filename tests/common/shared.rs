@@ -1,12 +1,12 @@
-//! The test files in `../shared`, which are too large to be checked in. `build.rs` sets the cfg `shared_files` where
-//! tests may expect them; other builds ignore the tests that need them.
+//! Test files in `../shared`, which are too large for the repository. `build.rs` sets the cfg `shared_files` if tests
+//! may expect them; otherwise the tests that need them are ignored.
 
 use std::path::{Path, PathBuf};
 
-/// The folder `name` in `../shared`.
+/// Path of the folder `name` in `../shared`.
 ///
 /// # Panics
-/// If it is missing.
+/// If the folder is missing.
 pub fn shared(name: &str) -> PathBuf {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared")).join(name);
     assert!(folder.is_dir(), "{} is missing", folder.display());

@@ -1,4 +1,4 @@
-//! How exactly each pattern measures the area behind one straight edge, over all orientations and offsets of the edge.
+//! Error of each pattern in measuring the area behind a straight edge, over all orientations and offsets of the edge.
 //!
 //! `cargo test --release --test cpu coverage_chart -- --nocapture` prints the chart.
 
@@ -7,28 +7,28 @@ use std::f64::consts::PI;
 use gpc::reference::edge::half_plane_area;
 use gpc::sampling::{MAX_SAMPLES, Pattern, owen_sobol};
 
-/// Counts in the chart; all patterns but the rotated ones have them.
+/// Numbers of samples in the chart, which all patterns but the rotated one support.
 const COUNTS: [u32; 5] = [4, 16, 64, 256, 1024];
 
-/// Orientations of the edge, evenly spaced over half a turn, both axes and both diagonals among them. The other half of
-/// the turn swaps the two sides, which leaves the error as it is.
+/// Number of orientations of the edge, evenly spaced over half a turn and including both axes and both diagonals. The
+/// other half of the turn swaps the two sides, which does not change the error.
 const ORIENTATIONS: usize = 720;
 
-/// Errors of a set of samples: root mean squares, in shares of the pixel.
+/// Root mean squared errors of a set of samples, in areas of a pixel.
 struct Errors {
-    /// Over all orientations.
+    /// Error over all orientations.
     mean: f64,
-    /// Over edges within 2 degrees of an axis.
+    /// Error over edges within 2 degrees of an axis.
     near_axis: f64,
-    /// At the worst orientation.
+    /// Error at the worst orientation.
     worst: f64,
 }
 
-/// The mean square error of the covered share that samples report for edges of one orientation (radians), over all
-/// offsets at which the edge meets the pixel.
+/// Mean squared error of the covered area that samples report for edges of one orientation (in radians), over all
+/// offsets at which the edge crosses the pixel.
 ///
-/// Between two samples' projections on the edge's normal the reported share is constant and the true one smooth, so
-/// that three-point Gauss quadrature of each gap is exact but for the gaps in which the edge passes a corner.
+/// Between two samples' projections onto the edge's normal, the reported area is constant and the true one smooth.
+/// Three-point Gauss quadrature of each gap is therefore exact, except for gaps in which the edge passes a corner.
 fn mean_square(samples: &[[f32; 2]], angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let reach = (sin.abs() + cos.abs()) / 2.0;
@@ -56,7 +56,7 @@ fn mean_square(samples: &[[f32; 2]], angle: f64) -> f64 {
     integral / (2.0 * reach)
 }
 
-/// The errors of a set of samples over so many orientations.
+/// Errors of a set of samples over `orientations` orientations.
 fn errors(samples: &[[f32; 2]], orientations: usize) -> Errors {
     let squares: Vec<(f64, f64)> = (0..orientations)
         .map(|step| PI * step as f64 / orientations as f64)
@@ -79,7 +79,7 @@ fn errors(samples: &[[f32; 2]], orientations: usize) -> Errors {
     }
 }
 
-/// The errors of a pattern at each of [`COUNTS`], printed.
+/// Errors of a pattern at each of [`COUNTS`], which are also printed.
 fn chart(pattern: &Pattern) -> [Errors; 5] {
     COUNTS.map(|count| {
         let found = errors(&pattern.offsets(count).unwrap(), ORIENTATIONS);
@@ -94,7 +94,7 @@ fn chart(pattern: &Pattern) -> [Errors; 5] {
     })
 }
 
-/// The slope of log RMSE over log N, by least squares.
+/// Slope of log RMSE over log N, by least squares.
 fn slope(chart: &[Errors; 5]) -> f64 {
     let points = COUNTS
         .map(f64::from)
@@ -114,7 +114,7 @@ fn slope(chart: &[Errors; 5]) -> f64 {
     products / squares
 }
 
-/// Asserts that a pattern's error falls as it should and that no orientation errs by more than `bound` allows.
+/// Asserts that a pattern's error decreases fast enough, and is below `bound` at every orientation.
 fn assert_chart(pattern: &Pattern, bound: impl Fn(f64) -> f64) -> [Errors; 5] {
     let chart = chart(pattern);
     let slope = slope(&chart);
@@ -131,11 +131,11 @@ fn assert_chart(pattern: &Pattern, bound: impl Fn(f64) -> f64) -> [Errors; 5] {
     chart
 }
 
-/// Error and bound fall alike, at every orientation: what sets this pattern apart.
+/// The error and its bound decrease equally at every orientation, unlike those of other patterns.
 #[test]
 fn sobol() {
     let chart = assert_chart(&Pattern::Sobol, |n| 0.4 * n.powf(-0.75));
-    // The mean over random scramblings, by calculation; the chosen one must not be worse.
+    // These are the expected errors of random scramblings; the chosen one must not be worse.
     for (errors, expected) in chart.iter().skip(1).zip([0.0379, 0.0133, 0.0047, 0.0017]) {
         assert!(
             errors.mean < expected * 1.02,
@@ -145,7 +145,7 @@ fn sobol() {
     }
 }
 
-/// The worst edges of all lattices run along one of their rows, which they meet all at once: N^-1/2.
+/// The worst edges of every lattice run along one of its rows, whose samples they cross all at once: N^-1/2.
 #[test]
 fn lattice() {
     assert_chart(&Pattern::Lattice, |n| 0.3 * n.powf(-0.5));
@@ -155,13 +155,13 @@ fn lattice() {
 fn korobov() {
     let lattice = assert_chart(&Pattern::Korobov, |n| 0.4 * n.powf(-0.5));
     let sobol = chart(&Pattern::Sobol);
-    // From 64 samples on it errs less than Sobol points, on average and along the axes.
+    // From 64 samples on, its error is smaller than that of Sobol points, on average and along the axes.
     for (lattice, sobol) in lattice.iter().zip(&sobol).skip(2) {
         assert!(lattice.mean < sobol.mean && lattice.near_axis < sobol.near_axis);
     }
 }
 
-/// An edge along an axis is off by up to half of a row either way: 1 / (k sqrt 12).
+/// An edge along an axis has an error of up to half a row: 1 / (k sqrt 12).
 #[test]
 fn grid() {
     let chart = assert_chart(&Pattern::Grid, |n| 1.001 / (12.0 * n).sqrt());
@@ -175,7 +175,7 @@ fn grid() {
     }
 }
 
-/// The standard patterns beat the grid along the axes, which they are made for.
+/// The standard patterns are better than the grid along the axes, for which they were made.
 #[test]
 fn rotated() {
     for count in [4, 16] {
@@ -190,7 +190,7 @@ fn rotated() {
     }
 }
 
-/// Nothing is special about powers of two.
+/// Numbers that are no powers of two are as good.
 #[test]
 fn any_count_is_a_good_one() {
     for pattern in [Pattern::Sobol, Pattern::Lattice, Pattern::Korobov] {
@@ -202,16 +202,16 @@ fn any_count_is_a_good_one() {
     }
 }
 
-/// The chart's own quadrature, against the known error of one sample in the centre for edges along an axis: the mean
-/// square of a value spread evenly over -1/2 to 1/2 is 1/12.
+/// The chart's quadrature is correct for one sample in the centre and edges along an axis: the mean square of a value
+/// that is evenly distributed over -1/2 to 1/2 is 1/12.
 #[test]
 fn mean_square_of_one_sample_is_known() {
     assert!((mean_square(&[[0.0, 0.0]], 0.0) - 1.0 / 12.0).abs() < 1e-12);
     assert!((mean_square(&[[0.0, 0.0]], PI / 2.0) - 1.0 / 12.0).abs() < 1e-12);
 }
 
-/// How the scrambling of [`Pattern::Sobol`] was found: the least product, over all counts, of the mean error and the
-/// error at the worst orientation.
+/// The scrambling of [`Pattern::Sobol`] has the smallest product, over all counts, of the mean error and the error at
+/// the worst orientation.
 #[test]
 #[ignore = "takes a quarter of a minute; run it when the scrambling's hash changes"]
 fn scrambling_is_the_best_of_4096() {
@@ -230,7 +230,7 @@ fn scrambling_is_the_best_of_4096() {
         points
     };
     let chosen = Pattern::Sobol.offsets(MAX_SAMPLES).unwrap();
-    // No `assert_eq`, which would print all of them.
+    // `assert_eq` would print all samples.
     assert!(
         sorted(chosen) == sorted(owen_sobol(MAX_SAMPLES, best)),
         "seed {best} is better"

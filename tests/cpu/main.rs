@@ -1,4 +1,4 @@
-//! Cameras, sample patterns and the CPU twins. No test here needs a device.
+//! Cameras, sample patterns and CPU twins. No test here needs a device.
 
 mod camera;
 mod coverage_chart;

@@ -26,7 +26,7 @@ fn units(offsets: &[[f32; 2]]) -> Vec<[u32; 2]> {
     offsets.iter().map(|offset| offset.map(unit)).collect()
 }
 
-/// The counts that a pattern can have.
+/// Numbers of samples that a pattern supports.
 fn counts(pattern: &Pattern) -> Vec<u32> {
     (1..=MAX_SAMPLES)
         .filter(|&count| pattern.offsets(count).is_ok())
@@ -74,7 +74,7 @@ fn offsets_are_the_same_each_time() {
     }
 }
 
-/// One sample in each box of every shape: the definition of a (0,m,2)-net in base 2.
+/// Asserts that each box of every shape holds one sample: the definition of a (0,m,2)-net in base 2.
 fn assert_net(samples: &[[u32; 2]], what: &str) {
     let digits = samples.len().ilog2();
     for across in 0..=digits {
@@ -110,7 +110,7 @@ fn scrambling_keeps_the_sequence_a_sequence_of_nets() {
     assert_ne!(owen_sobol(16, 0), owen_sobol(16, 1));
 }
 
-/// Lattices have all their columns and all their rows apart, evenly.
+/// The columns and the rows of lattices are distinct and evenly spaced.
 #[test]
 fn lattices_project_evenly() {
     for pattern in [Pattern::Lattice, Pattern::Korobov] {
@@ -131,7 +131,7 @@ fn lattices_project_evenly() {
     }
 }
 
-/// The square lattice is one: rows are straight and evenly spaced, which span computations rely on.
+/// Rows of the square lattice are straight and evenly spaced, as the computation of spans requires.
 #[test]
 fn square_lattices_have_straight_rows() {
     for side in [2_u32, 4, 8, 16, 32] {
@@ -140,7 +140,7 @@ fn square_lattices_have_straight_rows() {
             .collect();
         let step = 65536.0 / f64::from(side);
         let tilt = step / f64::from(side);
-        // A power of two divides all the lattice's vectors, so that nothing is rounded.
+        // A power of two divides all vectors of the lattice, so that nothing is rounded.
         let first = samples
             .iter()
             .copied()
@@ -163,8 +163,8 @@ fn square_lattices_have_straight_rows() {
     }
 }
 
-/// Direct3D 11's standard patterns ("D3D11_STANDARD_MULTISAMPLE_QUALITY_LEVELS"), which Vulkan's are too, in sixteenths
-/// of a pixel from the centre.
+/// The standard patterns of Direct3D 11 ("D3D11_STANDARD_MULTISAMPLE_QUALITY_LEVELS"), which are also Vulkan's, in
+/// sixteenths of a pixel from the centre.
 #[test]
 fn rotated_patterns_are_the_standard_ones() {
     let standard: [&[[i8; 2]]; 4] = [
@@ -209,7 +209,7 @@ fn rotated_patterns_are_the_standard_ones() {
     }
 }
 
-/// The longer side of a run's bounding box, in pixels.
+/// Longer side of a run's bounding box, in pixels.
 fn extent(run: &[[f32; 2]]) -> f32 {
     (0..2)
         .map(|axis| {
@@ -228,7 +228,7 @@ fn runs_of_64_and_256_samples_are_compact() {
         Pattern::Grid,
     ] {
         let offsets = pattern.offsets(1024).unwrap();
-        // The boxes' sides are 1/4 and 1/2; a turned lattice reaches over them by its tilt.
+        // The boxes have sides of 1/4 and 1/2; a turned lattice extends beyond them by its tilt.
         for (length, side) in [(64, 0.25), (256, 0.5)] {
             for run in offsets.chunks(length) {
                 assert!(
@@ -239,7 +239,7 @@ fn runs_of_64_and_256_samples_are_compact() {
             }
         }
     }
-    // Counts that are no power of two have full runs that are no long strips, and a shorter rest.
+    // For numbers that are no powers of two, full runs are no long strips, and the rest is shorter.
     for count in [100, 300, 520, 777, 1000, 1023] {
         let offsets = Pattern::Sobol.offsets(count).unwrap();
         for run in offsets.chunks_exact(64) {

@@ -1,4 +1,4 @@
-//! What holds of the documents besides their figures.
+//! Checks of the documents besides their figures.
 
 use crate::data::root;
 use crate::documents::{handwritten, markdown};
@@ -9,7 +9,7 @@ fn read(path: impl AsRef<Path>) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// Texts of Markdown without fenced blocks.
+/// Text of a Markdown document without its fenced blocks.
 fn prose(text: &str) -> String {
     let mut inside = false;
     let mut kept = Vec::new();
@@ -23,7 +23,7 @@ fn prose(text: &str) -> String {
     kept.join("\n")
 }
 
-/// Whether a text has a number before a unit that only a measurement can tell.
+/// Whether a text has a number with a unit of measurement.
 fn measured(paragraph: &str) -> bool {
     let words: Vec<&str> = paragraph.split_whitespace().collect();
     words.windows(2).any(|pair| {
@@ -44,13 +44,13 @@ fn the_readme_is_short() {
     );
 }
 
-/// A figure in prose says where it comes from: by a link, a command or the name of a file.
+/// Every figure in prose names its source: by a link, a command or a file name.
 #[test]
 fn figures_in_prose_have_a_source() {
     let mut without = Vec::new();
     for path in markdown() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        // Entries of these are dated, and belong to the code of their day.
+        // Entries of these documents are dated and describe the code of their day.
         if [
             "decisions.md",
             "CHANGELOG.md",
@@ -78,7 +78,7 @@ fn a_figure_without_a_source_is_found() {
     assert!(!measured("It takes 64 samples."));
 }
 
-/// Links to files and to headings of the repository lead somewhere.
+/// Links to files and headings of the repository are valid.
 #[test]
 fn links_lead_somewhere() {
     let mut broken = Vec::new();
@@ -106,7 +106,7 @@ fn links_lead_somewhere() {
     assert!(broken.is_empty(), "{broken:#?}");
 }
 
-/// The anchors of a document's headings, as forges name them.
+/// Anchors of a document's headings, as forges generate them.
 fn headings(path: &Path) -> Vec<String> {
     let text = prose(&read(path));
     let lines = text.lines().filter(|line| line.starts_with('#'));
@@ -121,7 +121,7 @@ fn headings(path: &Path) -> Vec<String> {
         .collect()
 }
 
-/// The version stands in four places.
+/// The four places with the version agree.
 #[test]
 fn versions_agree() {
     let version = env!("CARGO_PKG_VERSION");
@@ -138,7 +138,7 @@ fn versions_agree() {
     }
 }
 
-/// Options that documents name as the command's are options of a subcommand.
+/// Options that documents attribute to the command are options of a subcommand.
 #[test]
 fn options_exist() {
     let known = help::every();
@@ -146,7 +146,7 @@ fn options_exist() {
     let mut unknown = Vec::new();
     for path in markdown() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        // What these tell of may be gone.
+        // Options that these documents name may have been removed.
         if ["CHANGELOG.md", "decisions.md"].contains(&name.as_str()) {
             continue;
         }
@@ -165,7 +165,7 @@ fn options_exist() {
     assert!(unknown.is_empty(), "{unknown:#?}");
 }
 
-/// The long options in a text.
+/// Long options in a text.
 fn options(text: &str) -> impl Iterator<Item = &str> {
     let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
     words.filter(|word| word.starts_with("--") && word.len() > 3)

@@ -1,25 +1,25 @@
-//! The measurements in `docs/bench`.
+//! Measurements in `docs/bench`.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// A file of measurements: a head of lines `# key: value`, then comma-separated values with a line of names.
+/// A file of measurements: a head of lines `# key: value`, then comma-separated values with a header.
 pub struct Measurement {
     head: HashMap<String, String>,
     pub rows: Vec<Row>,
 }
 
-/// A line of a file, by the names of its columns.
+/// A row of a file, by the names of its columns.
 pub struct Row(HashMap<String, String>);
 
-/// What every file says of where its figures come from.
+/// Keys that the head of every file must have.
 const HEAD: [&str; 5] = ["driver", "machine", "date", "commit", "size"];
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// All files `KIND-*.csv`, in the order of their names.
+/// All files `KIND-*.csv`, sorted by name.
 pub fn load(kind: &str) -> Vec<Measurement> {
     let folder = root().join("docs/bench");
     let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder)
@@ -57,17 +57,17 @@ impl Measurement {
         Self { head, rows }
     }
 
-    /// A value of the head.
+    /// Value of a key in the head.
     pub fn head(&self, key: &str) -> &str {
         &self.head[key]
     }
 
-    /// Width x height, as text writes it.
+    /// Size of the images as text, width x height.
     pub fn size(&self) -> String {
         self.head("size").replace('x', " x ")
     }
 
-    /// Where the figures come from, in a line.
+    /// One line that says where the figures come from.
     pub fn source(&self) -> String {
         let note = self.head.get("note");
         format!(
@@ -80,7 +80,7 @@ impl Measurement {
         )
     }
 
-    /// The scenes, in the order of the file.
+    /// Names of the scenes, in the order of the file.
     pub fn scenes(&self) -> Vec<&str> {
         let mut scenes: Vec<&str> = Vec::new();
         for row in &self.rows {
@@ -91,7 +91,7 @@ impl Measurement {
         scenes
     }
 
-    /// The numbers of samples that a method was measured at, in ascending order.
+    /// Numbers of samples at which a method was measured, in ascending order.
     pub fn samples(&self, method: &str) -> Vec<u32> {
         let of = self.rows.iter().filter(|row| row.text("method") == method);
         let mut samples: Vec<u32> = of.map(Row::samples).collect();
@@ -100,7 +100,7 @@ impl Measurement {
         samples
     }
 
-    /// What was measured of a scene under a method at a number of samples.
+    /// Row of a scene, a method and a number of samples.
     pub fn find(&self, scene: &str, method: &str, samples: u32) -> Option<&Row> {
         self.rows.iter().find(|row| {
             row.scene() == scene && row.text("method") == method && row.samples() == samples
@@ -130,7 +130,7 @@ impl Row {
         self.text("samples").parse().unwrap()
     }
 
-    /// The name of the scene that documents use; files have names of their own.
+    /// Name of the scene in the documents, which differs from that of its file.
     pub fn scene(&self) -> &str {
         match self.text("scene") {
             "dutch_ship_medium_1k" => "DutchShip",
@@ -141,19 +141,19 @@ impl Row {
         }
     }
 
-    /// Milliseconds on the device.
+    /// Median milliseconds on the device.
     pub fn ms(&self) -> f64 {
         self.number("gpu_ms_median")
     }
 }
 
-/// A median, and the largest value with what it belongs to.
+/// A median, and the largest value with its name.
 pub struct Spread<'a> {
     pub median: f64,
     pub worst: (f64, &'a str),
 }
 
-/// Of values with their names; `None` of no values.
+/// Spread of named values; `None` without values.
 pub fn spread<'a>(mut values: Vec<(f64, &'a str)>) -> Option<Spread<'a>> {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let middle = values.len() / 2;

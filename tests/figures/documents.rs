@@ -1,10 +1,10 @@
-//! The documents with their generated parts.
+//! Documents and their generated parts.
 
 use crate::data::root;
 use crate::{help, plot, sets, table};
 use std::path::PathBuf;
 
-/// What makes the text of a part.
+/// Function that generates the text of a part.
 type Make = fn() -> String;
 
 const PARTS: [(&str, Make); 9] = [
@@ -28,7 +28,7 @@ const PLOTS: [(&str, Make); 3] = [
 const BEGIN: &str = "<!-- figures: ";
 const END: &str = "<!-- end -->";
 
-/// Every file that holds something generated, with the text that it should have.
+/// Every file with generated parts, and the text that it should have.
 pub fn generate() -> Vec<(PathBuf, String)> {
     let mut used = Vec::new();
     let mut files: Vec<_> = markdown()
@@ -50,7 +50,7 @@ pub fn generate() -> Vec<(PathBuf, String)> {
     files
 }
 
-/// The documents at the root and in `docs`.
+/// Paths of the documents at the root and in `docs`.
 pub fn markdown() -> Vec<PathBuf> {
     let folders = [root().to_owned(), root().join("docs")];
     let mut paths: Vec<PathBuf> = folders
@@ -63,7 +63,7 @@ pub fn markdown() -> Vec<PathBuf> {
     paths
 }
 
-/// A document whose marked parts are made anew.
+/// Text of a document with its marked parts generated again.
 fn fill(text: &str, used: &mut Vec<String>) -> String {
     let mut filled = String::new();
     let mut rest = text;
@@ -81,7 +81,7 @@ fn fill(text: &str, used: &mut Vec<String>) -> String {
     filled + rest
 }
 
-/// A document without its generated parts.
+/// Text of a document without its generated parts.
 pub fn handwritten(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;

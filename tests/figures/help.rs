@@ -1,8 +1,8 @@
-//! What the command says of its options.
+//! Help texts of the command.
 
 use std::process::Command;
 
-/// The subcommands that `gpc --help` lists, but for `help` and those of the feature `view`.
+/// Subcommands that `gpc --help` lists, without `help` and those of the feature `view`.
 fn subcommands() -> Vec<String> {
     let help = help(&["--help"]);
     let (_, list) = help.split_once("Commands:\n").unwrap();
@@ -14,7 +14,7 @@ fn subcommands() -> Vec<String> {
         .collect()
 }
 
-/// The help of every subcommand, each under a heading of its own.
+/// Help texts of all subcommands, each under its own heading.
 pub fn every() -> String {
     let mut text = String::new();
     for name in subcommands() {
@@ -26,7 +26,7 @@ pub fn every() -> String {
     text
 }
 
-/// What the command prints.
+/// Output of the command.
 pub fn help(arguments: &[&str]) -> String {
     let run = Command::new(env!("CARGO_BIN_EXE_gpc"))
         .args(arguments)

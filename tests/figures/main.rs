@@ -1,4 +1,5 @@
-//! Every table and plot of the documents is what the data in `docs/bench` make of it, and every help text what the command says.
+//! Checks that every table and plot of the documents agrees with the data in `docs/bench`, and every help text with
+//! the command.
 //!
 //! `make figures` writes them: it runs this test with `GPC_FIGURES=write`.
 
@@ -11,7 +12,7 @@ mod sets;
 mod table;
 mod text;
 
-/// Compares what is in the repository with what should be there, or writes it.
+/// Compares the files in the repository with the generated ones, or writes them.
 #[test]
 fn documents_agree_with_their_data() {
     let write = std::env::var_os("GPC_FIGURES").is_some_and(|value| value == "write");

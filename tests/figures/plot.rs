@@ -1,4 +1,4 @@
-//! The plots of the documents, as SVG.
+//! Plots of the documents, as SVG.
 
 use crate::data::{self, Measurement, Row, spread};
 use plotters::coord::Shift;
@@ -7,7 +7,7 @@ use plotters::prelude::*;
 const SIZE: (u32, u32) = (720, 400);
 const FONT: (&str, u32) = ("sans-serif", 15);
 
-/// A method's colour, the same in all plots.
+/// Colour of a method, the same in all plots.
 fn colour(method: &str) -> RGBColor {
     match method {
         "none" => RGBColor(110, 110, 110),
@@ -28,7 +28,7 @@ fn drawn(draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>)) -> String {
     text
 }
 
-/// Median error and median time of a method over the textured scenes, by its number of samples.
+/// Points of a method over the textured scenes: median error, median time and number of samples.
 fn curve(of: &Measurement, method: &str) -> Vec<(f64, f64, u32)> {
     let mut scenes = of.scenes();
     scenes.retain(|scene| of.textured(scene));
@@ -49,7 +49,7 @@ fn curve(of: &Measurement, method: &str) -> Vec<(f64, f64, u32)> {
         .collect()
 }
 
-/// Error against time of every method, in medians over the textured scenes.
+/// Plot of error against time of every method, as medians over the textured scenes.
 pub fn error_time() -> String {
     let all = data::load("quality");
     let curves: Vec<(&str, Vec<_>)> = ["none", "msaa", "ssaa", "superpixel"]
@@ -106,7 +106,7 @@ pub fn error_time() -> String {
     })
 }
 
-/// Where a point's label lies: above the upper curve, below the lower one.
+/// Offset of a point's label: above the upper curve, below the lower one.
 fn beside(method: &str) -> (i32, i32) {
     match method {
         "superpixel" => (-112, 6),
@@ -122,7 +122,7 @@ fn label(method: &str, samples: u32) -> String {
     }
 }
 
-/// Time against the number of triangles.
+/// Plot of time against the number of triangles.
 pub fn growth() -> String {
     let all = data::load("growth");
     let of = &all[0];

@@ -1,18 +1,18 @@
-//! A drawing of the camera's sets of sampling locations.
+//! Drawing of the camera's sampling sets.
 
 use plotters::prelude::*;
 
-/// Side of a panel, and the room between panels and for its name.
+/// Side of a panel, and distance between panels, which leaves room for their names.
 const SIDE: i32 = 130;
 const GAP: i32 = 14;
 const NAME: i32 = 26;
-/// Pixels along a panel's side.
+/// Number of pixels along a panel's side.
 const PIXELS: i32 = 8;
 
 /// A place of 0 to 1 in a panel.
 type Place = (f64, f64);
 
-/// Numbers of 0 to 1 that look random (the additive recurrence of the plastic number).
+/// Quasi-random numbers of 0 to 1 (the additive recurrence of the plastic number).
 fn scattered(count: u32) -> impl Iterator<Item = Place> {
     (0..count).map(|index| {
         let index = f64::from(index) + 0.5;
@@ -32,12 +32,12 @@ fn in_pixel((x, y): (i32, i32), (u, v): Place) -> Place {
     ((f64::from(x) + u) / side, (f64::from(y) + v) / side)
 }
 
-/// One location in the middle of each pixel.
+/// Planar set: one location in the middle of each pixel.
 fn planar() -> Vec<Place> {
     centres().map(|pixel| in_pixel(pixel, (0.5, 0.5))).collect()
 }
 
-/// Several locations in the pixels that an edge crosses.
+/// Superpixel set: several locations in the pixels that an edge crosses.
 fn superpixel() -> Vec<Place> {
     let crossed = |(x, y): (i32, i32)| (x + 2 * y - 10).abs() <= 1;
     let many = |pixel| {
@@ -56,7 +56,7 @@ fn superpixel() -> Vec<Place> {
         .collect()
 }
 
-/// A grid drawn together around a focus.
+/// Offset set: a grid that is contracted around a focus.
 fn offset() -> Vec<Place> {
     let focus = (0.6, 0.45);
     planar()
@@ -74,7 +74,7 @@ fn no_pattern() -> Vec<Place> {
     scattered(64).collect()
 }
 
-/// Directions from a centre, as five pinholes see them: the faces of a cube unfolded.
+/// Rig: directions from a centre, seen by five pinholes; the faces of an unfolded cube.
 fn rig() -> Vec<Place> {
     let third = 1.0 / 3.0;
     let faces = [(1, 0), (0, 1), (1, 1), (2, 1), (1, 2)];
@@ -92,7 +92,7 @@ fn rig() -> Vec<Place> {
         .collect()
 }
 
-/// The five sets side by side.
+/// SVG of the five sets, side by side.
 pub fn draw() -> String {
     let panels: [(&str, Vec<Place>); 5] = [
         ("planar", planar()),

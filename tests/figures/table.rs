@@ -1,16 +1,16 @@
-//! The tables of the documents.
+//! Tables of the documents.
 
 use crate::data::{self, Measurement, Row, Spread, spread};
 use crate::text::{Table, cells, error, grouped, short};
 
-/// A column of the quality files, and how one method's value is held against another's.
+/// Column of a quality file.
 type Column = fn(&Row) -> f64;
 
 const RMSE: Column = |row| row.number("rmse");
 const FLIP: Column = |row| row.number("flip");
 const MS: Column = |row| row.ms();
 
-/// Ratios of a column of two methods over all scenes that were measured under both.
+/// Ratios of a column between two methods, over all scenes that were measured with both.
 fn ratios<'a>(
     of: &'a Measurement,
     scenes: &[&'a str],
@@ -26,7 +26,7 @@ fn ratios<'a>(
     spread(scenes.iter().filter_map(ratio).collect())
 }
 
-/// The median of a column over scenes.
+/// Median of a column over scenes.
 fn median(
     of: &Measurement,
     scenes: &[&str],
@@ -54,13 +54,13 @@ fn or_none(value: Option<f64>, write: fn(f64) -> String) -> String {
     value.map_or_else(String::new, write)
 }
 
-/// The measurement of errors that documents speak of: the first with superpixels.
+/// Measurement that the documents use for errors: the first one with superpixels.
 fn quality(all: &[Measurement]) -> &Measurement {
     let found = all.iter().find(|of| !of.samples("superpixel").is_empty());
     found.expect("docs/bench/quality-*.csv has no superpixels")
 }
 
-/// Time, error and what they are to brute force, in a few lines.
+/// Table of the README: time and error relative to supersampling, in a few rows.
 pub fn readme() -> String {
     let all = data::load("quality");
     let of = quality(&all);
@@ -99,7 +99,7 @@ pub fn readme() -> String {
     )
 }
 
-/// Error and time of every method at every number of samples.
+/// Table of error and time of every method at every number of samples.
 pub fn choosing() -> String {
     let mut text = String::new();
     for of in &data::load("quality") {
@@ -137,7 +137,7 @@ pub fn choosing() -> String {
     text
 }
 
-/// Where brute force is the better method.
+/// Table of the scenes on which supersampling is better.
 pub fn exceptions() -> String {
     let all = data::load("quality");
     let of = quality(&all);
@@ -180,7 +180,7 @@ pub fn exceptions() -> String {
     )
 }
 
-/// Error and time scene by scene.
+/// Table of error and time, scene by scene.
 pub fn quality_by_scene() -> String {
     let mut text = String::new();
     for of in &data::load("quality") {
@@ -254,7 +254,7 @@ pub fn quality_by_scene() -> String {
     text
 }
 
-/// Times of larger images, driver by driver.
+/// Table of times of larger images, driver by driver.
 pub fn speed() -> String {
     let mut text = String::new();
     for of in &data::load("speed") {
@@ -301,7 +301,7 @@ pub fn speed() -> String {
     text
 }
 
-/// Errors and flicker while the camera moves.
+/// Table of errors and flicker while the camera moves.
 pub fn motion() -> String {
     let mut text = String::new();
     for of in &data::load("motion") {
@@ -338,7 +338,7 @@ pub fn motion() -> String {
     text
 }
 
-/// Time of a sample under the camera's variants.
+/// Table of the time per sample of the camera's variants.
 pub fn variants() -> String {
     let mut text = String::new();
     for of in &data::load("variants") {
@@ -365,7 +365,7 @@ pub fn variants() -> String {
     text
 }
 
-/// Time against the size of things.
+/// Table of time against the size of scenes and images.
 pub fn growth() -> String {
     let mut text = String::new();
     for of in &data::load("growth") {

@@ -1,6 +1,6 @@
 //! Numbers and tables as Markdown.
 
-/// Two or three digits that mean something.
+/// A number with two or three significant digits.
 pub fn short(value: f64) -> String {
     if value >= 100.0 {
         grouped(value.round() as u64)
@@ -13,7 +13,7 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// An integer with a comma before each three digits.
+/// An integer with a comma before every three digits.
 pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
@@ -26,7 +26,7 @@ pub fn grouped(value: u64) -> String {
     text
 }
 
-/// An error of 0 to 1, times 10^5.
+/// An error of 0 to 1 as text, times 10^5.
 pub fn error(value: f64) -> String {
     short(value * 1e5)
 }
@@ -52,7 +52,7 @@ impl Table {
     }
 }
 
-/// Cells of texts.
+/// Cells with these texts.
 pub fn cells(texts: &[&str]) -> Vec<String> {
     texts.iter().map(|text| (*text).to_owned()).collect()
 }

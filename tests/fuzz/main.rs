@@ -1,9 +1,9 @@
-//! Mutated files through all readers: a scene or an error, never a panic, never a hang.
+//! Mutated files through all readers: each must give a scene or an error, without a panic or a hang.
 //!
-//! `cargo test --test fuzz` runs a few thousand executions with fixed seeds; for longer runs, set
-//! `FUZZ_SECONDS`, `FUZZ_SEED` for another sequence, and `FUZZ_SLOWEST` for how many seconds a file may take on a busy machine. What a run finds is written to the
-//! temporary folder, and becomes a test of the reader that it concerns. `fuzz/` is the same guided by
-//! coverage, which needs a nightly toolchain.
+//! `cargo test --test fuzz` runs a few thousand executions with fixed seeds. For longer runs, set `FUZZ_SECONDS`;
+//! `FUZZ_SEED` selects another sequence, and `FUZZ_SLOWEST` the seconds that a file may take on a busy machine. Files
+//! that fail are written to the temporary folder; each should become a test of its reader. `fuzz/` does the same
+//! guided by coverage, which needs a nightly toolchain.
 
 mod mutate;
 #[path = "../common/scene_builder.rs"]
@@ -23,15 +23,16 @@ use gpc::output::decode_light;
 use gpc::scene::{Edges, Environment, PoseRequest, Scene};
 use mutate::Mutator;
 
-/// Longest that a file of these sizes may take, in seconds, on a machine that does nothing else.
+/// Largest number of seconds that a file of these sizes may take on an idle machine.
 const SLOWEST: u64 = 20;
 
-/// Loads a file, adds edges and poses it, at a moment and in motion; whether it is drawable. A sky is one if it lights a scene.
+/// Loads a file, adds edges, and poses it at a moment and in motion. Returns whether it can be drawn; for a sky,
+/// whether it lights a scene.
 pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
     if name.starts_with("sky") {
         let decoded = decode_light(bytes, "fuzz");
         return decoded.is_ok_and(|([width, height], colors)| {
-            // Averaging depends on the size alone, and takes long.
+            // Large images are skipped, because averaging depends on the size alone and takes long.
             colors.len() > 1 << 10
                 || Environment::from_equirectangular(width, height, colors).is_ok()
         });
@@ -51,12 +52,12 @@ pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
     }
 }
 
-/// A file, and the folder that its URIs start from.
+/// A file to mutate, and the folder from which its URIs start.
 pub struct Seed {
     pub name: String,
     pub bytes: Vec<u8>,
     pub base: Option<PathBuf>,
-    /// A file in that folder that is mutated, too, and what it starts from.
+    /// A file in that folder that is mutated too, and its original content.
     pub beside: Option<(PathBuf, Vec<u8>)>,
 }
 
@@ -103,7 +104,7 @@ fn mutated_files_end_in_a_scene_or_an_error() {
         seeds.len(),
         start.elapsed()
     );
-    // A mutator that breaks every file, or none, tests nothing.
+    // A mutator that breaks every file, or none, would test nothing.
     assert!(
         executions == 0 || (drawn > executions / 50 && drawn < executions * 49 / 50),
         "{drawn} of {executions} are drawable"

@@ -1,13 +1,13 @@
-//! Changes to files, from single bits to parts of other files.
+//! Mutations of files, from single bits to parts of other files.
 
 use super::Seed;
 
-/// Makes files from files; the same seed gives the same files.
+/// Mutator of files; the same seed makes the same files.
 pub struct Mutator {
     state: u64,
 }
 
-/// Numbers at which sizes, counts and offsets go wrong.
+/// Numbers that often reveal errors in sizes, counts and offsets.
 const NUMBERS: [&str; 14] = [
     "0",
     "-1",
@@ -40,7 +40,7 @@ impl Mutator {
         (self.state >> 11) as usize % bound.max(1)
     }
 
-    /// A place in a file; often near its start, where headers are.
+    /// A position in a file, often near its start, where headers are.
     fn place(&mut self, length: usize) -> usize {
         let reach = if self.below(2) == 0 {
             length.min(256)
@@ -50,8 +50,8 @@ impl Mutator {
         self.below(reach)
     }
 
-    /// A copy of `bytes` with one to four changes. Those of a GLB stay within one of its chunks most
-    /// of the time, and its lengths follow, so that they reach what lies behind its header.
+    /// A copy of `bytes` with one to four changes. Changes of a GLB usually stay within one of its chunks, and the
+    /// lengths in its header are corrected, so that the changes reach the data behind the header.
     pub fn mutate(&mut self, bytes: &[u8], others: &[Seed]) -> Vec<u8> {
         let Some((mut json, mut binary)) = chunks(bytes).filter(|_| self.below(8) > 0) else {
             return self.changed(bytes.to_vec(), others);
@@ -80,7 +80,7 @@ impl Mutator {
             0 => bytes[at] ^= 1 << self.below(8),
             1 => bytes[at] = self.below(256) as u8,
             2 => {
-                // A little-endian word at a limit.
+                // The change is a little-endian word at a limit.
                 let words = [0, 1, u32::MAX, i32::MAX as u32, 0x1_0000, self.state as u32];
                 let word = words[self.below(words.len())].to_le_bytes();
                 for (byte, new) in bytes[at..].iter_mut().zip(word) {
@@ -116,7 +116,7 @@ impl Mutator {
         }
     }
 
-    /// Replaces the first number in text from `at` on, so that it stays a document.
+    /// Replaces the first number in text from `at` on, so that the text stays a document.
     fn change_number(&mut self, bytes: &mut Vec<u8>, at: usize) {
         let is_number = |byte: &u8| byte.is_ascii_digit() || b"-.".contains(byte);
         let Some(start) = bytes[at..].iter().position(is_number).map(|i| at + i) else {
@@ -125,7 +125,7 @@ impl Mutator {
         let length = bytes[start..].iter().take_while(|b| is_number(b)).count();
         let number = NUMBERS[self.below(NUMBERS.len())].as_bytes().to_vec();
         if self.below(2) == 0 {
-            // Of the same length, so that the chunk of a GLB stays whole.
+            // The length stays the same, so that the chunk of a GLB stays valid.
             let padded = number
                 .into_iter()
                 .chain(std::iter::repeat(b' '))
@@ -137,7 +137,7 @@ impl Mutator {
     }
 }
 
-/// The two chunks of a GLB.
+/// JSON and binary chunk of a GLB.
 fn chunks(bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
     let word = |at: usize| {
         let word = bytes.get(at..at + 4)?.try_into().ok()?;
@@ -149,7 +149,7 @@ fn chunks(bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
     Some((json, binary.unwrap_or_default().to_vec()))
 }
 
-/// A GLB of two chunks.
+/// A GLB with two chunks.
 pub fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
     let mut glb = b"glTF".to_vec();
     let length = 12 + 8 + json.len() + 8 + binary.len();

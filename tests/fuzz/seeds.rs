@@ -1,4 +1,4 @@
-//! The files that mutations start from: one of each format and extension.
+//! Files to mutate: one of each format and extension.
 
 use std::{io::Cursor, path::Path};
 
@@ -27,7 +27,7 @@ const EDGES: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n
 const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
     map_Kd -s 1 1 1 none.png\n";
 
-/// All seeds: those made here, of which OBJ lies in `folder`, and small scenes of `../shared` where that is.
+/// All seeds: those made here, whose OBJ file is in `folder`, and small scenes of `../shared` if that exists.
 pub fn all(folder: &Path) -> Vec<Seed> {
     let mut seeds = vec![
         made("rich.glb", rich().glb()),
@@ -70,7 +70,7 @@ fn made(name: &str, bytes: Vec<u8>) -> Seed {
     }
 }
 
-/// A scene of `../shared`. A buffer beside it becomes part of the file, so that mutations reach what is compressed.
+/// A scene of `../shared`. A buffer beside it is included in the file, so that mutations reach compressed data.
 fn from_scene(name: &str) -> Seed {
     let path = shared("scenes").join(name);
     let mut bytes = std::fs::read(&path).unwrap();
@@ -91,7 +91,7 @@ fn from_scene(name: &str) -> Seed {
     }
 }
 
-/// A scene of all parts that need no compression.
+/// A scene with all parts that need no compression.
 fn rich() -> Builder {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
@@ -220,7 +220,7 @@ fn binary_ply(swapped: bool) -> Vec<u8> {
     bytes
 }
 
-/// An equirectangular image of 8 x 4 texels.
+/// An equirectangular image of 8 x 4 texels in Radiance format.
 fn hdr() -> Vec<u8> {
     let sky = Rgb32FImage::from_fn(8, 4, |x, y| Rgb([x as f32, 0.5, 2.0 * y as f32]));
     let mut bytes = Cursor::new(Vec::new());
@@ -228,7 +228,7 @@ fn hdr() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// The same in another format.
+/// The same image in EXR format.
 fn exr(folder: &Path) -> Vec<u8> {
     let path = folder.join("sky.exr");
     let texel = |x: usize, y: usize| (x as f32, 0.5_f32, 2.0 * y as f32);

@@ -1,6 +1,6 @@
 //! Coverage by exact areas.
 
-use gpc::reference::area::in_pixel;
+use gpc::reference::edge::triangle_area;
 use gpc::render::{Coverage, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
@@ -15,12 +15,12 @@ fn by_area(samples: u32) -> Settings {
         .map_superpixels(|options| options.coverage(Coverage::Area).shading(Shading::Part))
 }
 
-/// A place in the image, in pixels from its centre.
+/// Random place in and around the image, in pixels from its centre.
 fn place(random: &mut Random) -> [f64; 2] {
     SIZE.map(|side| random.range(-0.6, 0.6) * f64::from(side))
 }
 
-/// The centre of pixel `index`, from the image's centre.
+/// Centre of pixel `index`, relative to the image's centre.
 fn centre(index: usize) -> [f64; 2] {
     let [width, height] = SIZE.map(|side| side as usize);
     [
@@ -29,7 +29,7 @@ fn centre(index: usize) -> [f64; 2] {
     ]
 }
 
-/// What few samples see is not measured, and what none sees is lost.
+/// Tolerance of a covered area: small and large areas may come from few samples, or be lost entirely.
 fn tolerance(area: f64) -> f64 {
     if (0.1..0.95).contains(&area) {
         2e-5
@@ -38,7 +38,7 @@ fn tolerance(area: f64) -> f64 {
     }
 }
 
-/// Before nothing, whatever the number of samples asked for.
+/// A triangle on its own covers its exact area, whatever the number of samples.
 #[test]
 fn a_triangle_covers_its_area() {
     on_gpu(|gpu| {
@@ -50,7 +50,7 @@ fn a_triangle_covers_its_area() {
                 stage.add(0, corners.map(|at| seen_at(at, 2.0, SIZE[1])));
                 let image = stage.render(gpu, &by_area(samples));
                 for (index, color) in image.colors.iter().enumerate() {
-                    let area = in_pixel(corners, centre(index));
+                    let area = triangle_area(corners, centre(index));
                     let tolerance = tolerance(area);
                     let error = (f64::from(color[0]) - area).abs();
                     assert!(
@@ -63,8 +63,8 @@ fn a_triangle_covers_its_area() {
     });
 }
 
-/// Two surfaces, each of two triangles, the nearer one before the farther one: shares add up to one everywhere, and
-/// the nearer one has its area.
+/// Two surfaces of two triangles each overlap: their shares add up to one everywhere, and the nearer surface has its
+/// exact area.
 #[test]
 fn what_is_left_goes_to_what_lies_behind() {
     on_gpu(|gpu| {
@@ -82,7 +82,7 @@ fn what_is_left_goes_to_what_lies_behind() {
             for (index, color) in image.colors.iter().enumerate() {
                 let [red, green, ..] = color.map(f64::from);
                 assert!((red + green - 1.0).abs() < 1e-6, "pixel {index}: {color:?}");
-                let area = in_pixel(front, centre(index));
+                let area = triangle_area(front, centre(index));
                 let tolerance = tolerance(area);
                 assert!(
                     (red - area).abs() <= tolerance,
@@ -93,7 +93,7 @@ fn what_is_left_goes_to_what_lies_behind() {
     });
 }
 
-/// Few samples and many find the same areas.
+/// Areas do not depend on the number of samples.
 #[test]
 fn superpixels_that_few_samples_settle_take_no_more() {
     on_gpu(|gpu| {

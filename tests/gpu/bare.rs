@@ -1,4 +1,4 @@
-//! Memory of passes that are run by themselves, without a scene.
+//! Memory for passes that are run on their own, without a scene.
 
 use ash::vk;
 use gpc::render::Headless;
@@ -8,7 +8,7 @@ use gpc::testing::{
 };
 use std::sync::Arc;
 
-/// A scene that no pass of these reads.
+/// Scene that these passes do not read.
 pub struct Unread;
 
 impl Content for Unread {
@@ -49,18 +49,18 @@ impl Content for Unread {
     }
 }
 
-/// Resources of some sizes.
+/// Resources of given sizes.
 pub struct Bare {
     pub memory: Memory,
     pub layout: Arc<FrameLayout>,
     pub resources: Resources,
-    /// What no pass reads, but descriptors show.
+    /// Objects that descriptors refer to but no pass reads.
     _shown: (RasterTargets, Buffer),
 }
 
 impl Bare {
     pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
-        // SAFETY: passes have the sizes of these resources; tests wait for their commands.
+        // SAFETY: passes are run with the sizes of these resources, and tests wait for their commands.
         let (layout, memory) =
             unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
         let targets =
@@ -91,7 +91,7 @@ impl Bare {
         }
     }
 
-    /// A buffer of the host's that another one may be copied to.
+    /// A buffer in host memory to which another one may be copied.
     pub fn like(&self, buffer: &Buffer) -> Buffer {
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         self.memory
@@ -103,7 +103,7 @@ impl Bare {
 pub fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
     let size = from.size().min(to.size());
     let all = [vk::BufferCopy::default().size(size)];
-    // SAFETY: the commands are being recorded; both buffers were made for copies and outlive them.
+    // SAFETY: the commands are being recorded; both buffers were created for copies and outlive them.
     unsafe {
         gpu.gpu()
             .device()

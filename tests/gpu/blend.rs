@@ -1,4 +1,4 @@
-//! BLEND surfaces, composited per sample in exact order of depth, against a sum over the twin's surfaces.
+//! BLEND surfaces, composited per sample in exact order of depth and compared with a sum over the twin's surfaces.
 
 use gpc::render::{Headless, Method, Rendered, Shading};
 use gpc::sampling::Pattern;
@@ -9,10 +9,10 @@ use crate::stage::{Stage, centre, everywhere, flat, on_gpu, once, seen_at};
 use crate::twin::Twin;
 
 const SIZE: [u32; 2] = [48, 40];
-/// Of [`deep`].
+/// Number of panes of [`deep`].
 const PANES: usize = 12;
 
-/// Panes that cross each other, through and before an opaque wall with a hole in it.
+/// Panes that intersect each other, through and in front of an opaque wall with a hole.
 pub fn panes() -> Stage {
     let mut stage = Stage::new(vec![
         flat([0.125, 0.5, 0.25, 1.0], AlphaMode::Opaque),
@@ -32,10 +32,10 @@ pub fn panes() -> Stage {
         ]
     };
     quad(0, upright(4.0, 4.0, -22.0, -3.3));
-    // Two panes that cross, one of them through the wall.
+    // Two panes intersect; one of them also intersects the wall.
     quad(1, upright(2.0, 6.0, -20.3, 19.1));
     quad(2, upright(6.5, 1.5, -19.7, 21.4));
-    // Three in a stack, of which two coincide.
+    // Three panes are behind one another; two of them coincide.
     quad(3, upright(3.0, 3.0, -9.2, 8.8));
     quad(3, upright(3.0, 3.0, -9.2, 8.8));
     quad(1, upright(3.5, 3.5, -11.9, 6.1));
@@ -51,8 +51,8 @@ pub fn panes() -> Stage {
     stage
 }
 
-/// A wall, and panes before and through it that all cross each other: most samples see another chain of layers than
-/// their neighbours. Every other pane is glossy where they are `lit`.
+/// A wall, and intersecting panes in front of and through it: neighbouring samples usually see different layers. With
+/// `lit`, every other pane is glossy.
 fn deep(lit: bool) -> Stage {
     let mut random = Random::new(3);
     let mut channel = || random.below(65) as f32 / 64.0;
@@ -80,7 +80,7 @@ fn deep(lit: bool) -> Stage {
     stage
 }
 
-/// Small panes over nothing, many of them in each pixel.
+/// Many small panes in each pixel over an empty background.
 fn confetti() -> Stage {
     let mut random = Random::new(5);
     let mut stage = Stage::new(
@@ -98,8 +98,8 @@ fn confetti() -> Stage {
     stage
 }
 
-/// What one sample sees over a background, premultiplied, and whether rounding may change it. BLEND surfaces come
-/// first in the search, from the nearest on.
+/// Premultiplied colour of a sample over a background, and whether rounding may change it. BLEND surfaces are searched
+/// first, starting from the nearest.
 fn composite(
     stage: &Stage,
     twin: &Twin,
@@ -113,7 +113,7 @@ fn composite(
     let mut color = back;
     loop {
         let seen = twin.without(pixel, sample, &hidden);
-        // The two coincident panes tie to the bit, which is no contest.
+        // The coincident panes have bit-identical depths, so that their order is certain.
         let tie = seen.second == seen.nearest.map(|hit| hit.depth);
         contested |= seen.contested() && !tie || seen.edge_margin < 1.0 / 1024.0;
         let Some(hit) = seen.nearest else { break };
@@ -132,7 +132,7 @@ fn composite(
     (color, contested)
 }
 
-/// How far two images are apart at the most, in any channel of any pixel.
+/// Largest difference of two images, over all channels of all pixels.
 fn distance(first: &Rendered, second: &Rendered) -> f32 {
     assert_eq!(first.colors.len(), second.colors.len());
     let channels = |image: &Rendered| image.colors.clone().into_iter().flatten();
@@ -140,8 +140,8 @@ fn distance(first: &Rendered, second: &Rendered) -> f32 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// Records that samples share hold what each would see: unlit surfaces look the same wherever they are shaded, lit ones
-/// nearly so.
+/// Visibility samples that samples share have the colours that each sample would have: exactly for unlit surfaces, and
+/// nearly for lit ones.
 #[test]
 fn shared_layers_are_those_of_each_sample() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! The covered share of pixels, measured on the device, against closed forms: rotated and shrinking squares.
+//! Coverage measured on the device, compared with closed forms for rotated and shrinking squares.
 
 use gpc::reference::edge::triangle_area;
 use gpc::render::Headless;
@@ -11,8 +11,8 @@ const SIZE: [u32; 2] = [128, 128];
 /// Distance between the squares' centres in pixels.
 const PITCH: f64 = 8.0;
 
-/// The corners of the squares: sides from a quarter of a pixel to five, turned by angles over a quarter turn, their
-/// centres anywhere in a pixel.
+/// Corners of the squares: their sides are from a quarter of a pixel to five pixels, their angles cover a quarter
+/// turn, and their centres are anywhere in a pixel.
 fn squares() -> Vec<[[f64; 2]; 4]> {
     let count = (f64::from(SIZE[0]) / PITCH) as u32;
     let places = (0..count * count).map(|index| {
@@ -42,7 +42,7 @@ fn squares() -> Vec<[[f64; 2]; 4]> {
         .collect()
 }
 
-/// Root mean square error of the coverage of pixels that an edge passes.
+/// Root mean squared error of the coverage of pixels that an edge crosses.
 fn error(gpu: &mut Headless, stage: &Stage, areas: &[f64], pattern: Pattern, samples: u32) -> f64 {
     let rendered = stage.render(gpu, &everywhere(SIZE, pattern, samples));
     let (mut squares, mut count) = (0.0, 0.0);
@@ -54,7 +54,7 @@ fn error(gpu: &mut Headless, stage: &Stage, areas: &[f64], pattern: Pattern, sam
             !empty_or_full || (covered - area).abs() < 1e-6,
             "{covered} of a pixel whose area is {area}"
         );
-        // White on black: colour is coverage.
+        // The square is white on black, so that colour equals coverage.
         assert_eq!(color[0], color[3]);
         if !empty_or_full {
             squares += (covered - area).powi(2);
@@ -90,7 +90,7 @@ fn coverage_converges_to_the_area() {
         for pattern in [Pattern::Sobol, Pattern::Lattice] {
             let counts = [4, 16, 64, 256, 1024];
             let errors = counts.map(|samples| error(gpu, &stage, &areas, pattern.clone(), samples));
-            // A third above what straight edges give, since corners lie in many of these pixels.
+            // The bound is a third above that of straight edges, because many of these pixels contain corners.
             for (samples, error) in counts.into_iter().zip(errors) {
                 let bound = 0.4 * f64::from(samples).powf(-0.75);
                 assert!(

@@ -1,4 +1,4 @@
-//! Detection on the device against the CPU's, pixel by pixel.
+//! Detection on the device, compared with the CPU's pixel by pixel.
 
 use gpc::color::srgb::{decode_u8, encode};
 use gpc::reference::detect::{Frame, Mode, superpixels};
@@ -14,7 +14,7 @@ use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 const SIZES: [[u32; 2]; 3] = [[64, 64], [37, 23], [8, 4]];
 pub const CONTRAST: u8 = 12;
 
-/// A tiling with holes whose colours have code values that differ by about the threshold.
+/// A tiling with holes, whose colours differ by about the threshold.
 pub fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
     let mut random = Random::new(seed);
     let mesh = delaunay(seed, f64::from(size[0]) / 2.0, 20, Depths::Random);
@@ -31,7 +31,7 @@ pub fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
     stage
 }
 
-/// The superpixels that the device finds, those that grow included.
+/// Superpixels that the device finds, including those that grow.
 fn found(
     gpu: &mut Headless,
     stage: &Stage,
@@ -58,8 +58,8 @@ fn found(
     marked
 }
 
-/// The code values of a linear image, red in the lowest byte, and which pixels are too near to a step between two codes
-/// to tell.
+/// Code values of a linear image, red in the lowest byte, and whether each pixel is too close to a rounding boundary
+/// to be certain.
 pub fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
     let each = rendered.colors.iter().map(|&[r, g, b, a]| {
         let exact = [r, g, b].map(|v| 255.0 * encode(f64::from(v)));
@@ -70,14 +70,14 @@ pub fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
     each.unzip()
 }
 
-/// The superpixels of the CPU, before any grow.
+/// Superpixels that the CPU finds, without growth.
 fn expected(size: [u32; 2], ids: &[u32], blend: &[u32], codes: &[u32], mode: Mode) -> Vec<bool> {
     let [width, height] = size;
     let frame = Frame::new(width, height, ids, blend, codes).unwrap();
     pixels(size, &superpixels(&frame, mode))
 }
 
-/// A mask of tiles as one value a pixel.
+/// Mask of tiles as a value for each pixel.
 pub fn pixels(size: [u32; 2], mask: &[u32]) -> Vec<bool> {
     let [width, height] = size;
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -97,7 +97,7 @@ pub fn near(marks: &[bool], size: [u32; 2], pixel: usize) -> bool {
         .any(|y| (x.saturating_sub(1)..(x + 2).min(width)).any(|x| marks[y * width + x]))
 }
 
-/// Whether the device may have found a pixel that the rule alone does not: those that it finds grow.
+/// Whether the device may have found a superpixel that the CPU did not, because it grew.
 fn may_grow(found: bool, expected: &[bool], size: [u32; 2], pixel: usize, mode: Mode) -> bool {
     found && matches!(mode, Mode::Contrast(_)) && near(expected, size, pixel)
 }
@@ -108,7 +108,7 @@ const MODES: [(Detection, Mode); 3] = [
     (Detection::Contrast, Mode::Contrast(CONTRAST)),
 ];
 
-/// Every colour is a code value, so that there is nothing to round: the masks are the same.
+/// Every colour is exactly a code value, so that nothing is rounded and the masks are identical.
 #[test]
 fn masks_of_whole_codes_are_the_twins() {
     on_gpu(|gpu| {
@@ -142,8 +142,8 @@ fn masks_of_whole_codes_are_the_twins() {
     });
 }
 
-/// With tone mapping, panes of BLEND triangles in front and colours between two codes. Pixels beside one that rounding
-/// may change are excused, and are few.
+/// Scenes with tone mapping, BLEND panes and colours between two codes. Pixels beside one that rounding may change are
+/// excused; there are few of them.
 #[test]
 fn masks_of_blended_scenes_are_the_twins() {
     on_gpu(|gpu| {
@@ -167,7 +167,7 @@ fn masks_of_blended_scenes_are_the_twins() {
             .tonemapped_detection(true);
         let base = stage.render(gpu, &settings);
         let (codes, doubtful) = codes(&base);
-        // With BLEND made opaque, the device shows which of its triangles is the nearest.
+        // With BLEND made opaque, the device shows the nearest of these triangles.
         let mut solid = stage.clone();
         solid.materials[1].alpha_mode = AlphaMode::Opaque;
         let nearest = ids(&solid.render(gpu, &settings)).into_iter();
@@ -193,7 +193,7 @@ fn masks_of_blended_scenes_are_the_twins() {
     });
 }
 
-/// Alpha alone tells a black surface from a transparent background.
+/// Alpha alone distinguishes a black surface from a transparent background.
 #[test]
 fn black_contrasts_with_a_transparent_background() {
     on_gpu(|gpu| {
@@ -205,14 +205,14 @@ fn black_contrasts_with_a_transparent_background() {
         assert!(exact.contains(&true));
         let edges = found(gpu, &stage, &once(size), Detection::Edges);
         assert!(edges == exact);
-        // Superpixels grow.
+        // This finds superpixels that grew too.
         let contrast = found(gpu, &stage, &once(size), Detection::Contrast);
         let mut pairs = contrast.iter().zip(&exact);
         assert!(pairs.all(|(&contrast, &exact)| contrast || !exact));
     });
 }
 
-/// Twelve wires a tenth of a pixel wide, at `distance`, before a black wall.
+/// Twelve wires a tenth of a pixel wide at `distance`, in front of a black wall.
 pub fn wires(size: [u32; 2], distance: f64) -> Stage {
     let mut stage = Stage::new(vec![
         flat([1.0; 4], AlphaMode::Opaque),
@@ -234,7 +234,7 @@ pub fn wires(size: [u32; 2], distance: f64) -> Stage {
     stage
 }
 
-/// Wires that few pixel centres see keep their energy only if they make superpixels unseen.
+/// Wires that cover few pixel centres keep their energy only if the pixels that they cross become superpixels.
 #[test]
 fn unseen_wires_make_superpixels() {
     on_gpu(|gpu| {
@@ -258,7 +258,7 @@ fn unseen_wires_make_superpixels() {
     });
 }
 
-/// Where nothing contrasts, nothing is sampled, and the passes after detection are reported as skipped.
+/// If nothing contrasts, nothing is sampled, and the passes after detection are reported as skipped.
 #[test]
 fn an_image_without_edges_has_no_superpixels() {
     on_gpu(|gpu| {
@@ -267,7 +267,7 @@ fn an_image_without_edges_has_no_superpixels() {
         stage
             .materials
             .push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
-        // One triangle before everything.
+        // A triangle covers everything.
         let wall = [[0.0, -200.0], [-200.0, 200.0], [200.0, 200.0]];
         stage.add(1, wall.map(|place| seen_at(place, 0.05, size[1])));
         for (detection, _) in MODES {
@@ -285,7 +285,7 @@ fn an_image_without_edges_has_no_superpixels() {
     });
 }
 
-/// Stripes painted on a surface of one triangle, by a texture with such a filter.
+/// A triangle with painted stripes, whose texture has this filter.
 fn stripes(size: [u32; 2], filter: Filter, alpha: AlphaMode) -> Stage {
     let mut stage = Stage::new(vec![textured(alpha)]);
     stage.texture = Some((
@@ -307,7 +307,8 @@ fn stripes(size: [u32; 2], filter: Filter, alpha: AlphaMode) -> Stage {
     stage
 }
 
-/// Paint makes superpixels amid a triangle where it contrasts, and is shaded in parts there; edges alone find none of it.
+/// Contrasting paint on a single triangle makes superpixels, which are shaded in parts; detection of edges alone
+/// ignores paint.
 #[test]
 fn paint_makes_superpixels() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! One device as if it were others: with larger and smaller subgroups, and with the limits that every device has.
+//! One device that simulates others: larger and smaller subgroups, and the limits that Vulkan guarantees.
 
 use gpc::render::{
     Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError, Rendered,
@@ -11,26 +11,26 @@ use gpc::vulkan::{Limits, VulkanError};
 use crate::scenes::ball_over_checker;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
-/// Runs a test on a device of lower limits; fails if the validation layer has anything to say about it.
+/// Runs a test on a device with lower limits; fails if the validation layer reports a message.
 pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
     let options = HeadlessOptions {
         validation: true,
         ..HeadlessOptions::default()
     };
-    // SAFETY: tests lower limits alone.
+    // SAFETY: tests only lower limits.
     let mut gpu = unsafe { Headless::within(&options, lower) }.unwrap();
     test(&mut gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }
 
-/// As many lanes as subgroups have invocations.
+/// Number of lanes that kernels use on this device.
 fn lanes() -> u32 {
     let mut lanes = 0;
     on_gpu(|gpu| lanes = gpu.gpu().limits().lanes);
     lanes
 }
 
-/// Panes before alpha-tested triangles before a checkerboard, so that each kernel has tiles of its own.
+/// Panes, alpha-tested triangles and a checkerboard behind each other, so that each kernel has tiles of its own.
 fn layered() -> Stage {
     let mut stage = ball_over_checker();
     for mode in [AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend] {
@@ -46,7 +46,7 @@ fn layered() -> Stage {
     stage
 }
 
-/// The largest difference of colours, and the root of the mean square of all.
+/// Largest difference of colours, and the root mean squared difference.
 fn differences(found: &Rendered, expected: &Rendered) -> (f32, f64) {
     assert_eq!(found.colors.len(), expected.colors.len());
     let pairs = found.colors.iter().zip(&expected.colors);
@@ -60,8 +60,8 @@ fn differences(found: &Rendered, expected: &Rendered) -> (f32, f64) {
     (largest, (squares / count).sqrt())
 }
 
-/// Half of each subgroup idles, as on devices whose subgroups are larger than kernels use. With 4 invocations, cells that see
-/// more than 4 surfaces go by samples instead of areas.
+/// Half of each subgroup is idle, as on devices whose subgroups are larger than kernels use. With 4 invocations, cells
+/// that see more than 4 surfaces use samples instead of areas.
 #[test]
 fn larger_subgroups_make_the_same_image() {
     if lanes() == 4 {
@@ -95,7 +95,8 @@ fn larger_subgroups_make_the_same_image() {
     }
 }
 
-/// On a device that may be taken away, an image is submitted in parts, the smaller the more samples a pixel has, and is the same.
+/// On a device that may be reset, an image is submitted in parts, which are smaller for more samples a pixel; the
+/// image is the same.
 #[test]
 fn long_work_is_submitted_in_parts() {
     let stage = layered();
@@ -116,14 +117,14 @@ fn long_work_is_submitted_in_parts() {
     }
 }
 
-/// Kernels that find subgroups smaller than they were made for say so: no image is made of what they did.
+/// Kernels that run in smaller subgroups than they were made for report it, and no image is returned.
 #[test]
 fn other_subgroups_are_an_error() {
     let stage = ball_over_checker();
     let lowered: [fn(&mut Limits); 2] = [
-        // All kernels but those that list spans.
+        // This affects all kernels but those that list spans.
         |limits| limits.lanes *= 2,
-        // Those that list spans.
+        // This affects the kernels that list spans.
         |limits| limits.subgroup_size *= 2,
     ];
     for (lower, method) in lowered
@@ -157,13 +158,13 @@ fn other_subgroups_are_an_error() {
     }
 }
 
-/// The least that any device has.
+/// Limits that Vulkan guarantees on every device.
 fn guaranteed(limits: &mut Limits) {
     limits.max_texel_elements = 1 << 16;
     limits.max_storage_bytes = 1 << 27;
 }
 
-/// More pixels, records and candidates than a texel buffer holds: the image is made in regions.
+/// An image with more pixels, visibility samples and candidates than a texel buffer holds is rendered in regions.
 #[test]
 fn small_texel_buffers_make_the_same_image() {
     let stage = layered();
@@ -179,7 +180,7 @@ fn small_texel_buffers_make_the_same_image() {
     });
 }
 
-/// A scene that no texel buffer holds is refused by name, not drawn in part.
+/// A scene that no texel buffer can hold is refused with an error, not drawn in part.
 #[test]
 fn scenes_beyond_texel_buffers_are_refused() {
     let mut stage = Stage::new(vec![Material::default()]);
@@ -204,7 +205,7 @@ fn scenes_beyond_texel_buffers_are_refused() {
 /// Dispatches over more than 32,768 workgroups have a second row.
 #[test]
 fn the_last_of_many_triangles_is_sampled() {
-    // A triangle for each of 32,768 workgroups of 64 invocations that take 8 each, and some.
+    // There are a few more triangles than 32,768 workgroups of 64 invocations with 8 triangles each process.
     const MANY: u32 = (1 << 24) + 64;
     const MESH: u32 = 1 << 16;
     let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
@@ -219,7 +220,7 @@ fn the_last_of_many_triangles_is_sampled() {
         first_index,
         transform: glam::DAffine3::IDENTITY,
     };
-    // The triangle that shows comes last.
+    // The visible triangle is the last one.
     let mut first_index = 0;
     while first_index < MANY {
         let some = instance(64, MESH - 64, first_index);

@@ -1,4 +1,4 @@
-//! What tiles, cells and groups `distribute` makes of a list, against the CPU's.
+//! Tiles, cells and groups that `distribute` makes of a list, compared with the CPU's.
 
 use gpc::bench::Random;
 use gpc::reference::distribute::{Location, Region};
@@ -14,10 +14,10 @@ use crate::stage::on_gpu;
 use crate::submit::submit;
 
 const SAMPLES: u32 = 16;
-/// Tiles of the region.
+/// Width and height of the region in tiles.
 const TILES: [u32; 2] = [13, 21];
 
-/// What the device made of a list.
+/// Output of the device for a list.
 struct Found {
     counters: Vec<u32>,
     masks: Vec<u32>,
@@ -60,7 +60,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
     }
     let resources = &bare.resources;
     let listed = resources.listed().unwrap();
-    // SAFETY: the list goes with the resources, which outlive this.
+    // SAFETY: the list lives as long as the resources, which outlive this.
     let distribute =
         unsafe { Distribute::new(&bare.layout, cells, cell_sizes, resources, listed) }.unwrap();
     let own = &resources.locations;
@@ -74,7 +74,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
     ]
     .map(|buffer| (buffer, bare.like(buffer)));
     submit(gpu.gpu(), |commands| {
-        // SAFETY: the commands are waited for, and what they refer to outlives them.
+        // SAFETY: the commands are waited for, and everything to which they refer outlives them.
         let recorder = unsafe { Recorder::new(gpu.gpu(), commands, None) };
         let set = resources.set(0).unwrap();
         resources.record_upload(&recorder);
@@ -184,7 +184,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[Location], region: &Region) {
                 let [low, high] = region.bounds(&own);
                 for (middle, half, axis) in [(x, width, 0), (y, height, 1)] {
                     assert!(middle - half < low[axis] && middle + half > high[axis]);
-                    // A sixty-fourth of a pixel, and what rounding adds to large cells.
+                    // The margin is a sixty-fourth of a pixel, and the rounding of large cells.
                     let most = 0.5 * (high[axis] - low[axis]) * 1.00001 + 0.016;
                     assert!(half <= most, "{half} for {low:?} to {high:?}");
                 }
@@ -198,7 +198,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[Location], region: &Region) {
     }
 }
 
-/// Locations all over the region and around it, crowds in one pixel, cells of all sizes, and what is no location at all.
+/// Locations all over and around the region, crowds in one pixel, cells of all sizes, and invalid locations.
 fn list(random: &mut Random, count: usize) -> Vec<Location> {
     let side = [0, 1].map(|axis| f64::from(TILES[axis] * [8, 4][axis]));
     let crowd = [
@@ -239,7 +239,8 @@ fn lists_come_to_the_tiles_and_cells_that_they_lie_in() {
                 tiles: TILES,
                 points,
             };
-            // With as many, a crowd makes more cells in its tile than CPU drivers give a loop trips.
+            // The last list is so long that a crowd makes more cells in its tile than CPU drivers allow iterations of
+            // a loop.
             for count in [1, 63, 64, 65, 3_000, 400_000] {
                 let list = list(&mut random, count);
                 let (found, sizes) = distributed(gpu, cells, &list);

@@ -1,4 +1,4 @@
-//! Edges of meshes, against the polygons of those that show.
+//! Edges of meshes, compared with the polygons of the visible ones.
 
 use glam::{DQuat, DVec3, EulerRot};
 use gpc::camera::{Camera, Projection};
@@ -13,10 +13,10 @@ use crate::scene_builder::Builder;
 use crate::stage::{camera, centre, everywhere, on_gpu};
 
 const SIZE: [u32; 2] = [64, 48];
-/// Along each axis of a pixel.
+/// Number of samples along each axis of a pixel.
 const SAMPLES: usize = 12;
 
-/// A mesh of faces that share vertices.
+/// A mesh whose faces share vertices.
 struct Mesh {
     vertices: Vec<DVec3>,
     faces: Vec<[usize; 3]>,
@@ -42,7 +42,7 @@ impl Mesh {
         }
     }
 
-    /// Of rings around the y axis; its faces turn by less than what makes a crease.
+    /// A sphere of rings around the y axis, without creases.
     fn sphere() -> Self {
         let (rings, around) = (9, 16);
         let mut vertices = vec![DVec3::Y, DVec3::NEG_Y];
@@ -67,7 +67,7 @@ impl Mesh {
         Self { vertices, faces }
     }
 
-    /// One square of two faces.
+    /// A square of two faces.
     fn sheet() -> Self {
         let corners = [[-1.0, -0.8], [1.0, -0.9], [0.9, 1.0], [-0.7, 0.8]];
         Self {
@@ -89,7 +89,7 @@ impl Mesh {
         self
     }
 
-    /// Its edges: creases where faces turn by more than 30 degrees.
+    /// Edges of the mesh; those between faces that turn by more than 30 degrees are creases.
     fn edges(&self, is_double_sided: bool) -> Vec<Edge> {
         let mut known: BTreeMap<[usize; 2], [Option<usize>; 2]> = BTreeMap::new();
         for face in &self.faces {
@@ -116,7 +116,7 @@ impl Mesh {
         edges.collect()
     }
 
-    /// What the edges that show cover of each pixel.
+    /// Number of visible edges, and the share of each pixel that they cover.
     fn covered(&self, is_double_sided: bool, camera: &Camera, width: f64) -> (usize, Vec<f64>) {
         let [w, h] = SIZE.map(f64::from);
         let matrix = camera.pixel_matrix(DVec3::ZERO, w, h);
@@ -152,7 +152,7 @@ impl Mesh {
         (polygons.len(), (0..count).map(share).collect())
     }
 
-    /// How much of each pixel its edges cover in an image.
+    /// Share of each pixel that the edges cover in a rendered image.
     fn drawn(&self, gpu: &mut Headless, settings: &Settings, look: &Look) -> Vec<f32> {
         let mut builder = Builder::new();
         let sign = if look.is_mirrored { -1.0 } else { 1.0 };
@@ -160,7 +160,7 @@ impl Mesh {
             let [x, y, z] = self.vertices[*v].as_vec3().to_array();
             [sign * x, y, z]
         };
-        // Vertices of their own, as flat meshes have them.
+        // Faces have their own vertices, as in meshes with flat shading.
         let wound = |[a, b, c]: &[usize; 3]| {
             if look.is_mirrored {
                 [*a, *c, *b]
@@ -230,7 +230,7 @@ fn settings(edge_width: f32) -> Settings {
     everywhere(SIZE, Pattern::Sobol, 256).edge_width(edge_width)
 }
 
-/// All edges that show of something convex are before its faces, and none of those that do not.
+/// All visible edges of a convex mesh are in front of its faces, and all others behind them.
 #[test]
 fn edges_are_not_hidden_by_their_faces() {
     on_gpu(|gpu| {
@@ -240,7 +240,7 @@ fn edges_are_not_hidden_by_their_faces() {
                     Mesh::cube()
                         .placed(turn, 2.2)
                         .check(gpu, &settings(width), &Look::new());
-                // Of twelve; a face that is nearly edge-on may show or not.
+                // A cube has twelve edges; those of a face that is almost edge-on may be visible or not.
                 assert!((4..=9).contains(&shown), "{shown} of a cube's");
                 Mesh::sphere()
                     .placed(turn, 2.0)
@@ -286,7 +286,7 @@ fn a_mirrored_mesh_has_the_same_edges() {
 #[test]
 fn boundaries_show_with_their_surface() {
     on_gpu(|gpu| {
-        // From before and from behind.
+        // The sheet is seen from the front and from behind.
         for (turn, is_double_sided, expected) in [
             ([0.2, 0.3, 0.1], false, 4),
             ([0.2, 3.4, 0.1], false, 0),
@@ -303,7 +303,7 @@ fn boundaries_show_with_their_surface() {
     });
 }
 
-/// Where the image aliases alone.
+/// Thin edges are found where the image aliases.
 #[test]
 fn thin_edges_are_found() {
     on_gpu(|gpu| {

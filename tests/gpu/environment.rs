@@ -1,5 +1,5 @@
-//! Surfaces lit by an environment map: a white furnace, which shows nothing of a surface that keeps all light, and skies with
-//! a closed form.
+//! Surfaces lit by an environment map: a white furnace, in which a surface that loses no light is invisible, and skies
+//! with a closed form.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use serde_json::json;
 use crate::scene_builder::Builder;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
-/// Odd, so that a pixel's centre is the image's.
+/// Size of the image; it is odd, so that a pixel's centre is the image's centre.
 const SIZE: [u32; 2] = [9, 9];
 const MIDDLE: usize = 40;
 
-/// What the eye sees, at the image's centre, of a surface turned by `degrees` about the vertical axis.
+/// Colour at the image's centre of a surface that is turned by `degrees` about the vertical axis.
 fn seen(gpu: &mut Headless, material: &Material, sky: &Environment, degrees: f64) -> [f64; 4] {
     let mut stage = Stage::new(vec![material.clone()]);
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -50,7 +50,7 @@ fn white(roughness: f32, lobes: Lobes) -> Material {
     }
 }
 
-/// Radiance as a function of the direction.
+/// Environment whose radiance is a function of the direction.
 fn sky(radiance: impl Fn(DVec3) -> [f32; 3]) -> Environment {
     let (width, height) = (64_u32, 32_u32);
     let pixels: Vec<[f32; 3]> = (0..width * height)
@@ -166,7 +166,7 @@ fn a_white_furnace_neither_gains_nor_loses() {
                 assert!(near, "{name} at {degrees} degrees: {found:?}");
             }
         }
-        // What a pane does not reflect it lets through, to what lies behind.
+        // A pane transmits the light that it does not reflect.
         let pane = Lobes {
             transmission: Some(Transmission {
                 factor: 1.0,
@@ -182,7 +182,7 @@ fn a_white_furnace_neither_gains_nor_loses() {
             let sum = light + 1.0 - found[3];
             assert!((sum - 1.0).abs() < 0.005, "a pane: {found:?}");
         }
-        // The model of one bounce loses 0.55 of a rough metal's roughness.
+        // The model of a single bounce loses 0.55 at the roughness of this metal.
         let metal = Material {
             metallic: 1.0,
             ..white(0.4, plain)
@@ -192,8 +192,8 @@ fn a_white_furnace_neither_gains_nor_loses() {
     });
 }
 
-/// Of a sky that changes with the direction, a matt surface gathers what the coefficients say, and a mirror shows the place
-/// that it looks at, however the sky is turned.
+/// In a sky that changes with the direction, a matt surface has the irradiance of the coefficients, and a mirror shows
+/// the place at which it looks, however the sky is turned.
 #[test]
 fn the_sky_turns() {
     on_gpu(|gpu| {
@@ -218,7 +218,7 @@ fn the_sky_turns() {
         };
         for turn in [0.0_f64, 30.0, 200.0] {
             let sky = sky(colors).turned(turn.to_radians());
-            // Where the map has what is seen in a world direction.
+            // This is the direction in the map of a direction in the world.
             let (sin, cos) = turn.to_radians().sin_cos();
             let in_map = |d: DVec3| DVec3::new(d.x * cos - d.z * sin, d.y, d.x * sin + d.z * cos);
             for degrees in [0.0_f64, 35.0] {
@@ -236,7 +236,7 @@ fn the_sky_turns() {
                         (found - expected).abs() < 0.02,
                         "matt, {turn}, {degrees}: {found}, expected {expected}"
                     );
-                    // Its roughness of 0.04 costs 2.2 %.
+                    // The mirror's roughness of 0.04 costs 2.2 %.
                     let (shown, expected) = (shown[channel], f64::from(looked_at[channel]));
                     assert!(
                         (shown - expected * 0.978).abs() < 0.03,
@@ -248,7 +248,7 @@ fn the_sky_turns() {
     });
 }
 
-/// A light that half floats cannot hold is as bright as it is.
+/// A light that is too bright for half floats keeps its brightness.
 #[test]
 fn a_bright_sky_is_not_cut_off() {
     on_gpu(|gpu| {
@@ -258,7 +258,7 @@ fn a_bright_sky_is_not_cut_off() {
     });
 }
 
-/// A file's own light that is alike all around is the one that an image makes.
+/// A uniform environment in a glTF file equals one that is made from an image.
 #[test]
 fn a_files_own_light_shines_as_an_image_does() {
     on_gpu(|gpu| {

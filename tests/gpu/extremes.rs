@@ -1,4 +1,4 @@
-//! Scenes and images at the ends of what there can be.
+//! Extreme scenes and images.
 
 use gpc::render::{Headless, HeadlessOptions, MethodKind, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
@@ -7,11 +7,11 @@ use gpc::scene::AlphaMode;
 use crate::meshes::{Depths, delaunay};
 use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, seen_at};
 
-/// Every method, with attributes where it has them.
+/// Settings for every method, with attributes if it supports them.
 fn all_methods(size: [u32; 2]) -> [Settings; 5] {
     let method = |method: MethodKind, samples| {
         once(size)
-            // Multisampling has no IDs of pixel centres.
+            // With multisampling, pixel centres have no IDs.
             .attributes(method != MethodKind::Msaa)
             .method(method.with_samples(samples))
             .map_superpixels(|options| options.thin(false))
@@ -56,7 +56,8 @@ fn a_scene_without_triangles_is_background() {
 fn what_is_out_of_view_is_background() {
     on_gpu(|gpu| {
         let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
-        // Behind the eye, before the near plane, left, right, above and below.
+        // The triangles are behind the eye, in front of the near plane, and to the left, right, top and bottom of the
+        // view.
         stage.add(0, [[-1.0, -1.0, 3.0], [1.0, -1.0, 3.0], [0.0, 1.0, 3.0]]);
         stage.add(
             0,
@@ -74,7 +75,7 @@ fn what_is_out_of_view_is_background() {
     });
 }
 
-/// No area, edge-on, or thinner than any sample's distance from the next.
+/// Triangles without an area, edge-on, or thinner than the distance between samples.
 #[test]
 fn degenerate_triangles_cover_nothing() {
     on_gpu(|gpu| {
@@ -85,7 +86,7 @@ fn degenerate_triangles_cover_nothing() {
             0,
             [[0.25, -1.0, -1.0], [0.25, 0.0, -1.0], [0.25, 1.0, -1.0]],
         );
-        // In a plane through the eye.
+        // The triangle is in a plane through the eye.
         stage.add(0, [[0.0, 1.0, -1.0], [0.0, -1.0, -1.0], [0.0, 0.0, -9.0]]);
         stage.add(
             0,
@@ -127,7 +128,7 @@ fn images_of_any_size_are_covered_to_their_borders() {
     });
 }
 
-/// Depth is the distance along the view, over five powers of ten.
+/// Depth is the distance along the view direction, over five powers of ten.
 #[test]
 fn attributes_are_those_of_the_surface() {
     on_gpu(|gpu| {
@@ -148,7 +149,7 @@ fn attributes_are_those_of_the_surface() {
     });
 }
 
-/// A device of its own, made, used and taken down without a word of the validation layer.
+/// A device is created, used and destroyed without a message of the validation layer.
 #[test]
 fn a_whole_life_is_valid() {
     let options = HeadlessOptions {

@@ -1,4 +1,4 @@
-//! Two images as they were, and a test of the comparison itself.
+//! Two golden images, and a test of the comparison itself.
 
 use gpc::color::srgb::encode_u8;
 use gpc::render::{Method, Rendered, Settings};
@@ -10,7 +10,7 @@ use crate::stage::on_gpu;
 
 const SIZE: [u32; 2] = [96, 64];
 
-/// The image as it is displayed, its alpha straight.
+/// The displayed image, with straight alpha.
 fn displayed(rendered: &Rendered) -> RgbaImage {
     RgbaImage::from_fn(SIZE[0], SIZE[1], |x, y| {
         let [r, g, b, a] = rendered.colors[(y * SIZE[0] + x) as usize].map(f64::from);
@@ -44,7 +44,7 @@ fn the_comparison_can_fail() {
     let check = |image: &RgbaImage| compare(&folder(), "superpixels", image);
     check(&golden).unwrap();
 
-    // A little everywhere, or a lot in ten pixels, is let pass.
+    // A small difference everywhere, or a large one in ten pixels, is accepted.
     let mut close = golden.clone();
     for pixel in close.pixels_mut() {
         pixel.0 = pixel.0.map(|v| v.saturating_add(3));

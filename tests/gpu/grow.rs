@@ -1,4 +1,4 @@
-//! Superpixels that grow beside others, against the CPU's.
+//! Growth of superpixels, compared with the CPU's.
 
 use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::grow::grown;
@@ -11,8 +11,8 @@ use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
 
 const SIZE: [u32; 2] = [61, 43];
 
-/// Holds the superpixels of a mosaic against the twin's, with as many samples as let superpixels grow once and twice. Pixels beside one
-/// whose code rounding may change are excused, and are few.
+/// Compares the superpixels of a mosaic with the twin's, with numbers of samples that let them grow once and twice.
+/// Pixels beside one whose code rounding may change are excused; there are few of them.
 fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let base = render(&once(SIZE));
     let (seen, _) = codes(&base);
@@ -73,7 +73,7 @@ fn growths_of_locations_are_the_twins() {
     });
 }
 
-/// Superpixels grow over the borders of the bands in which the cells of an output are looked at where memory is short.
+/// Growth crosses the borders of the bands in which an output's cells are searched when memory is limited.
 #[test]
 fn growths_of_locations_do_not_depend_on_memory() {
     on_gpu(|gpu| {
@@ -84,14 +84,15 @@ fn growths_of_locations_do_not_depend_on_memory() {
             let settings = once(size).max_memory(max_memory).method(
                 SuperpixelOptions::new(144)
                     .contrast(Some(CONTRAST))
-                    // How many locations of a tile are sampled at once decides of which triangles areas are known.
+                    // The number of locations of a tile that are sampled together affects which triangles have exact
+                    // areas.
                     .coverage(Coverage::Samples)
                     .thin(false),
             );
             gpu.render_locations(&prepared, &rig, size, &settings)
         };
         let whole = render(None).unwrap();
-        // A band of all cells takes more than a quarter of either bound.
+        // A single band for all cells would take more than a quarter of either limit.
         for bound in [10 << 20, 8 << 20] {
             let parts = render(Some(bound)).unwrap();
             assert!(parts.attributes == whole.attributes, "{bound} bytes");
@@ -110,8 +111,8 @@ fn growths_of_locations_do_not_depend_on_memory() {
     });
 }
 
-/// The tips of wedges, narrower than a pixel, which no centre sees but superpixels beside them do. With as many samples as
-/// let superpixels grow twice.
+/// The tips of wedges are narrower than a pixel and cover no centre, but show in the superpixels beside them.
+/// Superpixels grow twice here.
 #[test]
 fn tips_that_no_centre_saw_are_found() {
     on_gpu(|gpu| {

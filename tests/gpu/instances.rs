@@ -1,4 +1,4 @@
-//! Instances against the same triangles in world space.
+//! Instances, compared with the same triangles in world space.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 use gpc::render::{Headless, MethodKind, Rendered, SceneRequest, Settings};
@@ -13,10 +13,10 @@ use crate::meshes::Random;
 use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, textured};
 
 const SIZE: [u32; 2] = [96, 64];
-/// Instances of each mesh.
+/// Number of instances of each mesh.
 const COPIES: usize = 12;
 
-/// A ball, a perforated square and a pane, each drawn often: turned, stretched, mirrored.
+/// A ball, a perforated square and a pane, each drawn several times: rotated, stretched and mirrored.
 fn scene() -> (Scene, Pose) {
     let mut stage = Stage::new(vec![
         Material {
@@ -35,7 +35,7 @@ fn scene() -> (Scene, Pose) {
         },
         Sampler::default(),
     ));
-    // More triangles than share a look-up of their instance, and no multiple of it.
+    // The mesh has more triangles than share a look-up of their instance, and not a multiple of that number.
     let at = |ring: u32, side: u32| {
         let [up, around] = [f64::from(ring) / 5.0, f64::from(side) / 9.0];
         let (sin, cos) = (up * std::f64::consts::PI).sin_cos();
@@ -100,7 +100,7 @@ fn render(gpu: &mut Headless, (scene, pose): (&Scene, &Pose), settings: &Setting
     gpu.render(&mut frame, &camera()).unwrap()
 }
 
-/// Root mean square difference of colours.
+/// Root mean squared difference of colours.
 fn difference(a: &Rendered, b: &Rendered) -> f64 {
     let pairs = a.colors.as_flattened().iter().zip(b.colors.as_flattened());
     let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
@@ -128,7 +128,7 @@ fn they_are_what_they_are_in_world_space() {
             ));
         }
         let pairs = found.attributes.iter().zip(&expected.attributes);
-        // The way to clip space is rounded otherwise, which a centre on an edge may show.
+        // The transform to clip space rounds differently, which may change a centre on an edge.
         let other = pairs.clone().filter(|(a, b)| a.id != b.id).count();
         assert!(other <= 2, "{other} pixels show another triangle");
         for (a, b) in pairs.filter(|(a, b)| a.id == b.id) {
@@ -154,7 +154,7 @@ fn every_method_sees_them() {
             let found = render(gpu, (&scene, &pose), &settings);
             let expected = render(gpu, (&scene, &world), &settings);
             let apart = difference(&found, &expected);
-            // A sample on an edge may be another triangle's: a fraction of a pixel in 6,144.
+            // A sample on an edge may belong to another triangle: a fraction of one of 6,144 pixels.
             assert!(
                 apart < 4e-3 / f64::from(samples).sqrt(),
                 "{method:?} {samples}: {apart}"
@@ -165,7 +165,8 @@ fn every_method_sees_them() {
 
 #[test]
 fn a_crowd_that_outgrows_its_room_is_drawn_all_the_same() {
-    /// Pairs of a triangle and a tile that an image of this size has room for at first, and more than enough triangles.
+    /// Number of pairs of a triangle and a tile for which an image of this size has room at first, with more than
+    /// enough triangles.
     const FIRST_ROOM: u64 = 160 * 16 * 8;
     const CROWD: u32 = 400;
     on_gpu(|gpu| {

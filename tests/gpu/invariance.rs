@@ -1,4 +1,4 @@
-//! What must not change an image: runs, the order of triangles and vertices, memory.
+//! Changes that must not change an image: repetition, the order of triangles and vertices, and memory.
 
 use glam::DMat3;
 use gpc::camera::Camera;
@@ -9,8 +9,8 @@ use gpc::scene::{AlphaMode, Material};
 use crate::meshes::{Depths, Random, delaunay, fan};
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
 
-/// A stage of `count` random triangles in sixteen colours whose sums over samples are exact, so that the order of
-/// summation, which is that of IDs, does not show. `blend` of them let others through.
+/// A stage of `count` random triangles in sixteen colours; `blend` of them are translucent. Sums of these colours over
+/// samples are exact, so that the order of summation, which follows the IDs, has no effect.
 fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);
     let mut channel = || random.below(65) as f32 / 64.0;
@@ -43,7 +43,7 @@ fn shuffle<T>(items: &mut [T], seed: u64) {
     }
 }
 
-/// Asserts that two images are the same to the bit.
+/// Asserts that two images are bit-identical.
 fn assert_same(first: &Rendered, second: &Rendered, what: &str) {
     let bits = |r: &Rendered| -> Vec<_> { r.colors.iter().map(|c| c.map(f32::to_bits)).collect() };
     let pairs = bits(first).into_iter().zip(bits(second));
@@ -52,7 +52,7 @@ fn assert_same(first: &Rendered, second: &Rendered, what: &str) {
     assert_eq!(first.colors.len(), second.colors.len(), "{what}");
 }
 
-/// With lit surfaces, their shading shared or not, and compositing.
+/// Repeated runs give the same bytes: with lit surfaces, with shared and separate shading, and with compositing.
 #[test]
 fn runs_give_the_same_bytes() {
     on_gpu(|gpu| {
@@ -85,7 +85,7 @@ fn runs_give_the_same_bytes() {
     });
 }
 
-/// The same frame object shows the same image, which takes several rounds, whether or not it showed nothing before.
+/// A frame object shows the same image, which takes several rounds, whether or not it showed an empty scene before.
 #[test]
 fn earlier_frames_do_not_matter() {
     on_gpu(|gpu| {
@@ -106,14 +106,15 @@ fn earlier_frames_do_not_matter() {
         let nothing = gpu.render(&mut frame, &away).unwrap();
         assert_eq!(nothing.statistics.superpixels, 0);
         let found = gpu.render(&mut frame, &camera()).unwrap();
-        // One round for the superpixels and one for their growth would be the least.
+        // One round for the superpixels and one for their growth would be the minimum.
         assert!(found.statistics.rounds > 2, "{}", found.statistics.rounds);
         assert_same(&expected, &found, "after a frame of less");
     });
 }
 
-/// Cells that see about as many triangles as a kernel of masks has room for, all of them about equally near, with what they
-/// hide behind them: some are left to another kernel, which measures areas otherwise, and always the same ones.
+/// Cells with about as many triangles as a kernel of masks has room for, all of them equally near, and hidden ones
+/// behind them. Some cells are left to another kernel, which measures areas differently; they must always be the same
+/// cells.
 #[test]
 fn crowded_cells_give_the_same_bytes() {
     on_gpu(|gpu| {
@@ -196,12 +197,12 @@ fn the_order_of_vertices_does_not_matter() {
     });
 }
 
-/// Bytes of an image with attributes, which no division of the work saves.
+/// Number of bytes of an image with attributes, which are needed however the work is divided.
 fn read_back_bytes(settings: &Settings) -> u64 {
     settings.size.map(u64::from).iter().product::<u64>() * 48
 }
 
-/// Renders with ever less memory, until there is too little.
+/// Renders with less and less memory, until it is too little.
 fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rendered> {
     let (scene, pose) = stage.build();
     let read_back = read_back_bytes(settings);
@@ -233,8 +234,8 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
     }
 }
 
-/// Less memory means more rounds, and then more regions. Neither shows in a superpixel. Regions may show in the IDs of
-/// `raster`: the device rounds a vertex to 2^-8 pixel after it has been moved into the region.
+/// Less memory means more rounds, and then more regions. Neither changes a superpixel. Regions may change the IDs of
+/// `raster`, because the device rounds vertices to 2^-8 pixel after moving them into the region.
 #[test]
 fn memory_does_not_matter() {
     on_gpu(|gpu| {
@@ -279,8 +280,8 @@ fn memory_does_not_matter() {
     });
 }
 
-/// Lists that outgrow their memory leave tiles without one. The frame is then made again with a kernel that tries every
-/// triangle in such tiles, and, as it is rendered again, with longer lists: neither shows.
+/// Lists that outgrow their memory leave tiles without one. The frame is then made again with a kernel that tries
+/// every triangle in such tiles, and the next time with longer lists. Neither changes the image.
 #[test]
 fn tiles_without_a_list_are_sampled_all_the_same() {
     on_gpu(|gpu| {

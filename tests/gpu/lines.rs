@@ -1,8 +1,8 @@
-//! Samples on lines, against the exact twin and against closed forms.
+//! Samples on lines, compared with the exact twin and with closed forms.
 
 use std::f64::consts::TAU;
 
-use gpc::reference::area::in_pixel;
+use gpc::reference::edge::triangle_area;
 use gpc::reference::lines::offsets;
 use gpc::render::{Headless, Settings, Shading};
 use gpc::sampling::Pattern;
@@ -15,7 +15,7 @@ use crate::visibility::soup;
 
 const SIZE: [u32; 2] = [32, 24];
 
-/// Both numbers of lines: up to 64 samples a superpixel, and beyond.
+/// Both numbers of lines: for up to 64 samples of a superpixel, and above.
 const SAMPLES: [(u32, u32); 2] = [(64, 8), (256, 16)];
 
 fn on_lines(samples: u32) -> Settings {
@@ -32,8 +32,8 @@ fn coded(mesh: &Mesh) -> Stage {
     stage
 }
 
-/// Each pixel shows the mean of what its samples see, in rows or in columns, as far as rounding does not decide. Pixels that
-/// points took are counted.
+/// Asserts that each pixel shows the mean of its samples on rows or on columns, as far as rounding does not decide.
+/// Pixels that were sampled by points are counted.
 fn compare(gpu: &mut Headless, stage: &Stage, name: &str) {
     let twin = Twin::new(stage, SIZE);
     for (samples, lines) in SAMPLES {
@@ -88,7 +88,7 @@ fn tilings_are_seen_as_the_twin_sees_them() {
     });
 }
 
-/// A vertex that 24 triangles share, and triangles thinner than samples are apart.
+/// A vertex that 24 triangles share, and triangles that are thinner than the distance between samples.
 #[test]
 fn fans_and_slivers_are_seen_as_the_twin_sees_them() {
     on_gpu(|gpu| {
@@ -101,7 +101,7 @@ fn fans_and_slivers_are_seen_as_the_twin_sees_them() {
     });
 }
 
-/// Planes through each other.
+/// Planes that intersect.
 #[test]
 fn intersecting_triangles_are_seen_as_the_twin_sees_them() {
     on_gpu(|gpu| {
@@ -109,7 +109,7 @@ fn intersecting_triangles_are_seen_as_the_twin_sees_them() {
     });
 }
 
-/// An edge at each of many angles covers its area but for a fraction of a sample on each line.
+/// Edges at many angles cover their areas, except for a fraction of a sample on each line.
 #[test]
 fn edges_at_all_angles_cover_their_areas() {
     on_gpu(|gpu| {
@@ -117,7 +117,7 @@ fn edges_at_all_angles_cover_their_areas() {
         for step in 0..90 {
             let angle = TAU * (f64::from(step) + 0.37) / 90.0;
             let (sin, cos) = angle.sin_cos();
-            // A half-plane through the image's middle, as far as the image reaches.
+            // The triangle is a half-plane through the image's middle, as far as the image extends.
             let corners = [[-90.0, 0.03], [90.0, 0.03], [0.0, 120.0]]
                 .map(|[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos]);
             let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
@@ -125,7 +125,7 @@ fn edges_at_all_angles_cover_their_areas() {
             let image = stage.render(gpu, &on_lines(256));
             assert_eq!(image.statistics.resampled, 0);
             for (pixel, color) in image.colors.iter().enumerate() {
-                let area = in_pixel(corners, centre(pixel, SIZE));
+                let area = triangle_area(corners, centre(pixel, SIZE));
                 let error = (f64::from(color[0]) - area).abs();
                 worst = worst.max(error);
                 if area > 0.0 && area < 1.0 {
@@ -134,14 +134,14 @@ fn edges_at_all_angles_cover_their_areas() {
                 }
             }
         }
-        // 1,024 points err by .0017 on average and .0022 at the worst angle.
+        // 1,024 points have a mean error of 0.0017, and 0.0022 at the worst angle.
         let mean = f64::sqrt(squares / count);
         assert!(worst < 0.008, "an area errs by {worst}");
         assert!(mean < 0.0012, "areas err by {mean}");
     });
 }
 
-/// Triangles that meet in a vertex on another one's side leave no gap and no overlap.
+/// Triangles that meet in a vertex on another triangle's side leave no gap and no overlap.
 #[test]
 fn shares_add_up_to_one() {
     on_gpu(|gpu| {
@@ -175,7 +175,7 @@ fn shares_add_up_to_one() {
     });
 }
 
-/// Of coplanar triangles, the smaller ID is seen alone.
+/// Of coplanar triangles, only the one with the smaller ID is visible.
 #[test]
 fn the_smaller_id_of_coplanar_triangles_is_seen() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Lobes and layers of material extensions, where what a light makes of them has a closed form.
+//! Lobes of material extensions, under lights for which their reflection has a closed form.
 
 use std::f64::consts::PI;
 
@@ -13,12 +13,12 @@ use gpc::scene::{
 
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, once, seen_at};
 
-/// Odd, so that a pixel's centre is the image's.
+/// Size of the image; it is odd, so that a pixel's centre is the image's centre.
 const SIZE: [u32; 2] = [9, 9];
 const MIDDLE: usize = 40;
 
 const ROUGHNESS: f32 = 0.5;
-/// Of GGX, for that roughness.
+/// GGX's alpha for that roughness.
 const ALPHA: f64 = 0.25;
 const COLOR: [f32; 3] = [0.8, 0.4, 0.2];
 
@@ -33,7 +33,7 @@ fn lit(lobes: Lobes) -> Material {
     }
 }
 
-/// A surface seen by the image's centre, turned by `angle` from facing it.
+/// A surface at the image's centre, turned by `angle` from facing the eye.
 fn surface(materials: Vec<Material>, angle: f64) -> Stage {
     let mut stage = Stage::new(materials);
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -55,7 +55,8 @@ fn render(gpu: &mut Headless, stage: &Stage, lights: &[Light], settings: &Settin
     rendered.colors[MIDDLE].map(f64::from)
 }
 
-/// What a material facing the eye sends it of light that travels along z, `toward` 1 or -1: away from the eye.
+/// Light that a material facing the eye reflects towards it from light along z; with `toward` = 1 or -1 the light
+/// travels towards or away from the eye.
 fn response(gpu: &mut Headless, lobes: Lobes, toward: f64) -> [f64; 3] {
     let stage = surface(vec![lit(lobes)], 0.0);
     let mut with = |power: f32| {
@@ -68,17 +69,17 @@ fn response(gpu: &mut Headless, lobes: Lobes, toward: f64) -> [f64; 3] {
         };
         render(gpu, &stage, &[light], &once(SIZE))
     };
-    // The studio lights both.
+    // The studio lights both images, so that it cancels.
     let (lit, dark) = (with(1.0), with(0.0));
     [0, 1, 2].map(|i| lit[i] - dark[i])
 }
 
-/// Distribution times visibility of GGX where eye and light are along the normal.
+/// GGX distribution times visibility for an eye and a light along the normal.
 fn peak(alpha: f64) -> f64 {
     1.0 / (4.0 * PI * alpha * alpha)
 }
 
-/// The base alone, of such reflectance at normal incidence.
+/// Reflection of the base alone, with the reflectance `f0` at normal incidence.
 fn base(f0: [f64; 3], alpha: f64) -> [f64; 3] {
     let kept = 1.0 - f0.into_iter().fold(0.0, f64::max);
     [0, 1, 2].map(|i| kept * f64::from(COLOR[i]) / PI + f0[i] * peak(alpha))
@@ -123,7 +124,7 @@ fn reflections_along_the_normal_have_a_closed_form() {
             }),
             ..plain
         };
-        // Diffuse light goes down by what a surface reflects, and by what this base says of its colour.
+        // Diffuse light is reduced by the reflected light, and, for this base, by its colour's reflectance.
         let expected = [0, 1, 2].map(|i| {
             let f0 = [0.5, 0.25, 0.125];
             0.5 * 0.5 * f64::from(COLOR[i]) / PI + f0[i] * peak(0.16)
@@ -160,7 +161,7 @@ fn reflections_along_the_normal_have_a_closed_form() {
     });
 }
 
-/// In a film of many wave lengths colours cancel, and its two borders reflect as if each were alone.
+/// In a film of many wavelengths, colours cancel, and its two borders reflect as if each were alone.
 #[test]
 fn a_thick_film_reflects_at_both_borders() {
     on_gpu(|gpu| {
@@ -182,8 +183,8 @@ fn a_thick_film_reflects_at_both_borders() {
     });
 }
 
-/// A film a quarter of a green wave thick, denser than what is on both sides, reflects more green than blue or none of it
-/// where it is half a wave.
+/// A film that is a quarter of a green wavelength thick and denser than both sides reflects more green than blue; one
+/// of half a wavelength reflects no green.
 #[test]
 fn a_thin_film_has_the_colour_of_its_thickness() {
     on_gpu(|gpu| {
@@ -221,7 +222,7 @@ fn a_thin_film_has_the_colour_of_its_thickness() {
             };
             render(gpu, &stage, &[light], &once(SIZE))[1] / peak(ALPHA)
         };
-        // (1 - 4)^2 / (1 + 4)^2 and nothing, for one wave length.
+        // For a single wavelength, the values are (1 - 4)^2 / (1 + 4)^2 and 0.
         let (quarter, half) = (green(0.25), green(0.5));
         assert!((quarter - 0.36).abs() < 0.06, "{quarter}");
         assert!(half < 0.06, "{half}");
@@ -312,7 +313,7 @@ fn panes_tint_what_lies_behind() {
             let (bright, dark) = (with(2.0), with(0.0));
             [0, 1, 2].map(|i| (bright[i] - dark[i]) / 2.0)
         };
-        // A clear pane reflects some 4 % and lets the rest through.
+        // A clear pane reflects about 4 % and transmits the rest.
         let clear = through(&[pane([1.0; 4], 1.0, 0.0)]);
         assert!(clear.iter().all(|t| (t - 0.96).abs() < 0.01), "{clear:?}");
         let base = [0.8, 0.4, 0.2, 1.0];
@@ -321,7 +322,7 @@ fn panes_tint_what_lies_behind() {
             clear[i] * 0.75 * f64::from(base[i]) * absorbed
         });
         let pane = pane(base, 0.75, 2.0);
-        // Tints have ten bits of their root.
+        // Tints are stored with ten bits of their square root.
         assert_near("a pane", through(std::slice::from_ref(&pane)), tinted, 0.02);
         let twice = tinted.map(|t| t * t);
         assert_near("two", through(&[pane.clone(), pane]), twice, 0.04);

@@ -1,4 +1,4 @@
-//! MASK surfaces: the alpha test of each sample against a lookup on the CPU.
+//! MASK surfaces: the alpha test of each sample, compared with a look-up on the CPU.
 
 use gpc::render::Method;
 use gpc::sampling::Pattern;
@@ -7,12 +7,12 @@ use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 use crate::stage::{Stage, centre, everywhere, flat, on_gpu, once, seen_at, textured};
 
 const SIZE: [u32; 2] = [64, 48];
-/// The quadrilateral's half sides in pixels.
+/// Half of the quadrilateral's sides, in pixels.
 const HALF: [f64; 2] = [27.3, 19.6];
-/// How often the texture repeats over it.
+/// Number of times that the texture repeats over it.
 const REPEATS: f64 = 5.0;
 
-/// A 2 x 2 checker of texels on either side of the cutoff, repeated, before a blue wall.
+/// A repeated 2 x 2 checker whose texels are above and below the cutoff, in front of a blue wall.
 pub fn checker() -> Stage {
     let mask = AlphaMode::Mask { cutoff: 0.5 };
     let mut stage = Stage::new(vec![
@@ -46,7 +46,8 @@ pub fn checker() -> Stage {
     stage
 }
 
-/// Whether the checker shows at a place of the image, and whether that place is too near to a texel's border to tell.
+/// Whether the checker is visible at a place of the image, and whether the place is too close to a texel's border to
+/// be certain.
 fn shows(place: [f64; 2]) -> (bool, bool) {
     let at = [0, 1].map(|axis| (place[axis] / HALF[axis] + 1.0) / 2.0 * REPEATS * 2.0);
     let doubtful = at.iter().any(|t| (t - t.round()).abs() < 1e-3);
@@ -91,7 +92,7 @@ fn alpha_is_tested_for_each_sample() {
                     settings.method,
                     offsets.len()
                 );
-                // The wall shows wherever the checker does not.
+                // The wall is visible wherever the checker is not.
                 assert!((found[2] - 1.0).abs() < 1e-5 && (found[3] - 1.0).abs() < 1e-5);
                 partial += u32::from((0.01..0.99).contains(&covered));
                 doubts += doubtful;
@@ -106,8 +107,8 @@ fn alpha_is_tested_for_each_sample() {
     });
 }
 
-/// A pane before the checker lets through what each sample sees of it: alpha decides which samples hit, and is no
-/// coverage of its own.
+/// A pane in front of the checker is composited over what each sample sees: alpha decides whether a sample is hit, and
+/// is no coverage in addition.
 #[test]
 fn panes_are_composited_over_what_each_sample_sees() {
     const PANE: [f32; 4] = [0.5, 0.25, 1.0, 0.25];

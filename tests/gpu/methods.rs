@@ -1,4 +1,4 @@
-//! The methods against each other: with the same samples they show the same image.
+//! The methods, compared with each other: with the same samples they give the same image.
 
 use gpc::color::srgb::encode;
 use gpc::render::{Detection, MethodKind, Rendered, SceneRequest, Settings, Shading};
@@ -9,7 +9,7 @@ use crate::stage::on_gpu;
 
 const SIZE: [u32; 2] = [96, 64];
 
-/// Peak signal-to-noise ratio of display-encoded images in decibels.
+/// Peak signal-to-noise ratio of sRGB-encoded images in decibels.
 fn psnr(a: &Rendered, b: &Rendered) -> f64 {
     let encoded = |image: &Rendered| -> Vec<f64> {
         let channels = image.colors.as_flattened().iter();
@@ -27,7 +27,7 @@ fn settings(method: MethodKind, samples: u32) -> Settings {
         .method(method.with_samples(samples))
 }
 
-/// Superpixels everywhere, on the grid of brute force.
+/// Superpixels everywhere, with samples on the grid of supersampling.
 fn on_the_grid(samples: u32) -> Settings {
     settings(MethodKind::Superpixel, samples).map_superpixels(|options| {
         options
@@ -44,7 +44,7 @@ fn superpixels_on_a_grid_are_brute_force() {
         for samples in [16, 64] {
             let sampled = stage.render(gpu, &on_the_grid(samples));
             let brute = stage.render(gpu, &settings(MethodKind::Ssaa, samples));
-            // Two rasterizations: the device's rounds vertices to 2^-8 of its pixels.
+            // The device rounds vertices to 2^-8 of its pixels, which are smaller for supersampling.
             let ratio = psnr(&sampled, &brute);
             assert!(ratio > 55.0, "{samples} samples: {ratio} dB");
         }
@@ -58,7 +58,7 @@ fn one_sample_is_none() {
         let none = stage.render(gpu, &settings(MethodKind::None, 1));
         let brute = stage.render(gpu, &settings(MethodKind::Ssaa, 1));
         assert_eq!(none.colors, brute.colors);
-        // A vertex that the device rounds takes an edge over the centre of few pixels.
+        // Rounding of vertices moves edges across the centres of a few pixels.
         let sampled = stage.render(gpu, &on_the_grid(1));
         let near =
             |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).all(|(a, b)| (a - b).abs() < 1e-4);
@@ -88,7 +88,7 @@ fn superpixels_approach_brute_force_where_it_matters() {
     });
 }
 
-/// Lavapipe and every other device have 4 samples at the standard locations.
+/// All known devices, lavapipe included, have 4 samples at the standard locations.
 #[test]
 fn multisampling_is_four_samples_at_the_standard_locations() {
     on_gpu(|gpu| {
@@ -105,7 +105,7 @@ fn multisampling_is_four_samples_at_the_standard_locations() {
     });
 }
 
-/// What a method can't have is refused before anything runs, with the counts that it can.
+/// Numbers of samples that a method can't have are refused before anything runs, with a list of possible ones.
 #[test]
 fn impossible_counts_are_usage_errors() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Partition of unity: each sample of a tiling is hit, and hit once.
+//! Partition of unity: triangles of a tiling hit each sample exactly once.
 
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
@@ -6,7 +6,7 @@ use gpc::scene::AlphaMode;
 use crate::meshes::{Depths, delaunay, tilings};
 use crate::stage::{Stage, everywhere, flat, on_gpu};
 
-/// Counts of samples, and the side of the image that they are taken in.
+/// Numbers of samples, and the side of the image for each.
 const COUNTS: [(u32, u32); 8] = [
     (1, 64),
     (2, 64),
@@ -18,17 +18,17 @@ const COUNTS: [(u32, u32); 8] = [
     (1024, 8),
 ];
 
-/// Renders white tilings of one material over nothing, and compares all channels of each pixel.
+/// Renders white tilings of one material over an empty background, and compares all channels of each pixel.
 fn assert_every_pixel_is(alpha_mode: AlphaMode, opacity: f32, expected: f32) {
     on_gpu(|gpu| {
         for (round, (samples, side)) in COUNTS.into_iter().enumerate() {
             let half = f64::from(side) / 2.0;
             for (index, mesh) in tilings(round as u64, half).into_iter().enumerate() {
-                // Two of the eight meshes for each count, others the next time.
+                // Each number of samples uses two of the eight meshes.
                 if (index + index / 4 + round) % 4 != 0 {
                     continue;
                 }
-                // Crowded tiles have a test of their own.
+                // Crowded tiles have their own test.
                 if samples > 64 && mesh.triangles.len() > 1000 {
                     continue;
                 }
@@ -42,8 +42,8 @@ fn assert_every_pixel_is(alpha_mode: AlphaMode, opacity: f32, expected: f32) {
                 let settings = everywhere([side, side], pattern.clone(), samples);
                 let rendered = stage.render(gpu, &settings);
                 assert_eq!(rendered.colors.len(), (side * side) as usize);
-                // Powers of two divide without rounding; another count leaves the mean a bit or two from its value,
-                // far less than one sample weighs.
+                // For a power of two, the mean is exact. Otherwise it is off by a bit or two, far less than the weight
+                // of a sample.
                 let tolerance = if samples.is_power_of_two() { 0.0 } else { 1e-6 };
                 for (pixel, color) in rendered.colors.into_iter().enumerate() {
                     assert!(
@@ -62,13 +62,13 @@ fn opaque_tilings_have_no_holes() {
     assert_every_pixel_is(AlphaMode::Opaque, 1.0, 1.0);
 }
 
-/// A sample that two triangles own would be composited twice.
+/// A sample that belongs to two triangles would be composited twice.
 #[test]
 fn blended_tilings_have_no_holes_and_no_double_hits() {
     assert_every_pixel_is(AlphaMode::Blend, 0.5, 0.5);
 }
 
-/// Tiles that hold thousands of triangles, each sampled as often as can be.
+/// Tiles hold thousands of triangles, with the largest number of samples.
 #[test]
 fn crowded_tiles_have_no_holes() {
     on_gpu(|gpu| {

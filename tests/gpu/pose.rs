@@ -1,4 +1,4 @@
-//! Moments that the device makes, against poses of the same moments that the CPU makes.
+//! Moments that the device computes, compared with poses that the CPU computes.
 
 use std::sync::Arc;
 
@@ -14,13 +14,13 @@ use crate::scene_builder::Builder;
 use crate::stage::{ids, on_gpu, once};
 
 const SIZE: [u32; 2] = [96, 80];
-/// Segments of the tube along its length and around.
+/// Number of the tube's segments along its length and around it.
 const TUBE: [usize; 2] = [12, 10];
-/// Seconds into the animation.
+/// Times of the animation in seconds.
 const TIMES: [f64; 3] = [0.25, 0.6, 1.0];
 
-/// A tube that two joints bend and a target thickens, a flat pyramid that a target squeezes, and one that its parent turns
-/// and stretches; behind them one that stays.
+/// A tube that two joints bend and a target thickens, a flat pyramid that a target squeezes, one that its parent
+/// rotates and stretches, and a static one behind them.
 fn film() -> Loaded {
     film_builder().load().unwrap()
 }
@@ -68,7 +68,7 @@ fn film_builder() -> Builder {
     );
     let bent = builder.node_with(primitive, json!({"skin": 0}));
 
-    // Without normals: flat.
+    // Without normals, shading is flat.
     let [base, top] = [
         [[-0.5, 0., -0.4], [0.5, 0., -0.4], [0., 0., 0.6]],
         [[0., 0.9, 0.]; 3],
@@ -136,7 +136,8 @@ fn film_builder() -> Builder {
     builder
 }
 
-/// Two textured panels beneath a spot light: colours, texture coordinates, coats and the light change, nothing moves.
+/// Two textured panels under a spot light. Colours, texture coordinates, coats and the light change, but nothing
+/// moves.
 fn glow() -> Loaded {
     let mut builder = Builder::new();
     let texture = builder.checker([16, 16]);
@@ -319,7 +320,7 @@ fn a_moment_depends_on_no_other() {
     });
 }
 
-/// Changed materials and lights on the device give the bytes that they give when they are put there anew.
+/// Materials and lights that were changed on the device give the same bytes as uploading them anew.
 #[test]
 fn looks_are_those_of_poses() {
     on_gpu(|gpu| {
@@ -334,7 +335,7 @@ fn looks_are_those_of_poses() {
     });
 }
 
-/// A pane of green glass: half its side, how thick it is, and the node's scale.
+/// A pane of green glass: half of its side, its thickness, and the node's scale.
 fn pane(half: f32, thickness: f32, scale: f32) -> Builder {
     let mut builder = Builder::new();
     let corners = [
@@ -358,7 +359,7 @@ fn pane(half: f32, thickness: f32, scale: f32) -> Builder {
     builder
 }
 
-/// Glass is as thick as its mesh is where it is drawn: moved on the CPU, on the device, or as an instance.
+/// The thickness of glass scales with its mesh: posed on the CPU, moved on the device, or drawn as an instance.
 #[test]
 fn thickness_grows_with_the_mesh() {
     on_gpu(|gpu| {
@@ -424,7 +425,8 @@ fn what_does_not_belong_together_is_refused() {
     });
 }
 
-/// A film beneath a lamp, which the animation moves too, and sunlight through a pane that it makes opaque; behind all a wall.
+/// The film under a lamp, which is animated too, and sunlight through a pane that the animation makes opaque, in front
+/// of a wall.
 fn lit_film() -> Builder {
     let mut builder = film_builder();
     let corners = [
@@ -471,7 +473,7 @@ fn lit_film() -> Builder {
     builder
 }
 
-/// Makes one animation of all.
+/// Joins all animations into one.
 fn join_animations(builder: &mut Builder) {
     let animations = builder.json["animations"].take();
     let (mut channels, mut samplers) = (Vec::new(), Vec::new());

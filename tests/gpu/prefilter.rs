@@ -1,4 +1,4 @@
-//! What surfaces reflect of an environment: `prefilter` against its twin, and where the average has a closed form.
+//! Reflection of environments: `prefilter`, compared with its twin and with closed forms.
 
 use glam::DVec3;
 use gpc::reference::prefilter::{Cube, average};
@@ -10,10 +10,10 @@ use half::f16;
 use crate::stage::on_gpu;
 use crate::submit::submit;
 
-/// Texels along the side of the finest cube's faces.
+/// Side of the finest cube's faces, in texels.
 const SIDE: u32 = 32;
 
-/// A cube, and halves of it as long as there are any, of colours that half floats hold.
+/// A cube and its halves down to one texel a face, in colours that half floats represent.
 fn cubes(color: impl Fn(u32, DVec3) -> DVec3) -> Vec<Cube> {
     (0..=SIDE.ilog2())
         .map(|level| {
@@ -30,12 +30,12 @@ fn cubes(color: impl Fn(u32, DVec3) -> DVec3) -> Vec<Cube> {
         .collect()
 }
 
-/// Solid angle of a texel, in units of that of one in the middle of a face.
+/// Solid angle of a texel / that of a texel in the middle of a face.
 fn solid_angle(side: u32, index: u32) -> f64 {
     Cube::direction(side, index).abs().max_element().powi(3)
 }
 
-/// A cube of half the side, of averages.
+/// A cube of half the side, whose texels are averages.
 fn halved(fine: &Cube) -> Cube {
     let side = fine.side / 2;
     let texel = |i: u32| {
@@ -52,7 +52,7 @@ fn halved(fine: &Cube) -> Cube {
     }
 }
 
-/// The filtered levels, from the first that is not the finest cube itself on.
+/// Filtered levels, from the first that is not the finest cube itself.
 fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     let mut texels: Vec<[f16; 4]> = Vec::new();
     for texel in cubes.iter().flat_map(|cube| &cube.texels) {
@@ -61,7 +61,7 @@ fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     let levels: Vec<_> = levels(SIDE).collect();
     let (side, first) = levels[levels.len() - 1];
     texels.resize((first + 6 * side * side) as usize, [f16::ZERO; 4]);
-    // SAFETY: the buffer holds all levels, and is read when the commands are done.
+    // SAFETY: the buffer holds all levels, and is read once the commands have run.
     let memory = unsafe { memory(gpu.gpu(), None) };
     let bytes: &[u8] = bytemuck::cast_slice(&texels);
     let usage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -87,12 +87,12 @@ fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     levels[1..].iter().map(cube).collect()
 }
 
-/// What the levels' surfaces reflect along +z, in the order of [`filtered`].
+/// Rays of the levels around +z, in the order of [`filtered`].
 fn lobes(count: usize) -> impl Iterator<Item = Vec<[f32; 4]>> {
     (1..=count as u32).map(move |level| lobe(level, count as u32, SIDE))
 }
 
-/// Every texel of every level, of colours from one ten-thousandth to ten thousand that have nothing to do with each other.
+/// Every texel of every level equals the twin's, for unrelated colours from one ten-thousandth to ten thousand.
 #[test]
 fn every_texel_is_the_twins() {
     on_gpu(|gpu| {
@@ -109,7 +109,7 @@ fn every_texel_is_the_twins() {
         for (cube, rays) in found.iter().zip(lobes(found.len())) {
             for (i, texel) in (0..).zip(&cube.texels) {
                 let expected = average(&sources, &rays, Cube::direction(cube.side, i));
-                // A half float has 11 bits, and drivers round it either way.
+                // A half float has 11 bits, and drivers may round either way.
                 let off = ((texel - expected) / expected).abs().max_element();
                 assert!(
                     off < 1.2 / 1024.0,
@@ -136,8 +136,8 @@ fn what_is_alike_all_around_stays_so() {
     });
 }
 
-/// Of radiance 1 + d.v, whatever v is, a surface with normal n reflects 1 + s n.v, s being the mean of n.l over its lobe: two
-/// thirds where it is roughest, as of a matt one.
+/// In an environment with radiance 1 + d.v, a surface with normal n reflects 1 + s n.v, where s is the mean of n.l
+/// over its lobe: two thirds for the roughest one, like a matt surface.
 #[test]
 fn a_sky_brighter_to_one_side_has_a_closed_form() {
     on_gpu(|gpu| {
@@ -165,11 +165,11 @@ fn a_sky_brighter_to_one_side_has_a_closed_form() {
     });
 }
 
-/// A single bright texel makes no sparks: rough levels show it as one hill, and keep its light.
+/// A single bright texel causes no fireflies: rough levels show it as one smooth hill with the same total light.
 #[test]
 fn a_small_light_makes_no_sparks() {
     on_gpu(|gpu| {
-        // Straight ahead along -z.
+        // The texel is straight ahead along -z.
         let mut sources = cubes(|_, d| {
             let place = (d / -d.z).truncate() - 1.0 / f64::from(SIDE);
             let lit = d.z < 0.0 && place.abs().max_element() < 1.0 / f64::from(SIDE);
@@ -194,7 +194,7 @@ fn a_small_light_makes_no_sparks() {
                 (found / expected - 1.0).abs() < 0.25,
                 "{found}, expected {expected}"
             );
-            // Along the row of the light, its face rises to it and falls from it.
+            // Along the row of the light, the values rise towards it and fall after it.
             let start = (5 * cube.side + cube.side / 2) * cube.side;
             let row: Vec<_> = (start..start + cube.side)
                 .map(|i| cube.texels[i as usize].x)

@@ -1,4 +1,4 @@
-//! A region of an image holds the numbers of the whole image.
+//! Regions of an image have the same values as in the whole image.
 
 use gpc::render::{
     EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings,
@@ -11,7 +11,7 @@ use crate::stage::{Stage, camera, flat, on_gpu};
 
 const SIZE: [u32; 2] = [157, 113];
 
-/// Odd places and sizes, one of them a single pixel, one a column, and one all.
+/// Regions at odd places with odd sizes: among them a single pixel, a column, and the whole image.
 const REGIONS: [([u32; 2], [u32; 2]); 6] = [
     ([0, 0], [157, 113]),
     ([17, 29], [61, 43]),
@@ -25,7 +25,7 @@ fn region(corner: [u32; 2], size: [u32; 2]) -> PixelRect {
     PixelRect { corner, size }
 }
 
-/// A lit scene with wires, and a pane of glass before it.
+/// A lit scene with wires, and a pane of glass in front.
 fn behind_glass() -> Stage {
     let mut stage = ball_over_checker();
     let glass = stage.materials.len();
@@ -52,7 +52,7 @@ fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
     gpu.render(&mut frame, &camera()).unwrap()
 }
 
-/// The part of an image, row by row.
+/// Part of an image, row by row.
 fn part<T: Copy>(values: &[T], row: u32, region: PixelRect) -> Vec<T> {
     let ([left, top], [width, height]) = (region.corner, region.size);
     (top..top + height)
@@ -119,7 +119,7 @@ fn a_region_is_that_part_of_the_image() {
     });
 }
 
-/// A large image is drawn in parts, which a region may lie across.
+/// A large image is rendered in parts; a region may span several of them.
 #[test]
 fn a_region_of_an_image_in_parts_is_that_part_of_it() {
     on_gpu(|gpu| {

@@ -6,8 +6,8 @@ use gpc::scene::{AlphaMode, Material};
 
 use crate::stage::{Stage, flat};
 
-/// A faceted ball over a checker floor, and a fan of wires behind it. No edge is seen in the direction of a pixel's
-/// diagonal or side through its centre, where samples would tie.
+/// A faceted ball above a checker floor, with a fan of wires behind it. No edge runs along a pixel's diagonal or side
+/// through its centre, where samples would tie.
 pub fn ball_over_checker() -> Stage {
     let lit = |base_color| Material {
         unlit: false,
@@ -56,7 +56,7 @@ pub fn ball_over_checker() -> Stage {
     stage
 }
 
-/// A sphere of flat facets.
+/// Adds a sphere of flat facets.
 fn ball(stage: &mut Stage, middle: [f64; 3], radius: f64) {
     const RINGS: u32 = 10;
     const SECTORS: u32 = 16;

@@ -1,4 +1,4 @@
-//! What `tally`, `schedule` and `enlist` take into rounds, against the CPU's.
+//! Rounds that `tally`, `schedule` and `enlist` make, compared with the CPU's.
 
 use gpc::bench::Random;
 use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
@@ -15,21 +15,21 @@ use crate::submit::submit;
 
 const LAYERS: u32 = 4;
 
-/// What is taken into rounds, and how much fits.
+/// Tiles to schedule, and the room of a round.
 struct Case {
     name: &'static str,
-    /// In tiles.
+    /// Width and height of the region in tiles.
     size: [u32; 2],
     samples: u32,
     records_are: RecordRate,
     triangles: u32,
-    /// Whether some triangles are BLEND.
+    /// Whether the scene has BLEND triangles.
     blends: bool,
     candidates: u32,
     records: u32,
-    /// One tile of so many has superpixels.
+    /// One of this number of tiles has superpixels.
     sparseness: u64,
-    /// One of so many of these has more candidates than fit, and another one pairs that were not kept.
+    /// One of this number of such tiles has more candidates than fit, and another one has pairs that were dropped.
     rarity: u64,
 }
 
@@ -47,7 +47,7 @@ const USUAL: Case = Case {
 };
 
 impl Case {
-    /// Superpixels of each tile, and what `bin` leaves there: candidates, 0, 0, flags.
+    /// Mask of superpixels of each tile, and the words that `bin` leaves there: candidates, 0, 0, flags.
     fn tiles(&self, random: &mut Random) -> Vec<(u32, [u32; 4])> {
         let count = self.size[0] * self.size[1];
         let tile = |_| {
@@ -74,20 +74,20 @@ impl Case {
     }
 }
 
-/// Flags of tiles, see `shaders/include/tiles.glsl`.
+/// Flags of tiles: the same numbers as in `shaders/include/tiles.glsl`.
 const MASK: u32 = 1;
 const BLEND: u32 = 2;
 const LISTED: u32 = 4;
 const OVERFLOW: u32 = 8;
 
-/// A round as the device left it.
+/// Buffers after a round on the device.
 struct Found {
     counters: Vec<u32>,
     tiles: Vec<[u32; 4]>,
     work: Vec<u32>,
 }
 
-/// Buffers of the host's that rounds are copied to.
+/// Buffers in host memory to which those of rounds are copied.
 struct Kept {
     counters: Buffer,
     tiles: Buffer,
@@ -114,7 +114,7 @@ impl Kept {
     }
 }
 
-/// The passes and their memory, and the twin that takes as much into a round.
+/// The passes and their memory, and the twin with the same room.
 struct Passes<'a> {
     gpu: &'a Headless,
     bare: Bare,
@@ -189,7 +189,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Rounds that are recorded for tiles with so many candidates together.
+    /// Number of rounds that are recorded for tiles with `candidates` candidates in total.
     fn recorded(&self, candidates: u32) -> usize {
         let sizes = ResourceSizes {
             pair_capacity: candidates,
@@ -199,7 +199,7 @@ impl<'a> Passes<'a> {
             .most_rounds(&sizes, self.uniform.triangle_count) as usize
     }
 
-    /// What the device takes into each of `count` rounds.
+    /// Buffers after each of `count` rounds on the device.
     fn run(&self, content: &[(u32, [u32; 4])], count: usize) -> Vec<Found> {
         let Self {
             gpu,
@@ -227,7 +227,7 @@ impl<'a> Passes<'a> {
         let (counter_upload, argument_upload) = (upload(&counters), upload(&arguments));
         let kept: Vec<Kept> = (0..count).map(|_| Kept::new(&self.bare)).collect();
         submit(gpu.gpu(), |commands| {
-            // SAFETY: the commands are waited for, and what they refer to outlives them.
+            // SAFETY: the commands are waited for, and everything to which they refer outlives them.
             let recorder = || unsafe { Recorder::new(gpu.gpu(), commands, None) };
             resources.record_upload(&recorder());
             resources.record_begin(&recorder(), resources.set(0).unwrap(), uniform);
@@ -249,7 +249,7 @@ impl<'a> Passes<'a> {
     }
 }
 
-/// As the twin knows them.
+/// The tiles in the form of the twin.
 fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
     let tile = |&(mask, [candidates, _, _, flags]): &(u32, [u32; 4])| Tile {
         cells: mask.count_ones(),
@@ -261,7 +261,7 @@ fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
     content.iter().map(tile).collect()
 }
 
-/// The entries of each list, in order.
+/// Entries of each list, in order.
 fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
     [List::Plain, List::Masked, List::Blended, List::Unlisted].map(|list| {
         let placed = round.placed.iter().filter(|placed| placed.list == list);
@@ -277,7 +277,7 @@ fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
 fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> usize {
     let content = case.tiles(&mut Random::new(seed));
     let twins = twins_of(&content);
-    // Rounds that find nothing follow.
+    // Idle rounds follow, which find nothing.
     const IDLE: usize = 2;
     let expected = passes.twin.of(&twins);
     let listed = twins.iter().map(|tile| tile.candidates).sum();
@@ -334,7 +334,8 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     expected.len()
 }
 
-/// Rounds of many stretches and of parts of one, with cuts between tiles and between stretches, and tiles that fit nowhere.
+/// Rounds over many stretches and over parts of one, cut between tiles and between stretches, and tiles that fit
+/// nowhere.
 #[test]
 fn rounds_are_the_twins() {
     on_gpu(|gpu| {
@@ -403,7 +404,7 @@ fn rounds_are_the_twins() {
             let passes = Passes::new(gpu, &case);
             [1, 2].map(|seed| assert_rounds_are_the_twins(&passes, &case, seed))[0]
         });
-        // One tile, all in one round and tiles that are left take one; the others several.
+        // A single tile, tiles that fit together, and tiles that are skipped take one round; the others take several.
         assert_eq!([counts[1], counts[2], counts[6]], [1, 1, 1]);
         assert!(
             [0, 3, 4, 5, 7].iter().all(|&case| counts[case] > 3),
@@ -412,8 +413,7 @@ fn rounds_are_the_twins() {
     });
 }
 
-/// Tiles that all need the same, so that rounds end with stretches: these are taken as a whole, and those after them begin a
-/// round.
+/// All tiles have equal needs, so that rounds end at the ends of stretches, which are then taken as a whole.
 #[test]
 fn rounds_end_with_stretches() {
     on_gpu(|gpu| {
@@ -438,7 +438,7 @@ fn rounds_end_with_stretches() {
     });
 }
 
-/// Tiles of which each needs as much as one may ask for: no more than twice the rounds are recorded that these take.
+/// Each tile needs the most that it may ask for: at most twice as many rounds are recorded as these tiles take.
 #[test]
 fn as_many_rounds_are_recorded_as_tiles_may_take() {
     on_gpu(|gpu| {

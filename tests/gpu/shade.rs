@@ -1,4 +1,4 @@
-//! Shading with what a material leaves out left out, against shading that leaves nothing out.
+//! Shaders specialised for a material, compared with shaders that omit nothing.
 
 use gpc::render::{Method, SceneRequest, Settings, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
@@ -16,7 +16,7 @@ fn read(texture: u32, scale: f32) -> Option<TextureUse> {
     })
 }
 
-/// A surface of a lit material whose textures are all of one noise.
+/// A surface of a lit material, all of whose textures have the same noise.
 fn lit(material: Material) -> Stage {
     let mut random = Random::new(3);
     let mut stage = Stage::new(vec![Material {
@@ -40,8 +40,8 @@ fn lit(material: Material) -> Stage {
     stage
 }
 
-/// Occlusion in the texture of metallic and roughness is read with these; in a copy of it, or at other coordinates, on
-/// its own.
+/// Occlusion in the texture of metalness and roughness is read together with them; in a copy of the texture, or with
+/// other coordinates, separately.
 #[test]
 fn packed_occlusion_is_occlusion() {
     on_gpu(|gpu| {

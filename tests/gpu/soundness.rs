@@ -1,4 +1,5 @@
-//! What safe code can't do: outlive, mix up or contradict.
+//! Misuse that safe code must not be able to turn into undefined behaviour: dropping in the wrong order, mixing
+//! objects of two devices, contradictory arguments.
 
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
@@ -24,7 +25,7 @@ fn a_frame_keeps_its_scene_alive() {
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
         let before = gpu.render(&mut frame, &camera()).unwrap();
         drop(prepared);
-        // Where the scene would have been.
+        // This scene takes the place of the dropped one in memory.
         let _other = stage().upload(gpu);
         let after = gpu.render(&mut frame, &camera()).unwrap();
         assert_eq!(before.colors, after.colors);
@@ -58,7 +59,7 @@ fn a_scene_is_uploaded_before_it_is_shown() {
     });
 }
 
-/// Copies to the device that were recorded and never submitted are recorded again, and nothing is read of such a recording.
+/// Uploads that were recorded but never submitted are recorded again, and such a recording has no results.
 #[test]
 fn discarded_recordings_change_nothing() {
     on_gpu(|gpu| {
@@ -74,7 +75,7 @@ fn discarded_recordings_change_nothing() {
             .prepare_scene(SceneRequest::new(&scene, &pose))
             .unwrap();
         let mut frame = renderer.prepare(&prepared, &settings, None).unwrap();
-        // SAFETY: what is made with it is read when the commands are done.
+        // SAFETY: buffers made from it are read once the commands have run.
         let memory = unsafe { memory(&device, None) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let pixels = (SIZE[0] * SIZE[1]) as usize;
@@ -92,7 +93,7 @@ fn discarded_recordings_change_nothing() {
         let is_not_done = |error: &_| matches!(error, VulkanError::NotDone);
         assert!(matches!(refusal(&frame), VulkanError::NotRecorded));
         let record = |frame: &mut Frame, commands| {
-            // SAFETY: the commands are discarded, or submitted and waited for while all that they use lives.
+            // SAFETY: the commands are discarded, or submitted and waited for while everything that they use is alive.
             unsafe {
                 prepared.record_upload(commands);
                 frame.record(&camera(), commands, &target);
@@ -183,7 +184,7 @@ fn geometry_that_contradicts_itself_is_refused() {
 #[test]
 fn memory_is_counted_while_it_is_held() {
     on_gpu(|gpu| {
-        // SAFETY: no commands use what is made with it.
+        // SAFETY: no commands use objects made from it.
         let memory = unsafe { memory(gpu.gpu(), Some(1 << 20)) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let make = || memory.buffer("half", 1 << 19, usage, MemoryUse::Readback);
@@ -213,7 +214,7 @@ fn uploads_count_until_they_are_freed() {
         stage.texture = Some((image, Sampler::default()));
         let image = u64::from(4 * side * side);
         let prepared = stage.upload(gpu);
-        // The image and its smaller levels, and not the bytes that they were filled with.
+        // This is the size of the image and its smaller levels, without the staging memory.
         assert!((image..2 * image).contains(&prepared.memory_bytes()));
     });
 }

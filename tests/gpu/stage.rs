@@ -1,4 +1,4 @@
-//! Stages on one device, and the CPU's view of them.
+//! Stages on a shared device, and their positions as the CPU computes them.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,16 +11,16 @@ use gpc::vulkan::Limits;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
 
-/// Devices that no test is using. They are kept, since a new device compiles all its pipelines anew. Each has an instance,
-/// and so the messages of the validation layer, to itself.
+/// Idle devices. They are reused, because a new device compiles all its pipelines anew. Each has its own instance, and
+/// therefore its own messages of the validation layer.
 static IDLE: Mutex<Vec<Headless>> = Mutex::new(Vec::new());
 
 fn idle() -> MutexGuard<'static, Vec<Headless>> {
     IDLE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Runs a test on a device that no other test is using. Fails if the validation layer has anything to say about it; a
-/// device on which a test failed is not used again.
+/// Runs a test on a device that no other test is using. Fails if the validation layer reports a message. A device on
+/// which a test failed is not reused.
 pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     let known = idle().pop();
     let mut gpu = known.unwrap_or_else(|| {
@@ -28,9 +28,9 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
             device: None,
             validation: true,
         };
-        // Most of the tests' time goes to pipelines, and many tests have the same ones.
+        // Most of the time goes to making pipelines, and many tests use the same ones.
         let keep = |limits: &mut Limits| limits.max_unused_pipelines = 256;
-        // SAFETY: keeping more pipelines takes memory alone.
+        // SAFETY: keeping more pipelines only takes more memory.
         unsafe { Headless::within(&options, keep) }.unwrap()
     });
     test(&mut gpu);
@@ -38,23 +38,23 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     idle().push(gpu);
 }
 
-/// A stage that fails the test where it can't be rendered.
+/// A stage whose methods panic if it can't be rendered.
 #[derive(Clone, Debug, Default)]
 pub struct Stage(stage::Stage);
 
 impl Stage {
-    /// A stage with these materials and no triangles yet.
+    /// Makes a stage with these materials and without triangles.
     pub fn new(materials: Vec<Material>) -> Self {
         Self(stage::Stage::new(materials))
     }
 
-    /// Puts it on the device.
+    /// Uploads the stage.
     pub fn upload(&self, gpu: &mut Headless) -> PreparedScene {
         let (scene, pose) = self.build();
         gpu.upload(SceneRequest::new(&scene, &pose)).unwrap()
     }
 
-    /// Renders it.
+    /// Renders the stage.
     pub fn render(&self, gpu: &mut Headless, settings: &Settings) -> Rendered {
         self.0.render(gpu, settings).unwrap()
     }
@@ -74,19 +74,19 @@ impl DerefMut for Stage {
     }
 }
 
-/// A position in clip space, as the GPU computes it: (pixel x * w, pixel y * w, z, w).
+/// Position in clip space as the GPU computes it: (pixel x * w, pixel y * w, z, w).
 pub fn clip(position: [f32; 3], size: [u32; 2]) -> [f32; 4] {
     let [width, height] = size.map(f64::from);
     let matrix = camera().pixel_matrix(DVec3::ZERO, width, height).as_mat4();
     (matrix * Vec3::from_array(position).extend(1.0)).to_array()
 }
 
-/// The IDs of the triangles at the pixels' centres.
+/// IDs of the triangles at the pixels' centres.
 pub fn ids(rendered: &Rendered) -> Vec<u32> {
     rendered.attributes.iter().map(|pixel| pixel.id).collect()
 }
 
-/// The position of a pixel's centre from the image's.
+/// Position of a pixel's centre, relative to the image's centre.
 pub fn centre(pixel: usize, size: [u32; 2]) -> [f64; 2] {
     let at = [pixel % size[0] as usize, pixel / size[0] as usize];
     [0, 1].map(|axis| at[axis] as f64 + 0.5 - f64::from(size[axis]) / 2.0)

@@ -1,4 +1,4 @@
-//! Work that is stopped between submissions.
+//! Stopping between submissions.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -48,7 +48,7 @@ fn locations_are_stopped_between_runs_that_see_the_same() {
     let whole = gpu
         .render_locations(&prepared, &rig, SIZE, &settings)
         .unwrap();
-    // Counts submissions, and stops before the last allowed one.
+    // The function counts submissions, and stops before the first one that is not allowed.
     let left = Arc::new(AtomicUsize::new(usize::MAX));
     let counted = left.clone();
     gpu.stop_when(move || counted.fetch_sub(1, Ordering::Relaxed) == 0);

@@ -1,8 +1,8 @@
-//! Points and lines, against the areas of the polygons that stand for them.
+//! Points and lines, compared with the areas of their polygons.
 
 use glam::DVec3;
 use gpc::camera::{Camera, Projection};
-use gpc::reference::area::in_pixel;
+use gpc::reference::edge::triangle_area;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{
     Coverage, Detection, EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered,
@@ -23,7 +23,7 @@ const LINES: u32 = 1;
 const LINE_LOOP: u32 = 2;
 const LINE_STRIP: u32 = 3;
 
-/// Unlit white points or lines in the order of their vertices.
+/// Unlit white points or lines through these vertices.
 fn drawn(mode: u32, positions: &[[f32; 3]]) -> Loaded {
     let mut builder = Builder::new();
     let positions = builder.floats(positions);
@@ -52,18 +52,18 @@ fn clip(camera: &Camera, position: [f32; 3]) -> Clip {
     (camera.pixel_matrix(DVec3::ZERO, width, height) * position.extend(1.0)).to_array()
 }
 
-/// The area that convex polygons cover of a pixel, where they do not overlap.
+/// Area of a pixel that convex polygons without overlap cover.
 fn covered(polygons: &[Vec<[f64; 2]>], pixel: usize) -> f64 {
     let centre = centre(pixel, SIZE);
     let fan = |polygon: &Vec<[f64; 2]>| -> f64 {
         let triangles = (1..polygon.len().max(2) - 1)
-            .map(|k| in_pixel([polygon[0], polygon[k], polygon[k + 1]], centre));
+            .map(|k| triangle_area([polygon[0], polygon[k], polygon[k + 1]], centre));
         triangles.sum()
     };
     polygons.iter().map(fan).sum()
 }
 
-/// Root of the mean squared difference of an image of white on nothing from areas, and the largest.
+/// Root mean squared and largest difference between an image, white on an empty background, and the areas of polygons.
 fn difference(image: &Rendered, polygons: &[Vec<[f64; 2]>]) -> (f64, f64) {
     let errors = image.colors.iter().enumerate().map(|(pixel, color)| {
         assert!(
@@ -84,7 +84,7 @@ fn by_area(line_width: f32) -> Settings {
         .map_superpixels(|options| options.coverage(Coverage::Area))
 }
 
-/// Segments at odd angles: in one plane, towards the horizon, and from behind the eye.
+/// Segments at irregular angles: in one plane, towards the horizon, and from behind the eye.
 fn segments() -> Vec<[[f32; 3]; 2]> {
     let mut random = Random::new(5);
     let mut place = |distance: f64| {
@@ -118,7 +118,7 @@ fn a_line_covers_its_area() {
     });
 }
 
-/// What is found where a line aliases, not everywhere.
+/// Detection finds every pixel of a line; sampling everywhere finds no more.
 #[test]
 fn no_pixel_of_a_thin_line_is_missed() {
     on_gpu(|gpu| {
@@ -157,7 +157,7 @@ fn brute_force_and_multisampling_draw_lines_as_wide() {
     });
 }
 
-/// Mitred, closed, and cut off.
+/// Strips and loops with mitred and bevelled joints.
 #[test]
 fn strips_and_loops_are_joined() {
     let strip = [
@@ -197,7 +197,7 @@ fn strips_and_loops_are_joined() {
             let settings = by_area(width as f32);
             let image = rendered(gpu, &drawn(mode, &positions), &settings, &camera());
             for (pixel, color) in image.colors.iter().enumerate() {
-                // Where a line goes back on itself, its polygons overlap.
+                // Where a line folds back on itself, its polygons overlap.
                 let parts = polygons
                     .iter()
                     .map(|part| covered(std::slice::from_ref(part), pixel));
@@ -255,7 +255,7 @@ fn a_parallel_projection_has_lines_as_wide() {
 fn lines_without_length_show_nothing() {
     on_gpu(|gpu| {
         let point = [0.1, 0.2, -2.0];
-        // Seen end on, from the eye and behind it; without length; behind the eye.
+        // The segments are seen end-on in front of and behind the eye, have no length, or are behind the eye.
         let nothing = [
             [point, point.map(|x| 3.0 * x)],
             [point, point],
@@ -294,7 +294,7 @@ fn a_region_is_that_part_of_the_whole() {
     });
 }
 
-/// Given normals light a line; without any it shows its colour, and its normal is the way to the camera.
+/// With normals a line is lit. Without normals it shows its unlit colour, and its normal points to the camera.
 #[test]
 fn lines_without_normals_are_unlit() {
     on_gpu(|gpu| {
@@ -328,7 +328,7 @@ fn lines_without_normals_are_unlit() {
     });
 }
 
-/// The ends are where joints and targets have moved them.
+/// The ends of lines follow joints and morph targets.
 #[test]
 fn lines_move_with_their_nodes() {
     on_gpu(|gpu| {
@@ -382,7 +382,7 @@ fn lines_move_with_their_nodes() {
     });
 }
 
-/// Locations at the centres of an image's pixels.
+/// The locations are the centres of an image's pixels.
 #[test]
 fn locations_see_lines_as_wide() {
     on_gpu(|gpu| {

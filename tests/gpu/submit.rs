@@ -1,10 +1,10 @@
-//! Commands of a test's own.
+//! Commands of a test.
 
 use ash::vk;
 use gpc::vulkan::Gpu;
 use std::sync::Arc;
 
-/// Records commands and submits them; `meanwhile` is done before they are waited for.
+/// Records commands and submits them; `meanwhile` is called before waiting for them.
 pub fn submit_and(
     gpu: &Arc<Gpu>,
     record: impl FnOnce(vk::CommandBuffer),
@@ -21,7 +21,7 @@ pub fn submit_and(
         let info = vk::DependencyInfo::default().memory_barriers(&to_host);
         let all = [commands];
         let submits = [vk::SubmitInfo::default().command_buffers(&all)];
-        // SAFETY: the commands are being recorded, and are waited for before their pool goes.
+        // SAFETY: the commands are being recorded, and are waited for before their pool is destroyed.
         unsafe {
             device.cmd_pipeline_barrier2(commands, &info);
             device.end_command_buffer(commands).unwrap();
@@ -49,10 +49,10 @@ pub fn discard(gpu: &Arc<Gpu>, record: impl FnOnce(vk::CommandBuffer)) {
     });
 }
 
-/// Lends a command buffer that is being recorded, and frees it.
+/// Calls `lend` with a command buffer that is being recorded, and frees it afterwards.
 fn with_commands(gpu: &Arc<Gpu>, lend: impl FnOnce(vk::CommandBuffer)) {
     let device = gpu.device();
-    // SAFETY: whoever submits the commands waits for them.
+    // SAFETY: callers that submit the commands wait for them.
     unsafe {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family());
         let pool = device.create_command_pool(&info, None).unwrap();

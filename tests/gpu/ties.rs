@@ -1,4 +1,4 @@
-//! Coincident surfaces: the smaller ID wins, in the device's rasterizer and in sub-samples alike.
+//! Coincident surfaces: the smaller ID wins, in the device's rasterizer and in sampling.
 
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
@@ -8,7 +8,7 @@ use crate::stage::{Stage, everywhere, flat, ids, on_gpu, once};
 
 const SIZE: [u32; 2] = [64, 64];
 
-/// A tiling whose triangles each have a distance of their own from the eye, and so each a tilt.
+/// A tiling whose triangles have individual distances from the eye, and therefore tilts.
 fn tiling() -> Stage {
     let mesh = delaunay(6, 32.0, 12, Depths::Random);
     let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
@@ -16,7 +16,7 @@ fn tiling() -> Stage {
     stage
 }
 
-/// The stage with copies of its triangles behind them in the list, shuffled.
+/// The stage followed by shuffled copies of its triangles.
 fn with_copies(stage: &Stage, copies: usize) -> Stage {
     let mut random = Random::new(3);
     let mut doubled = stage.clone();
@@ -50,8 +50,8 @@ fn of_duplicates_the_smaller_id_wins() {
     });
 }
 
-/// With their vertices in another order, duplicates differ in depth by rounding and either may show, but nothing else
-/// does and no sample is lost.
+/// Copies whose vertices are rotated have depths that differ by rounding, so that either may be visible; but nothing
+/// else is, and no sample is lost.
 #[test]
 fn turned_duplicates_hide_each_other() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! The time of each pass is booked to that pass.
+//! The time of each pass is attributed to that pass.
 
 use glam::DVec3;
 use gpc::render::SceneRequest;
@@ -6,7 +6,7 @@ use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use crate::stage::{Stage, camera, flat, on_gpu, once};
 
-/// Lights that make shading far longer than the passes before and after it.
+/// Number of lights, so large that shading takes far longer than the passes before and after it.
 const LIGHTS: usize = 600;
 
 #[test]
@@ -30,7 +30,7 @@ fn a_long_pass_is_long_and_its_neighbours_are_not() {
     on_gpu(|gpu| {
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, &once([192, 128])).unwrap();
-        // Drivers may compile shaders during the first.
+        // Drivers may compile shaders during the first frame.
         gpu.render(&mut frame, &camera()).unwrap();
         let passes = gpu.render(&mut frame, &camera()).unwrap().statistics.passes;
         if passes.is_empty() {

@@ -1,17 +1,17 @@
-//! What a stage's samples see, by the exact twin.
+//! Visible triangles of a stage's samples, computed by the exact twin.
 
 use gpc::reference::visibility::{Surface, Visibility, nearest};
 
 use crate::stage::{Stage, centre, clip};
 
-/// Surfaces, and which of them come near each pixel.
+/// Surfaces of a stage, and the indices of those near each pixel.
 pub struct Twin {
     surfaces: Vec<Surface>,
     near: Vec<Vec<u32>>,
 }
 
 impl Twin {
-    /// The surfaces of a stage in an image of `size` pixels.
+    /// Makes the twin of a stage in an image of `size` pixels.
     pub fn new(stage: &Stage, size: [u32; 2]) -> Self {
         let mut twin = Self {
             surfaces: Vec::new(),
@@ -29,7 +29,7 @@ impl Twin {
                     .clone()
                     .map(|column| row * size[0] as usize + column)
                 {
-                    // No sample is farther than 0.71 pixels from its pixel's centre.
+                    // No sample is more than 0.71 pixels from its pixel's centre.
                     if surface.edges().margin(centre(pixel, size)) > -0.75 {
                         twin.near[pixel].push(twin.surfaces.len() as u32);
                     }
@@ -40,20 +40,20 @@ impl Twin {
         twin
     }
 
-    /// What a sample in a pixel's square sees.
+    /// Visibility of a sample in a pixel's square.
     pub fn nearest(&self, pixel: usize, sample: [f64; 2]) -> Visibility {
         self.without(pixel, sample, &[])
     }
 
-    /// The same where the surfaces with these IDs are not there.
+    /// Visibility of a sample without the surfaces with the IDs `hidden`.
     pub fn without(&self, pixel: usize, sample: [f64; 2], hidden: &[u32]) -> Visibility {
         let surfaces = self.near[pixel].iter().map(|&i| &self.surfaces[i as usize]);
         nearest(surfaces.filter(|s| !hidden.contains(&s.id())), sample)
     }
 }
 
-/// The columns or rows of pixels that a triangle comes within a pixel of; all of them where a vertex is not in front of
-/// the eye.
+/// Range of the columns or rows of pixels within a pixel of a triangle; all of them if a vertex is not in front of the
+/// eye.
 fn reach(vertices: [[f32; 4]; 3], axis: usize, pixels: u32) -> std::ops::Range<usize> {
     if vertices.iter().any(|v| v[3] <= 0.0) {
         return 0..pixels as usize;

@@ -1,4 +1,4 @@
-//! In how many parts superpixels are shaded, against the CPU's decision: each place is a visibility sample.
+//! Numbers of parts in which superpixels are shaded, compared with the CPU's: each shading is a visibility sample.
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
@@ -8,15 +8,15 @@ use gpc::render::{Coverage, Detection, Rendered, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
-/// Of two images: a triangle covers many pixels in a row, or one.
+/// Sizes of two images: in one a triangle covers many pixels of a row, in the other a single one.
 const SIZES: [[u32; 2]; 2] = [[32, 24], [2, 96]];
 const CONTRAST: u8 = 8;
-/// Samples of a block, each of which has parts of its own.
+/// Number of samples of a block, which is divided into parts on its own.
 const BLOCK: u32 = 64;
-/// Numbers of samples, and the parts of a superpixel there.
+/// Numbers of samples, and the number of parts of a superpixel for each.
 const RATES: [(u32, u64); 5] = [(4, 4), (16, 16), (64, 32), (256, 128), (1024, 256)];
 
-/// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.
+/// A texture with a texel for each pixel: patches of even, slightly uneven, uneven and very uneven grey.
 fn patches([width, height]: [u32; 2], seed: u64) -> Image {
     let mut random = Random::new(seed);
     let side = (width / 5).max(1);
@@ -35,7 +35,7 @@ fn patches([width, height]: [u32; 2], seed: u64) -> Image {
     }
 }
 
-/// The image in two triangles that meet along the border between two columns of pixels, of the same material or of two.
+/// Stage of two triangles that fill the image and meet between two columns of pixels, with one or two materials.
 fn stage(size: [u32; 2], seed: u64, materials: usize) -> Stage {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque); materials]);
     stage.texture = Some((
@@ -65,7 +65,7 @@ fn stage(size: [u32; 2], seed: u64, materials: usize) -> Stage {
     stage
 }
 
-/// What the centres around a pixel see.
+/// Centres around a pixel, in the form of the twin.
 fn around(rendered: &Rendered, size: [u32; 2], x: i64, y: i64) -> Neighbourhood {
     let [width, height] = size.map(i64::from);
     let mut found = Neighbourhood {
@@ -105,7 +105,8 @@ fn places_are_as_many_as_the_twin_says() {
                         SuperpixelOptions::new(samples)
                             .detection(Detection::Every)
                             .coverage(Coverage::Samples)
-                            // The twin counts runs of points; on lines, parts of which a triangle has little share a record.
+                            // The twin is made for points; on lines, parts with little of a triangle share a
+                            // visibility sample.
                             .pattern(Pattern::Sobol)
                             .contrast(Some(CONTRAST))
                             .shading(shading)
@@ -135,7 +136,7 @@ fn places_are_as_many_as_the_twin_says() {
                     records, expected,
                     "{materials} materials, {samples} samples"
                 );
-                // Nothing is lost or counted twice: texels are pixels, so that all places of a pixel see one colour.
+                // Texels are pixels, so that all places of a pixel have one colour: nothing is lost or counted twice.
                 let sampled = stage.render(gpu, &settings(Shading::Sample));
                 let apart = mean(&rendered) / mean(&sampled) - 1.0;
                 assert!(apart.abs() < 1e-4, "{samples} samples: {apart}");

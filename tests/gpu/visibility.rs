@@ -1,4 +1,4 @@
-//! The triangle that each sub-sample sees, against the exact twin.
+//! The triangle that each sample sees, compared with the exact twin.
 
 use gpc::render::Headless;
 use gpc::sampling::Pattern;
@@ -11,18 +11,18 @@ use crate::twin::Twin;
 const SIZE: [u32; 2] = [64, 64];
 const HALF: f64 = 32.0;
 
-/// What a comparison has seen.
+/// Counts of a comparison.
 #[derive(Debug, Default)]
 struct Tally {
     samples: u64,
-    /// Samples whose triangle rounding may change.
+    /// Number of samples whose triangle rounding may change.
     contested: u64,
-    /// Pixels that differ from the twin for that reason.
+    /// Number of pixels that differ from the twin for that reason.
     excused: u64,
 }
 
 impl Tally {
-    /// Fails where so many samples are contested that the comparison says little.
+    /// Fails if so many samples are contested that the comparison means little.
     fn assert_few_contested(&self, name: &str) {
         assert!(
             self.contested * 20 <= self.samples && self.excused * 10 <= self.contested + 20,
@@ -31,15 +31,15 @@ impl Tally {
     }
 }
 
-/// Whether a pixel may differ from the twin by its contested samples.
+/// Reasons for which a pixel may differ from the twin.
 #[derive(Clone, Copy, PartialEq)]
 enum Excuse {
     Contested,
-    /// Vertices, samples and edge functions are exact in 32 bits.
+    /// None: vertices, samples and edge functions are exact in 32 bits.
     Nothing,
 }
 
-/// Compares the mean of the [codes](code) of what the samples of each pixel see.
+/// Compares each pixel with the mean of the [codes](code) of the triangles that its samples see.
 fn compare(
     gpu: &mut Headless,
     stage: &Stage,
@@ -68,7 +68,7 @@ fn compare(
         let difference = (0..3)
             .map(|channel| (f64::from(found[channel]) - mean[channel]).abs())
             .fold(0.0, f64::max);
-        // Interpolated codes are right to 2^-21 of their value.
+        // Interpolated codes are accurate to 2^-21 of their value.
         const ROUNDING: f64 = 0.004;
         let allowed = match excuse {
             Excuse::Contested => 4095.0 * f64::from(contested) / f64::from(samples),
@@ -85,7 +85,7 @@ fn compare(
     tally
 }
 
-/// A stage that shows a mesh, each triangle by its code.
+/// A stage of a mesh whose triangles show their codes.
 fn coded(mesh: &Mesh, double_sided: bool, permutation: impl Fn(usize) -> usize) -> Stage {
     let mut material = flat([1.0; 4], AlphaMode::Opaque);
     material.double_sided = double_sided;
@@ -99,7 +99,7 @@ fn coded(mesh: &Mesh, double_sided: bool, permutation: impl Fn(usize) -> usize) 
 fn tilings_are_seen_as_the_twin_sees_them() {
     on_gpu(|gpu| {
         for (index, mesh) in tilings(1, HALF).into_iter().enumerate() {
-            // All windings and rotations.
+            // The order of the vertices covers all windings and rotations.
             let stage = coded(&mesh, true, |triangle| triangle + index);
             let lone = Pattern::List(vec![[0.17, -0.31]]);
             for pattern in [(lone, 1), (Pattern::Sobol, 17)] {
@@ -110,7 +110,7 @@ fn tilings_are_seen_as_the_twin_sees_them() {
     });
 }
 
-/// Samples on edges and corners go to the triangle that the rule for ties says.
+/// Samples on edges and corners belong to the triangle that the rule for ties gives.
 #[test]
 fn samples_on_edges_are_owned_by_the_rule() {
     on_gpu(|gpu| {
@@ -161,7 +161,7 @@ fn planes_through_the_eye_are_seen_as_the_twin_sees_them() {
     });
 }
 
-/// Triangles that intersect in depth; `distances` from the eye, in powers of two.
+/// Triangles that intersect in depth; `distances` from the eye are in powers of two.
 pub fn soup(seed: u64, count: usize, double_sided: bool, distances: [f64; 2]) -> Stage {
     let mut random = Random::new(seed);
     let mut material = flat([1.0; 4], AlphaMode::Opaque);
@@ -192,13 +192,13 @@ fn the_nearest_of_intersecting_triangles_is_seen() {
     });
 }
 
-/// Nearly coplanar layers, 2^-12 apart in depth, far from the eye.
+/// Nearly coplanar layers far from the eye, whose depths differ by 2^-12.
 #[test]
 fn nearly_coplanar_layers_keep_their_order() {
     on_gpu(|gpu| {
         let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
         for layer in 0..40_u32 {
-            // In no order of depth, and each with another corner in view.
+            // Layers are not in order of depth, and each has another corner in view.
             let distance = 500.0 * (1.0 + f64::from(layer * 17 % 40) * 2.0_f64.powi(-12));
             let turn = f64::from(layer) * 0.7;
             let corners = [0.0, 2.1, 4.2].map(|angle| {
@@ -213,7 +213,7 @@ fn nearly_coplanar_layers_keep_their_order() {
     });
 }
 
-/// The first pass, by the device's own rasterizer, sees the same triangles as the exact twin, but for its rounding of
+/// The first pass, by the device's rasterizer, sees the same triangles as the exact twin, except for rounding of
 /// vertices to 2^-8 pixel.
 #[test]
 fn raster_agrees_with_the_twin_away_from_edges() {

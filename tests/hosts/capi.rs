@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Where the library is installed for these tests.
+/// Folder in which the library is installed for these tests.
 fn prefix() -> &'static Path {
     static PREFIX: OnceLock<PathBuf> = OnceLock::new();
     PREFIX.get_or_init(|| {
@@ -23,7 +23,7 @@ fn prefix() -> &'static Path {
     })
 }
 
-/// Runs a program and gives what it said.
+/// Runs a program and returns its standard output.
 fn said(program: &mut Command) -> String {
     let run = program.output().unwrap_or_else(|error| {
         panic!("{program:?}: {error}; tools/setup.sh build c installs what is needed")
@@ -33,7 +33,7 @@ fn said(program: &mut Command) -> String {
     String::from_utf8(run.stdout).unwrap()
 }
 
-/// Words of what pkg-config says of the installed library.
+/// Options that pkg-config prints for the installed library.
 fn pkg_config(options: &[&str]) -> Vec<String> {
     let mut program = Command::new("pkg-config");
     program
@@ -43,7 +43,7 @@ fn pkg_config(options: &[&str]) -> Vec<String> {
     words.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Compiles a program against the installed library, without a warning.
+/// Compiles a program against the installed library; warnings are errors.
 fn compiled(compiler: &str, source: &str, options: &[&str], libraries: &[String]) -> PathBuf {
     let source = Path::new(ROOT).join(source);
     let program = prefix().join(source.file_stem().unwrap());
@@ -205,7 +205,7 @@ fn the_manual_and_the_licences_are_installed() {
     }
 }
 
-/// In C99, and with the static library.
+/// The program is compiled as C99 and linked with the static library.
 #[test]
 fn misuse_is_answered_with_a_result_and_a_message() {
     let mut libraries = vec![prefix().join("lib/libgpc.a").display().to_string()];
@@ -233,7 +233,7 @@ fn a_program_of_an_earlier_header_runs_with_the_shared_library() {
     );
 }
 
-/// In C++17, and with the shared library.
+/// The program is compiled as C++17 and linked with the shared library.
 #[test]
 fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
     let libraries = pkg_config(&["--libs", "gpc", "vulkan"]);

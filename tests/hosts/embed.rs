@@ -1,4 +1,4 @@
-//! The embedding example, run as a program of its own: a host's image holds what a headless render gives.
+//! The embedding example, run as a separate program: the host's image equals a headless render.
 
 use crate::example;
 use gpc::camera::Camera;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A built example; `cargo test` builds examples beside its tests.
+/// Path of a built example; `cargo test` builds examples beside its tests.
 pub fn built(name: &str) -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let profile = test.parent().and_then(Path::parent).unwrap();
@@ -18,10 +18,10 @@ pub fn built(name: &str) -> PathBuf {
     example
 }
 
-/// Runs a program with validation and synchronisation validation; a message of theirs fails the test, as does the program.
-/// Gives its standard output.
+/// Runs a program with validation and synchronisation validation, and returns its standard output. A message of the
+/// layer fails the test, and so does an exit code other than 0.
 pub fn validated(program: &mut Command) -> String {
-    // The loader slips the layer under the program; without a messenger it writes to standard output.
+    // The loader inserts the layer; without a messenger it writes to standard output.
     let run = program
         .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
         .env(
@@ -40,8 +40,8 @@ pub fn validated(program: &mut Command) -> String {
     said
 }
 
-/// Asserts that an example takes so many paths and prints its usage where help is asked for, refuses anything else in one
-/// line that names it, and writes nothing in either case.
+/// Asserts that an example takes at most `paths` paths, prints its usage for `--help`, refuses any other argument with
+/// one line that names it, and writes nothing in either case.
 pub fn takes_only(program: impl Fn() -> Command, paths: usize, usage: &str) {
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| {
@@ -68,7 +68,7 @@ pub fn takes_only(program: impl Fn() -> Command, paths: usize, usage: &str) {
     }
 }
 
-/// The number in a line of what a program said.
+/// Number in the line of a program's output that begins with `name`.
 pub fn figure(said: &str, name: &str) -> f64 {
     let line = said.lines().find_map(|line| line.strip_prefix(name));
     line.unwrap_or_else(|| panic!("no \"{name}\" in {said}"))

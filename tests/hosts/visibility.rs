@@ -21,7 +21,7 @@ fn a_hosts_own_materials_are_antialiased_as_by_its_brute_force() {
         figure(&said, "error of one sample: ") > 10.0 * brute,
         "{said}"
     );
-    // A superpixel is shaded in 8 or 16 places where 64 samples of brute force are shaded.
+    // Supersampling shades 64 samples where a superpixel is shaded in 8 or 16 places.
     assert!(
         figure(&said, "error of superpixels: ") < 1.45 * brute,
         "{said}"
@@ -47,7 +47,7 @@ fn a_hosts_own_materials_are_antialiased_as_by_its_brute_force() {
     let each = through("superpixels, each of these samples shaded");
     assert!(each <= 1.1 * brute, "{said}");
 
-    // Beside the lens both show the same; in its middle things are larger.
+    // Beside the lens both pictures are equal; in its middle things are larger.
     let [out, lens] = [out, lens].map(|path| image::open(path).unwrap());
     let apart = |x: u32, width: u32| {
         let colors = |picture: &image::DynamicImage| -> Vec<[f32; 4]> {

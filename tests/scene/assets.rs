@@ -1,4 +1,4 @@
-//! The scenes in `assets/` are what their generator writes.
+//! The scenes in `assets/` equal the output of their generator.
 
 #[path = "../../examples/generate_assets/scenes/mod.rs"]
 mod scenes;

@@ -1,4 +1,4 @@
-//! Compressed meshes and textures: what they hold, and what they cannot claim.
+//! Compressed meshes and textures: their contents, and claims that are refused.
 
 use crate::scene_builder::{Builder, TRIANGLE};
 use crate::shared::shared;
@@ -66,18 +66,19 @@ fn draco_that_cannot_be_decoded_gives_way_to_uncompressed_data() {
     assert_eq!(builder.pose().geometry.triangles.len(), 1);
 }
 
-/// The bytes of a KTX2 file of one block in the UASTC format, which claims to be compressed by Zstandard.
+/// A KTX2 file of one block in the UASTC format, which claims to be compressed by Zstandard.
 fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
     let mut bytes = b"\xABKTX 20\xBB\r\n\x1A\n".to_vec();
-    // No Vulkan format, bytes, size, neither depth nor layers, one level, Zstandard.
+    // The words are: no Vulkan format, size of a byte, width, height, no depth, no layers, faces, one level,
+    // Zstandard.
     let words = [0, 1, width, height, 0, 0, faces, 1, 2];
     bytes.extend(words.iter().flat_map(|word: &u32| word.to_le_bytes()));
-    // The data format descriptor behind the only level; no key-value nor global data.
+    // The data format descriptor follows the only level; there is neither key-value data nor global data.
     let words = [104_u32, 44, 0, 0, 0, 0, 0, 0];
     bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
     let level = [148_u64, 16, claimed];
     bytes.extend(level.iter().flat_map(|word| word.to_le_bytes()));
-    // The descriptor: colour model UASTC, primaries of BT.709, transfer function of sRGB, blocks of 4 x 4 texels.
+    // The descriptor says: colour model UASTC, primaries of BT.709, transfer function of sRGB, blocks of 4 x 4 texels.
     let words = [
         44_u32,
         0,
@@ -98,7 +99,7 @@ fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
 
 #[test]
 fn ktx2_cannot_claim_what_its_blocks_cannot_hold() {
-    // Found by fuzzing: ETC1S whose global data lie at the end of what 64 bits address.
+    // Found by fuzzing: ETC1S whose global data lie at the end of the 64-bit address space.
     let mut far = ktx2(4, 4, 1, 0);
     far[44] = 1;
     far[64..72].copy_from_slice(&(u64::MAX - 9).to_le_bytes());
@@ -141,7 +142,7 @@ fn ktx2_cannot_claim_what_its_blocks_cannot_hold() {
     }
 }
 
-/// The ratified name is another for the same.
+/// The extension has an older and a ratified name.
 #[test]
 #[cfg_attr(not(shared_files), ignore = "../shared is missing")]
 fn meshopt_has_two_names() {
@@ -164,7 +165,7 @@ fn meshopt_has_two_names() {
     assert_eq!(geometry(&old), geometry(&new));
 }
 
-/// Texels of the scene's images that are as `wanted`.
+/// Number of texels in the scene's images for which `wanted` is true.
 fn texels(name: &str, wanted: fn([u8; 4]) -> bool) -> usize {
     let scene = Scene::load(&shared("scenes").join(name)).unwrap().scene;
     let images = scene.images.iter();
@@ -172,7 +173,7 @@ fn texels(name: &str, wanted: fn([u8; 4]) -> bool) -> usize {
     texels.filter(|&&texel| wanted(texel)).count()
 }
 
-/// A balloon is blue above and green below (ETC1S), a lamp is of copper (UASTC with Zstandard).
+/// A balloon is blue above and green below (ETC1S); a lamp is made of copper (UASTC with Zstandard).
 #[test]
 #[cfg_attr(not(shared_files), ignore = "../shared is missing")]
 fn etc1s_and_uastc_have_their_colours() {
@@ -189,10 +190,10 @@ fn etc1s_and_uastc_have_their_colours() {
     }
 }
 
-/// Mipmaps that a file has down to a single texel are kept; too few of them are not.
+/// Mipmaps are kept if the file has all of them down to a single texel, and ignored otherwise.
 #[test]
 fn ktx2_keeps_its_levels() {
-    // A UASTC block of mode 8, which holds one colour: five bits of the mode, then eight for each channel.
+    // A UASTC block of mode 8 holds a single colour: five bits of the mode, then eight bits for each channel.
     let block = |[r, g, b]: [u8; 3]| {
         let channels = [r, g, b, 255].map(u128::from);
         let shifted = channels.iter().zip([5, 13, 21, 29]);

@@ -46,14 +46,14 @@ fn edges_of(primitives: &[Vec<[f32; 3]>]) -> Geometry {
     pose.geometry
 }
 
-/// Smooth edges, and others.
+/// Numbers of smooth edges and of other edges.
 fn counts(geometry: &Geometry) -> [usize; 2] {
     let edges = &geometry.edges;
     let smooth = edges.iter().filter(|edge| edge.is_smooth).count();
     [smooth, edges.len() - smooth]
 }
 
-/// The side that two faces in a plane share is no edge.
+/// The common side of two faces in a plane is not an edge.
 #[test]
 fn faces_that_turn_far_make_a_crease() {
     for (angle, expected) in [
@@ -113,7 +113,7 @@ fn edges_are_where_the_faces_are() {
         for v in [from, to, a, b] {
             assert!(corners.iter().any(|corner| near(relative(v), corner)));
         }
-        // Until a camera places them, corners are at their ends.
+        // Corners are at the ends of the edge until a camera places them.
         for (corner, end) in (edge.first_vertex..).zip([from, to, to, from]) {
             assert_eq!(relative(corner), relative(end));
         }

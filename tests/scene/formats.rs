@@ -56,7 +56,7 @@ fn obj_has_its_mtl_colours_and_textures() {
             .iter()
             .all(|n| *n == [0.0, 0.0, 1.0])
     );
-    // OBJ counts v from the bottom of the image, glTF from its top.
+    // In OBJ v starts at the bottom of the image, in glTF at its top.
     for (position, uv) in geometry.positions.iter().zip(&geometry.streams.uvs) {
         let [x, y] = [0, 1].map(|i| position[i] + geometry.origin[i] as f32);
         assert_eq!([x, 1.0 - y], uv[..2]);
@@ -68,7 +68,7 @@ fn obj_has_its_mtl_colours_and_textures() {
     );
 }
 
-/// One component stands for all three; none, or one that is no number, for the default.
+/// A single component stands for all three. Without components, or if one is not a number, the default is used.
 #[test]
 fn mtl_colours_may_lack_components() {
     let folder = tempfile::tempdir().unwrap();
@@ -132,7 +132,7 @@ fn obj_with_indices_beyond_its_vertices_is_refused() {
         let expected = format!("line {line}: the OBJ file is broken: {reason}");
         refused(format!("{corners}{statements}\n").as_bytes(), &expected);
     }
-    // A statement of a great many lines takes no longer than others.
+    // A statement over very many lines takes no longer than others.
     let long = format!("{corners}f 1 2 {}9\nf 1 2 3\n", "\\\n".repeat(300_000));
     refused(long.as_bytes(), "line 5: the OBJ file is broken: vertex 9");
 }
@@ -186,7 +186,7 @@ fn positions_that_are_not_finite_are_left_out() {
     );
 }
 
-/// A PLY header for this encoding, with a double x far from the origin.
+/// A PLY header for this encoding; x is a double and far from the origin.
 fn ply_header(format: &str, vertices: usize) -> String {
     format!(
         "ply\nformat {format} 1.0\nelement vertex {vertices}\nproperty double x\n\
@@ -319,7 +319,8 @@ fn strips_of_ply_keep_their_sides() {
     assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
 }
 
-/// What programs write: colours of vertices, names and indices of all kinds, polygons, lines that go on, other line ends.
+/// Statements that programs write: vertex colours, names and indices of all kinds, polygons, continued lines, and
+/// other line ends.
 #[test]
 fn obj_as_programs_write_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -331,7 +332,7 @@ fn obj_as_programs_write_it() {
         v\t0 0 0 1 0 0\r\nv 1 0 0 0 1 0\r\nv  1 1 0 0 0 1 \r\nv 0.5 1.5 0 1 1 1\r\nv 0 1e0 0 1 1 1\r\n\
         vt 0 0\r\nvt 1 0 0\r\nvt 1 1\r\nusemtl red paint\r\ns off\r\n\
         f -5/1 -4/2 -3/3 -2/3 \\\r\n  -1/3\r\nf 1//  2// 3//\r\n";
-    // Not UTF-8, as comments of old programs are not.
+    // Comments of old programs may not be UTF-8.
     let mut obj = obj.as_bytes().to_vec();
     obj[3] = 0xFC;
     let loaded = load(&obj, Some(folder.path())).unwrap();
@@ -339,7 +340,7 @@ fn obj_as_programs_write_it() {
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
     assert_eq!(pose.geometry.triangles.len(), 4);
     let used = loaded.scene.materials[0].base_color_texture.unwrap();
-    // Of v from the top, 1 - (3 (1 - v) + 0.25).
+    // With v from the top, the transform is 1 - (3 (1 - v) + 0.25).
     assert_eq!(used.transform.0, [[2.0, 0.0, 0.5], [0.0, 3.0, -2.25]]);
     assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
 }

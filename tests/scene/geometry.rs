@@ -1,4 +1,4 @@
-//! Triangles and vertices as glTF encodes them.
+//! Triangles and vertices in all encodings of glTF.
 
 use crate::scene_builder::{Builder, TRIANGLE, assert_near, corners, le};
 use glam::DVec3;
@@ -46,7 +46,7 @@ fn every_index_type() {
     }
 }
 
-/// Corners of a segment, of a joint and of a disc.
+/// Numbers of corners of a segment, of a joint and of a disc.
 const SEGMENT: usize = 4;
 const JOINT: usize = 3;
 const DISC: usize = StrokePart::DISC_CORNERS as usize;
@@ -69,7 +69,7 @@ fn points_and_lines_are_corners_to_place() {
     for (mode, indices, anchors, corners, counts) in [
         (0, json!([0, 1, 2]), 3, 3 * DISC, [3, 0]),
         (0, json!(null), 4, 4 * DISC, [4, 0]),
-        // Two lines apart, and two that share a vertex.
+        // Two separate lines, and two that share a vertex.
         (1, json!([0, 1, 2, 3]), 4, 2 * SEGMENT, [0, 2]),
         (1, json!([0, 1, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
         (
@@ -81,7 +81,7 @@ fn points_and_lines_are_corners_to_place() {
         ),
         (2, json!([0, 1, 2]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
         (3, json!([0, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
-        // What has no length has no direction either.
+        // A segment without length has no direction.
         (3, json!([0, 1, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
         (2, json!([0, 1, 2, 0]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
     ] {
@@ -104,7 +104,7 @@ fn points_and_lines_are_corners_to_place() {
             assert!((stroke.at.max(stroke.other).max(stroke.beyond) as usize) < anchors);
         }
     }
-    // What is beyond the vertices interrupts a line.
+    // An index beyond the vertices interrupts a line.
     let (geometry, info, warnings) = drawn(3, json!([0, 1, 9, 2, 3, 0]));
     assert_eq!([info.points, info.lines], [0, 3]);
     assert_eq!(geometry.strokes.len(), 3 * SEGMENT + JOINT);
@@ -237,7 +237,7 @@ fn quantised_positions_and_normalised_colours() {
         [[0.; 3], [32_767., 0., 0.], [-32_768., 0., 0.]],
     );
     let high: Vec<f64> = corners(&geometry, 1).iter().map(|c| c[0]).collect();
-    // Relative to the centre of a scene of 65,535 units, single precision resolves 1/512.
+    // Relative to the centre of a scene with a size of 65,535 units, single precision resolves 1/512.
     for (found, expected) in high.iter().zip([0.0, 1.0, -1.0]) {
         assert!((found - expected).abs() < 2e-3, "{high:?}");
     }
@@ -256,7 +256,7 @@ fn mirrored_nodes_keep_their_fronts() {
     let geometry = builder.pose().geometry;
     for t in 0..3 {
         let [a, b, c] = corners(&geometry, t).map(DVec3::from_array);
-        // Mirroring along x or y leaves the side that faces +Z facing it.
+        // After mirroring along x or y, the side that faced +Z still faces it.
         assert!((b - a).cross(c - a).z > 0.0, "triangle {t}");
         let [v, _, _] = geometry.triangles[t];
         assert_eq!(geometry.streams.normals[v as usize], [0., 0., 1.]);
@@ -512,7 +512,7 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     assert_eq!(geometry.instances.len(), COPIES + 1);
     let flat = geometry.flat();
     assert!(flat.instances.is_empty());
-    // Motions name vertices by their indices.
+    // Motions refer to vertices by their indices.
     assert!(flat.positions.starts_with(&geometry.positions));
     assert_eq!(flat.triangles.len() as u64, geometry.index_count());
     let drawn: u32 = flat.draws.iter().map(|draw| draw.triangle_count).sum();

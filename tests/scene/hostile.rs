@@ -1,4 +1,4 @@
-//! Files that claim more than they hold, or repeat what they hold beyond measure.
+//! Files that claim more than they contain, or repeat their contents excessively.
 
 use std::time::Instant;
 
@@ -115,7 +115,7 @@ fn compressed_views_cannot_claim_what_is_not_there() {
 
 #[test]
 fn repetition_is_bounded() {
-    // 20,000 primitives that share one list of 60,000 indices: 400 million triangles.
+    // 20,000 primitives share a list of 60,000 indices: 400 million triangles.
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
     let indices = builder.indices(&[0; 60_000]);
@@ -124,7 +124,7 @@ fn repetition_is_bounded() {
     builder.push("nodes", json!({"mesh": 0}));
     refused(&builder, "exceed the limit");
 
-    // 40,000 nodes that share a mesh of 20,000 triangles.
+    // 40,000 nodes share a mesh of 20,000 triangles.
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
     let indices = builder.indices(&[0; 60_000]);
@@ -213,7 +213,7 @@ fn what_is_not_gltf_is_named() {
     assert!(message(&nested).contains("recursion limit"));
 }
 
-/// A scene of all parts, small enough to break it at every byte.
+/// A scene with all kinds of parts, small enough to be damaged at every byte.
 fn rich() -> Builder {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
@@ -282,7 +282,7 @@ fn no_changed_byte_panics() {
     }
 }
 
-/// Replaces every value of the document in turn.
+/// Replaces every value of the document, one at a time.
 #[test]
 fn no_changed_value_panics() {
     fn pointers(value: &Value, place: &str, found: &mut Vec<String>) {
@@ -318,7 +318,7 @@ fn no_changed_value_panics() {
         ] {
             let mut builder = rich();
             *builder.json.pointer_mut(&place).unwrap() = value.clone();
-            // The builder itself needs an object.
+            // The builder needs an object at the root.
             if builder.json.is_object() {
                 exercise(&builder.glb());
             }

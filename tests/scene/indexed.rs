@@ -1,4 +1,4 @@
-//! Every shared scene loads and poses, or is refused for a reason that is known.
+//! Every shared scene loads and poses, or is refused for a known reason.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use crate::shared::{gltf_files, shared};
 use gpc::scene::{Geometry, Pose, PoseRequest, Scene, SceneError, StrokePart};
 use serde_json::Value;
 
-/// What every geometry promises.
+/// Checks the properties that every geometry must have.
 fn check(geometry: &Geometry, what: &str) {
     let vertices = geometry.positions.len();
     let streams = &geometry.streams;
@@ -81,8 +81,8 @@ fn pose(path: &Path) -> Result<(Scene, Pose, Vec<String>), SceneError> {
     Ok((loaded.scene, pose, loaded.warnings))
 }
 
-/// Triangles beyond the index's of scenes with instances, which it does not expand: 2,999 more tufts
-/// of 384 triangles.
+/// Numbers of triangles that the index lacks, because it does not expand instances: 2,999 further tufts of 384
+/// triangles.
 const INSTANCED: [(&str, u64); 1] = [("GrassFieldInstanced", 2_999 * 384)];
 
 #[test]
@@ -110,7 +110,7 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
         match (pose(&path), unsupported) {
             (Ok((scene, pose, warnings)), None) => {
                 let info = scene.info();
-                // Points and lines are drawn by triangles too.
+                // Points and lines consist of triangles too.
                 let of_strokes = (StrokePart::DISC_CORNERS as u64 - 2) * info.points
                     + 2 * info.lines
                     + joints(&pose.geometry);
@@ -141,7 +141,7 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
     assert!(checked >= 60, "only {checked} scenes");
 }
 
-/// How many joints of lines there are, each filled by a triangle.
+/// Number of joints of lines, each of which is filled by a triangle.
 fn joints(geometry: &Geometry) -> u64 {
     let centres = geometry
         .strokes
@@ -150,12 +150,13 @@ fn joints(geometry: &Geometry) -> u64 {
     centres.count() as u64
 }
 
-/// The index holds bounds from the accessors' own, in the rest pose without morphing or skinning.
+/// Checks bounds against the index, which computes them from the accessors, in the rest pose without morphing or
+/// skinning.
 fn check_bounds(entry: &Value, pose: &Pose, name: &str) {
     let stats = &entry["stats"];
     let plain = stats["skins"] == 0 && stats["morph"] == false && stats["anim"] == 0;
-    // The index's bounds hold what sparse accessors replace; of what is compressed they are zeros, and of points and
-    // lines narrower than the points.
+    // The index's bounds ignore sparse replacements, are zero for compressed accessors, and smaller than the points
+    // and lines themselves.
     let plain = plain
         && ![
             "SimpleSparseAccessor",
@@ -177,8 +178,8 @@ fn check_bounds(entry: &Value, pose: &Pose, name: &str) {
     }
 }
 
-/// Where a file has tangents, those generated in their stead agree: the same sign of the bitangent,
-/// and nearly the same direction, nearly everywhere.
+/// Generated tangents agree with those of files almost everywhere: in the sign of the bitangent, and approximately in
+/// direction.
 #[test]
 #[cfg_attr(not(shared_files), ignore = "../shared is missing")]
 fn generated_tangents_agree_with_those_of_files() {

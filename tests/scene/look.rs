@@ -1,4 +1,4 @@
-//! Materials, textures, lights, cameras and what is said about them.
+//! Materials, textures, lights and cameras, and warnings about them.
 
 use crate::scene_builder::{Builder, png};
 use glam::{DMat3, DVec3};
@@ -60,7 +60,7 @@ fn materials_read_all_their_fields() {
 
     let used = material.base_color_texture.unwrap();
     assert_eq!(used.uv_set, 1);
-    // Scaled, then turned by a quarter against the clock where v points down, then moved.
+    // The transform scales, then rotates by a quarter counter-clockwise (with v down), then translates.
     let [row_u, row_v] = used.transform.0;
     let transformed = |u: f32, v: f32| [row_u, row_v].map(|row| row[0] * u + row[1] * v + row[2]);
     for (uv, expected) in [([1.0, 0.0], [0.25, -1.5]), ([0.0, 1.0], [3.25, 0.5])] {
@@ -136,7 +136,7 @@ fn broken_looks_are_warnings() {
     }
 }
 
-/// Bytes of a 1 x 1 WebP.
+/// Bytes of a 1 x 1 WebP image.
 fn webp(rgb: [u8; 3]) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image::RgbImage::from_pixel(1, 1, image::Rgb(rgb))
@@ -290,7 +290,7 @@ fn cameras_are_placed_without_scale() {
     };
     assert_eq!(eye.name.as_deref(), Some("eye"));
     assert_eq!(eye.eye, DVec3::new(1., 2., 3.));
-    // A quarter turn around y takes z to x; the scale mirrors it, and right follows.
+    // A quarter turn around y takes z to x; the scale mirrors, and the right vector follows.
     let expected = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);
     assert!(eye.axes.abs_diff_eq(expected, 1e-9), "{:?}", eye.axes);
     assert_eq!(
@@ -444,7 +444,7 @@ fn lobes_are_read() {
     let names: Vec<_> = all.as_object().unwrap().keys().cloned().collect();
     builder.json["extensionsRequired"] = json!(names);
     builder.push("materials", json!({"extensions": all}));
-    // What has no effect is absent.
+    // Lobes without an effect are absent.
     builder.push(
         "materials",
         json!({"extensions": {"KHR_materials_clearcoat": {}, "KHR_materials_sheen": {},
@@ -531,7 +531,7 @@ fn broken_lobes_are_left_out_with_a_warning() {
     }
 }
 
-/// A triangle lit from all around by a cube of one texel a face: red, green, blue, five times white, and twice black.
+/// A triangle in an environment whose cube has one texel a face: red, green, blue, white of 5, and two black ones.
 fn lit_from_all_around(members: serde_json::Value) -> Builder {
     let mut builder = Builder::new();
     builder.triangle(json!({}));
@@ -545,7 +545,7 @@ fn lit_from_all_around(members: serde_json::Value) -> Builder {
     ]
     .map(|texel| builder.rgba(texel));
     let mut coefficients = [[0.0; 3]; 9];
-    // What faces up gathers more of than what faces down.
+    // A surface that faces up has more irradiance than one that faces down.
     coefficients[0] = [3.0, 3.0, 3.0];
     coefficients[1] = [1.0, 1.0, 1.0];
     let mut light = json!({
@@ -561,7 +561,7 @@ fn lit_from_all_around(members: serde_json::Value) -> Builder {
     builder
 }
 
-/// The pose of a scene of the file.
+/// Pose of a scene of the file.
 fn scene(builder: &Builder, scene: usize) -> Pose {
     builder.pose_at(&PoseRequest {
         scene: Some(scene),
@@ -589,7 +589,7 @@ fn image_based_lights_shine_from_all_around() {
     near(light.irradiance_towards(DVec3::Y), [up; 3]);
     near(light.irradiance_towards(DVec3::NEG_Y), [down; 3]);
 
-    // A quarter turn about the vertical, counter-clockwise from above, takes what is at +x to -z.
+    // A quarter turn about the vertical axis, counter-clockwise from above, takes +x to -z.
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let turned = json!({"rotation": [0.0, half, 0.0, half], "intensity": 2.0});
     let light = scene(&lit_from_all_around(turned), 1).environment.unwrap();

@@ -1,4 +1,4 @@
-//! Scene files: what they become, and which are refused. No test here needs a device.
+//! Scene files: their contents, and files that are refused. No test here needs a device.
 
 mod assets;
 #[cfg(all(feature = "draco", feature = "basisu"))]

@@ -1,4 +1,4 @@
-//! Malformed files end in a scene or in an error that says where and why: no panic, no hang.
+//! Malformed files give a scene, or an error with a place and a reason, without a panic or a hang.
 
 use std::{panic::catch_unwind, path::Path, time::Instant};
 
@@ -6,7 +6,7 @@ use crate::shared::{gltf_files, shared};
 use gpc::scene::{PoseRequest, Scene, SceneError};
 use serde_json::Value;
 
-/// Loads a file, and poses every scene in it at rest and in the middle of every animation.
+/// Loads a file, and poses every scene of it at rest and in the middle of every animation.
 fn exercise(path: &Path) -> Result<Vec<String>, SceneError> {
     let loaded = Scene::load(path)?;
     let info = loaded.scene.info();
@@ -27,7 +27,7 @@ fn exercise(path: &Path) -> Result<Vec<String>, SceneError> {
     Ok(warnings)
 }
 
-/// The validator's number of errors, where its report lies beside the file.
+/// Number of errors in the validator's report beside the file, if there is one.
 fn reported_errors(path: &Path) -> Option<u64> {
     let name = format!("{}.report.json", path.file_name()?.to_str()?);
     let report = std::fs::read(path.with_file_name(name)).ok()?;

@@ -4,7 +4,7 @@ use crate::scene_builder::{Builder, TRIANGLE, assert_near, corners};
 use gpc::scene::{LightKind, Pose, PoseRequest, SceneError, SceneProjection};
 use serde_json::{Value, json};
 
-/// The triangle at time `time` of the animation `name`, or of the first.
+/// Pose of the triangle at time `time` of the animation `name`, or of the first one.
 fn at(builder: &Builder, name: Option<&str>, time: f64) -> Pose {
     builder.pose_at(&PoseRequest {
         animation: name.map(str::to_owned),
@@ -13,7 +13,7 @@ fn at(builder: &Builder, name: Option<&str>, time: f64) -> Pose {
     })
 }
 
-/// One node's triangle, one of whose properties is animated.
+/// A triangle of one node with one animated property.
 fn animated<const N: usize>(
     node: Value,
     path: &str,
@@ -40,7 +40,7 @@ fn x_of_first_corner(builder: &Builder, time: f64) -> f64 {
     corners(&at(builder, Some("move"), time).geometry, 0)[0][0]
 }
 
-/// A pointer to what moves a node is another way to name it; one to anything else is said to be left out.
+/// A pointer to a node's transform moves the node; other pointers are left out with a warning.
 #[test]
 fn pointers_move_nodes() {
     let values = [[1., 0., 0.], [3., 0., 0.]];
@@ -73,7 +73,7 @@ fn pointers_move_nodes() {
     }
 }
 
-/// A triangle of a textured material, a spot light and a camera, with a channel from time 0 to 1 for each pointer.
+/// A triangle with a textured material, a spot light and a camera, and a channel from time 0 to 1 for each pointer.
 fn pointed(pointers: &[(&str, Vec<f32>)]) -> Builder {
     let mut builder = Builder::new();
     let texture = builder.texture([255, 0, 0]);
@@ -153,7 +153,7 @@ fn pointers_change_materials() {
             vec![1., 0.5, 0., 0., 0.5, 1.],
         ),
     ]));
-    // Factors end at 1, and strengths multiply them.
+    // Factors are clamped to 1 before strengths multiply them.
     let emissive = pose.materials[0].1.emissive;
     assert!(
         (emissive[1] - 0.6).abs() < 1e-6 && emissive[2] == 2.0,
@@ -217,7 +217,7 @@ fn pointers_hide_nodes_and_weigh_meshes() {
     assert_eq!([drawn(0.5), drawn(1.0)], [2, 0]);
 }
 
-/// What a description can't have is left out; what has no effect is said to have none.
+/// Values that a description can't have are left out, and channels without an effect cause a warning.
 #[test]
 fn pointers_to_what_cannot_change_are_named() {
     for (pointer, reason) in [
@@ -253,7 +253,7 @@ fn pointers_to_what_cannot_change_are_named() {
     }
 }
 
-/// Descriptions are read again for each channel and moment: none may take long.
+/// Descriptions are read again for each channel and moment, so that none may take long.
 #[test]
 fn many_pointers_into_long_descriptions_take_no_time() {
     let pointer = "/materials/0/emissiveFactor";
@@ -305,7 +305,8 @@ fn linear_step_and_clamping() {
 
 #[test]
 fn cubic_spline_scales_tangents_by_the_interval() {
-    // In-tangent, value, out-tangent. From 0 to 4 within 2 s, starting at 3 per second, ending at rest.
+    // Each keyframe has an in-tangent, a value and an out-tangent. The value goes from 0 to 4 within 2 s, starting at
+    // 3 per second and ending at rest.
     let values = [
         [9., 0., 0.],
         [0., 0., 0.],
@@ -315,7 +316,7 @@ fn cubic_spline_scales_tangents_by_the_interval() {
         [9., 0., 0.],
     ];
     let builder = animated(json!({}), "translation", "CUBICSPLINE", &[1., 3.], &values);
-    // Half way: 4 * 1/2 + 2 s * 3/s * (1/8 - 1/2 + 1/2) = 2.75.
+    // In the middle it is 4 * 1/2 + 2 s * 3/s * (1/8 - 1/2 + 1/2) = 2.75.
     for (time, expected) in [(0.0, 0.0), (2.0, 2.75), (3.0, 4.0), (7.0, 4.0)] {
         let found = x_of_first_corner(&builder, time);
         assert!((found - expected).abs() < 1e-6, "at {time}: {found}");
@@ -325,7 +326,7 @@ fn cubic_spline_scales_tangents_by_the_interval() {
 #[test]
 fn rotations_take_the_short_way_at_constant_speed() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    // A quarter turn around z; the second quaternion has the other sign.
+    // The rotation is a quarter turn around z; the second quaternion has the opposite sign.
     let values = [[0., 0., 0., 1.], [0., 0., -half, -half]];
     let builder = animated(json!({}), "rotation", "LINEAR", &[0., 3.], &values);
     let geometry = at(&builder, None, 1.0).geometry;
@@ -393,7 +394,7 @@ fn broken_channels_leave_the_rest_in_motion() {
     assert_eq!(x_of_first_corner(&builder, 1.0), 3.0);
 }
 
-/// A triangle with normals and two targets: one moves it along z, the other turns the normals.
+/// A triangle with normals and two targets: one moves it along z, the other rotates the normals.
 fn morphed(mesh_weights: Value, node: Value) -> Builder {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
@@ -450,7 +451,7 @@ fn flat_normals_follow_the_morphed_shape() {
     assert_eq!(builder.pose().geometry.streams.normals, [[0., -1., 0.]; 3]);
 }
 
-/// A triangle whose third vertex hangs at a joint one up, half of it for `weight` 0.5.
+/// A triangle whose third vertex follows a joint one unit up, or half of it for `weight` 0.5.
 fn skinned(weight: f32, mesh_node: Value) -> Builder {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
@@ -461,7 +462,7 @@ fn skinned(weight: f32, mesh_node: Value) -> Builder {
         &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0],
         json!({}),
     );
-    // The sum is 2 throughout: weights are scaled to 1.
+    // The weights add up to 2, and are scaled to 1.
     let weights = builder.floats(&[
         [2., 0., 0., 0.],
         [2., 0., 0., 0.],
@@ -562,7 +563,7 @@ fn instances_multiply_a_mesh() {
         corners(&geometry, 0),
         [[0., 0., 5.], [2., 0., 5.], [0., 2., 5.]],
     );
-    // Mirrored, then turned by half: the winding is mended.
+    // The instance is mirrored and then turned by half; its winding is corrected.
     assert_near(
         corners(&geometry, 1),
         [[20., 0., 5.], [20., 2., 5.], [18., 0., 5.]],

@@ -1,4 +1,4 @@
-//! `gpc bench` and what it measures with, on a tiny image.
+//! `gpc bench` and its library, on a tiny image.
 
 use crate::command::{Run, asset, files, gpc};
 use crate::difference::rmse;
@@ -32,7 +32,7 @@ fn settings(method: MethodKind, samples: u32) -> Settings {
         .method(method.with_samples(samples))
 }
 
-/// The film moved by whole pixels sees the same picture elsewhere.
+/// A shift of the image plane by whole pixels moves the picture by these pixels.
 #[test]
 fn a_shift_of_the_film_moves_the_picture_the_other_way() {
     let (mut headless, scene, camera) = stage("letters.glb");
@@ -66,7 +66,7 @@ fn a_shift_of_the_film_moves_the_picture_the_other_way() {
     );
 }
 
-/// The reference differs from each of its parts by less than these differ from images of fewer samples.
+/// The reference differs from its parts less than images with fewer samples do.
 #[test]
 fn the_reference_lies_beyond_supersampling() {
     let (mut headless, scene, camera) = stage("letters.glb");
@@ -107,7 +107,7 @@ fn a_reference_is_made_of_whole_renderings() {
     }
 }
 
-/// Features that no pixel centre saw are few among the errors that superpixels leave, and many without `thin`.
+/// Features that cover no pixel centre cause few of the errors that superpixels leave, and many without `thin`.
 #[test]
 fn unseen_wires_are_not_missed() {
     let (mut headless, scene, camera) = stage("fence.glb");
@@ -136,7 +136,7 @@ fn unseen_wires_are_not_missed() {
     assert!(without > 1.3 * with, "{without} without thin, {with} with");
 }
 
-/// Textures filtered for samples are another picture, and nobody can ask for more than a pixel.
+/// Textures filtered for samples give another picture; a footprint larger than a pixel is refused.
 #[test]
 fn textures_follow_the_footprint_asked_for() {
     let (mut headless, scene, camera) = stage("foliage.glb");
@@ -157,7 +157,7 @@ fn textures_follow_the_footprint_asked_for() {
     ));
 }
 
-/// The scenes of the curves are what they say.
+/// The scenes of the growth benchmark have the stated quantities.
 #[test]
 fn what_grows_is_what_is_said_to() {
     let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
@@ -223,7 +223,7 @@ fn bench(folder: &Path) -> Value {
     serde_json::from_slice(&bytes).unwrap()
 }
 
-/// The number at a path in a value.
+/// Number at a JSON path of a value.
 fn number(value: &Value, path: &str) -> f64 {
     value
         .pointer(path)
@@ -231,7 +231,7 @@ fn number(value: &Value, path: &str) -> f64 {
         .unwrap_or_else(|| panic!("no {path} in {value}"))
 }
 
-/// The summary of a run without textures.
+/// Summary of a run whose scenes have no textures.
 fn results_of_untextured(results: &Value) -> &Value {
     let [summary] = results["summary"].as_array().unwrap().as_slice() else {
         panic!("{}", results["summary"]);
@@ -332,7 +332,7 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     }
 }
 
-/// The lines of a CSV after its head, which says where the figures come from.
+/// Rows of a CSV after its head, whose keys are checked.
 fn body(csv: &str) -> impl Iterator<Item = &str> {
     for key in ["driver", "machine", "date", "size", "reference", "repeat"] {
         assert!(csv.contains(&format!("# {key}: ")), "no {key} in {csv}");
@@ -361,7 +361,7 @@ fn writes_a_report_that_needs_no_other_file() {
     }
     let sources = page.matches("src=").count();
     assert_eq!(page.matches("src=\"data:").count(), sources);
-    // Base 64 may spell anything.
+    // Base 64 may contain any word.
     let mut parts = page.split(";base64,");
     let mut text = parts.next().unwrap().to_owned();
     text.extend(
@@ -404,7 +404,8 @@ fn wrong_use_is_told_before_anything_is_measured() {
     assert!(files(folder.path()).is_empty());
 }
 
-/// Runs `gpc bench` on scenes, with further arguments in one line that name `out` as its folder, and reads its results.
+/// Runs `gpc bench` on scenes and returns its results. `arguments` are further arguments in one line, which name `out`
+/// as the folder.
 fn measured(folder: &Path, scenes: &[&str], arguments: &str) -> (Run, Value) {
     let mut all = vec!["bench"];
     all.extend(scenes);
@@ -436,7 +437,7 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     for row in rows {
         let samples = number(row, "/samples");
         match row["variant"].as_str().unwrap() {
-            // With a column more on both sides, where the panorama goes on.
+            // The panorama is sampled with one more column on either side, where it continues.
             "rig" => assert_eq!(samples, f64::from((SIZE + 2) * SIZE / 2)),
             "superpixel" => {
                 let more = samples - pixels;
@@ -472,7 +473,7 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     }
 }
 
-/// An orthographic camera has no panorama; the rest is timed all the same.
+/// An orthographic camera has no panorama; the other variants are timed all the same.
 #[test]
 fn a_variant_that_a_camera_can_not_have_says_why() {
     let (mut headless, scene, camera) = stage("letters.glb");
@@ -494,7 +495,7 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
     ));
 }
 
-/// Each method in motion, and superpixels beside supersampling of as many samples.
+/// Results have each method in motion, and superpixels with as many samples as supersampling.
 #[test]
 fn motion_is_measured_against_the_truth_of_each_frame() {
     let folder = tempfile::tempdir().unwrap();
@@ -535,7 +536,7 @@ fn motion_is_measured_against_the_truth_of_each_frame() {
                 );
             }
         }
-        // What errs in every frame alike does not flicker.
+        // An error that is the same in every frame does not flicker.
         for row in rows {
             assert!(
                 number(row, "/flicker") <= number(row, "/rmse") * 1.05,

@@ -1,4 +1,4 @@
-//! The comparator must be able to fail.
+//! The comparison of images, which must be able to fail.
 
 use gpc::compare::{CompareError, compare, heatmap};
 use gpc::output::DecodedImage;

@@ -1,5 +1,5 @@
-//! What the tools are made of: image files, comparisons, resampling, benchmarks, and the truths that errors are measured
-//! against.
+//! Library of the tools: image files, comparisons, resampling, benchmarks, and the references against which errors are
+//! measured.
 
 mod bench;
 mod closed_form;

@@ -1,4 +1,4 @@
-//! Image files: what is written is what a reader finds.
+//! Image files: readers find what was written.
 
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read as read_exr};
 use gpc::color::srgb;
@@ -8,7 +8,7 @@ use gpc::output::{
 use gpc::render::PixelAttributes;
 use std::io::Cursor;
 
-/// A picture of 16 x 16 pixels whose colours are the 8-bit code values.
+/// A picture of 16 x 16 pixels whose colours are the 256 8-bit code values.
 fn ramp(alpha: f32) -> Vec<[f32; 4]> {
     (0..=255)
         .map(|code| {

@@ -1,4 +1,4 @@
-//! Resampling of photographs: exact where it must be, without aliasing where it shrinks.
+//! Resampling of photographs: exact where possible, without aliasing where it shrinks.
 
 use glam::{DMat2, DVec2};
 use gpc::color::srgb;
@@ -7,7 +7,7 @@ use gpc::resample::Photograph;
 
 const SIZE: u32 = 64;
 
-/// A photograph whose light is given as a function of column and row.
+/// A photograph whose light is a function of column and row.
 fn photograph(light: impl Fn(u32, u32) -> f64) -> Photograph {
     let encode = |v: f64| srgb::encode(v) as f32;
     let pixel = |i: u32| {
@@ -58,7 +58,7 @@ fn what_is_finer_than_the_output_is_averaged() {
             let place = DVec2::new(24.0 + 0.37 * f64::from(i), 32.0 + 0.11 * f64::from(i));
             let grey = board.sample(place, scaled(step))[0];
             assert!((grey - 0.5).abs() < 0.03, "{step}: {grey}");
-            // A footprint that is long across the stripes averages them, one along them keeps them.
+            // A footprint that is long across the stripes averages them; one along the stripes keeps them.
             let across = DMat2::from_diagonal(DVec2::new(step, 1.0));
             assert!((stripes.sample(place, across)[0] - 0.5).abs() < 0.12);
             let along = DMat2::from_diagonal(DVec2::new(1.0, step));
@@ -75,7 +75,7 @@ fn the_prefilter_sets_in_without_a_jump() {
     let mut before = board.sample(place, scaled(0.9))[0];
     for i in 1..2000 {
         let after = board.sample(place, scaled(0.9 + 0.0005 * f64::from(i)))[0];
-        // The root of a^2 - 1 is steep where it starts.
+        // The root of a^2 - 1 is steep near a = 1.
         assert!((after - before).abs() < 0.02, "{i}: {before} {after}");
         before = after;
     }

@@ -1,4 +1,4 @@
-//! The stress suite, short and under the validation layer.
+//! The short stress suite, under the validation layer.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -17,7 +17,7 @@ fn headless() -> Headless {
     .unwrap()
 }
 
-/// Runs a part of the suite, which must have found something to look at, and nothing out of bounds.
+/// Runs a check of the suite, which must have findings, all of them within their bounds.
 fn hold(name: &str) {
     let check = Check::ALL.iter().find(|check| check.name == name).unwrap();
     let mut headless = headless();
@@ -72,7 +72,7 @@ fn wires_keep_their_energy() {
     hold("motion");
 }
 
-/// A file whose vertices are exact a million units away, and its camera.
+/// A file whose vertices are exact at a distance of a million units, and its camera.
 fn far_away(offset: f32) -> (Scene, Camera) {
     let corner = |x: f32, y: f32, z: f32| [x + offset, y + offset, z - offset];
     let positions = [
@@ -113,7 +113,7 @@ fn far_away(offset: f32) -> (Scene, Camera) {
     (scene.scene, camera)
 }
 
-/// A file's vertices lose nothing between it and the device, however far from the origin they are.
+/// Vertices of a file lose no precision on their way to the device, however far from the origin they are.
 #[test]
 fn a_file_far_from_the_origin_is_the_same_picture() {
     let mut headless = headless();
@@ -129,7 +129,7 @@ fn a_file_far_from_the_origin_is_the_same_picture() {
     assert_eq!(images[0].colors, images[1].colors);
 }
 
-/// Neither what exceeds its bound nor what is no number holds.
+/// Neither a value above its bound nor NaN is accepted.
 #[test]
 fn a_finding_can_fail() {
     let finding = |measured, allowed| Finding {

@@ -1,4 +1,4 @@
-//! The truth of a textured scene, and whose fault it is to miss it.
+//! The reference of a textured scene, and the faults of errors against it.
 
 use crate::difference::rmse;
 use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
@@ -13,7 +13,7 @@ use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
 
 const SIZE: [u32; 2] = [48; 2];
 
-/// A quadrilateral larger than the image, of a texture of noise whose texels are two thirds of a pixel.
+/// A quadrilateral larger than the image, with a texture of noise whose texels are two thirds of a pixel.
 fn noisy(material: Material) -> (Scene, Pose) {
     let [side, _] = SIZE;
     let mut random = Random::new(7);
@@ -65,7 +65,8 @@ fn reference(
     brute_force(headless, scene, &camera(), &settings, 1024, || {}).unwrap()
 }
 
-/// Textures read for smaller and smaller samples come to the truth; those read for whole pixels come to another image.
+/// Textures read over smaller and smaller samples converge to the reference; those read over whole pixels converge to
+/// another image.
 #[test]
 fn only_textures_read_for_samples_come_to_the_truth() {
     let (scene, pose) = noisy(textured(AlphaMode::Opaque));
@@ -87,7 +88,7 @@ fn only_textures_read_for_samples_come_to_the_truth() {
     );
 }
 
-/// What is left of the error where no pixel is a superpixel, or where all are.
+/// Error that is left if no pixel is a superpixel, or if all are.
 fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let mut headless = headless();
     let whole = headless.upload(SceneRequest::new(scene, pose)).unwrap();
@@ -132,7 +133,7 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     yardstick.split_within(&image, &causes, &faults).unwrap()
 }
 
-/// Noise as paint is the fault of the texture, noise as normals that of the light; edges only err between triangles.
+/// Noise in paint is the fault of texture, and noise in normals that of light; edges only err between triangles.
 #[test]
 fn paint_and_light_are_told_apart() {
     let noise = textured(AlphaMode::Opaque).base_color_texture;
@@ -168,8 +169,8 @@ fn paint_and_light_are_told_apart() {
     }
 }
 
-/// Superpixels of samples on a grid, each shaded with the texture levels of a sample, are what brute force by as many
-/// samples is: to 60 dB of the three colours, since both find footprints by their own differences.
+/// Superpixels with samples on a grid, each shaded with the texture levels of a sample, equal supersampling with as
+/// many samples: to 60 dB in the three colours, because both compute footprints from their own differences.
 #[test]
 fn a_grid_of_shaded_samples_is_brute_force() {
     let (scene, pose) = noisy(textured(AlphaMode::Opaque));

@@ -1,4 +1,4 @@
-//! The window on displays of its own, with real input. Needs Xvfb, xdotool, sway and grim, and fails without them.
+//! The window, on separate displays and with real input. Needs Xvfb, xdotool, sway and grim, and fails without them.
 
 #[path = "../common/command.rs"]
 #[allow(dead_code, reason = "other tests use the rest")]
@@ -16,7 +16,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use support::{Density, Display, Loss, Monitor, Monitors, PATIENCE, Program, Viewer, drop_file};
 
-/// Runs a `gpc render` command, to a file of that name.
+/// Runs a `gpc render` command that writes to the file `output`, and returns the file's bytes.
 fn render(folder: &Path, command: &[String], output: &str) -> Vec<u8> {
     let mut arguments: Vec<_> = command.iter().map(String::as_str).collect();
     let file = 1 + arguments.iter().position(|word| *word == "-o").unwrap();
@@ -25,7 +25,7 @@ fn render(folder: &Path, command: &[String], output: &str) -> Vec<u8> {
     std::fs::read(folder.join(output)).unwrap()
 }
 
-/// Waits until the window's pixels are what they should be: notes over them go after a while.
+/// Waits until the window's pixels are correct; notes that cover them disappear after a while.
 fn assert_pixels(display: &Display, size: [usize; 2], wrong: impl Fn(&[[u8; 3]]) -> usize) {
     let until = Instant::now() + PATIENCE;
     loop {
@@ -41,7 +41,7 @@ fn assert_pixels(display: &Display, size: [usize; 2], wrong: impl Fn(&[[u8; 3]])
     }
 }
 
-/// The window comes to show an image, but for how the device rounds its colours to codes.
+/// Asserts that the window shows an image, except for the device's rounding of colours to codes.
 fn assert_shows(display: &Display, size: [usize; 2], file: &[u8]) {
     let image = image::load_from_memory(file).unwrap().to_rgb8();
     assert_eq!([image.width() as usize, image.height() as usize], size);
@@ -53,7 +53,7 @@ fn assert_shows(display: &Display, size: [usize; 2], file: &[u8]) {
     });
 }
 
-/// The screenshot key writes these bytes.
+/// Asserts that the screenshot key writes these bytes.
 fn assert_writes(viewer: &mut Viewer, folder: &Path, expected: &[u8]) {
     viewer.key("F12");
     let line = viewer.wait_for("wrote ");
@@ -76,7 +76,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     viewer.wait_for("at rest");
     viewer.show_picture_alone();
 
-    // Turned, moved sideways and nearer; the pointer ends beside the window.
+    // The view is turned, moved sideways and zoomed; the pointer ends outside of the window.
     viewer.drag("1", ["200", "80"]);
     viewer.drag("2", ["150", "110"]);
     display.input(&[
@@ -100,7 +100,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     let rendered = render(folder.path(), &command, "direct.png");
     assert_shows(&display, [320, 200], &rendered);
 
-    // The same picture to a file has the same bytes.
+    // A file with the same picture has the same bytes.
     viewer.key("F12");
     viewer.wait_for("wrote letters.png");
     let written = std::fs::read(folder.path().join("letters.png")).unwrap();
@@ -109,7 +109,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
         "the screenshot has other bytes than the command's image"
     );
 
-    // A window of another size, and another method.
+    // The window gets another size, and the picture another method.
     display.input(&["search", "--name", "gpc$", "windowsize", "400", "240"]);
     viewer.wait_for("at rest");
     viewer.key("n");
@@ -147,14 +147,14 @@ fn a_split_and_a_magnifier_show_pixels_of_both_methods() {
     assert_pixels(&display, [320, 200], |pixels| {
         let wrong = |(index, shown): &(usize, &[u8; 3])| {
             let (x, y) = (*index as u32 % 320, *index as u32 / 320);
-            // The line itself is drawn over both.
+            // The line of the split covers both pictures.
             let half = if x < 160 { &superpixels } else { &none };
             !(158..=161).contains(&x) && differ(shown, half.get_pixel(x, y))
         };
         pixels.iter().enumerate().filter(wrong).count()
     });
 
-    // 8 times enlarged, the pixel under the pointer is as large as the block around it.
+    // Enlarged 8 times, the pixel under the pointer is as large as the block around it.
     display.input(&["mousemove", "240", "100"]);
     viewer.key("l");
     // The pointer itself hides the block in the middle.
@@ -177,7 +177,7 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
     display.input(&["mousemove", "120", "90"]);
     viewer.key("z");
     viewer.wait_for("at rest");
-    // A click moves it, dragging sets its radius and the wheel its multiplicity.
+    // A click moves the lens, a drag sets its radius, and the wheel its multiplicity.
     viewer.drag("1", ["200", "100"]);
     display.input(&["click", "4", "mousemove", "600", "400"]);
     viewer.wait_for("at rest");
@@ -201,7 +201,7 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
     assert_shows(&display, [320, 200], &zoomed);
     assert_writes(&mut viewer, folder.path(), &zoomed);
 
-    // Without the lens, what pixels hold beside their colours: superpixels are the fourth.
+    // After the lens is removed, overlays are shown; superpixels are the fourth.
     viewer.key("z");
     let mut arguments = viewer.command();
     for _ in 0..4 {
@@ -244,7 +244,7 @@ fn an_environment_is_seen_behind_the_scene_at_rest() {
         assert!(image.pixels().all(|pixel| pixel.0[3] == 255));
         assert_shows(&display, [320, 200], &expected);
     }
-    // A lens enlarges the scene alone.
+    // A lens enlarges only the scene.
     display.input(&[
         "mousemove",
         "120",
@@ -280,7 +280,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
     display.input(&["mousemove", "600", "400", "key", "p"]);
     assert_shows(&display, [320, 200], &photo);
 
-    // One lens, and another beside it that enlarges more.
+    // There are two lenses; the second enlarges more.
     display.input(&["mousemove", "100", "90", "key", "z"]);
     display.input(&["mousemove", "250", "120", "key", "a", "click", "4"]);
     display.input(&["mousemove", "600", "400"]);
@@ -292,7 +292,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
     );
     let zoomed = render(folder.path(), &command, "zoomed.png");
     assert_shows(&display, [320, 200], &zoomed);
-    // Transitions in colour, and nothing else.
+    // Transitions are coloured, and nothing else.
     viewer.key("t");
     let plain = image::load_from_memory(&zoomed).unwrap().to_rgb8();
     assert_pixels(&display, [320, 200], |pixels| {
@@ -303,7 +303,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
         usize::from(is_same(150, 90) || !is_same(100, 95))
     });
     assert_writes(&mut viewer, folder.path(), &zoomed);
-    // Without the lens at hand the other one is left.
+    // After removing the active lens, the other one is left.
     viewer.key("Delete");
     let one = render(folder.path(), &viewer.command(), "one.png");
     assert_ne!(one, zoomed);
@@ -391,14 +391,14 @@ fn overlays_count_triangles_and_show_errors() {
     viewer.close();
 }
 
-/// The colour of a share of a heat map's scale.
+/// Colour of a share on a heat map's scale.
 fn heat(share: f64) -> [u8; 3] {
     let palette = nv_flip::magma_lut().to_vec();
     let index = (share.min(1.0) * 255.0).round() as usize;
     palette.as_chunks::<3>().0[index]
 }
 
-/// A file that is never read to its end: a pipe that nobody writes to, slow.glb.
+/// A file that is never read to its end: a pipe called slow.glb, to which nobody writes.
 fn slow_file(folder: &Path) -> PathBuf {
     let pipe = folder.join("slow.glb");
     let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
@@ -423,19 +423,19 @@ fn loading_is_stopped_and_blocks_nothing() {
     viewer.show_picture_alone();
     let before = viewer.command();
     viewer.key("Right");
-    // The picture still turns.
+    // The picture can still be turned.
     viewer.drag("1", ["200", "80"]);
     viewer.wait_for("at rest");
     assert_ne!(viewer.command(), before);
     viewer.key("Escape");
     viewer.wait_for("stopped loading slow.glb");
-    // The thread that reads ends with what it reads.
+    // The reading thread ends once the pipe does.
     drop(std::fs::OpenOptions::new().write(true).open(&pipe).unwrap());
     viewer.close();
 }
 
-/// Closes the window in the middle of work, and expects the process to end at once: without the validation layer, which is to
-/// hear all.
+/// Closes the window in the middle of work, and expects the process to end at once. The validation layer is off,
+/// because the viewer would wait for its messages.
 fn assert_closes_at_once(
     arguments: &[&str],
     begin: impl FnOnce(&mut Viewer, &Path),
@@ -451,7 +451,7 @@ fn assert_closes_at_once(
     let took = start.elapsed();
     viewer.read_to_end();
     assert!(status.success(), "{status}: {:#?}", viewer.said);
-    // A second, and another one or two where the machine has much else to do.
+    // On a busy machine it may take another second or two.
     assert!(
         took < Duration::from_secs(3),
         "{took:?}: {:#?}",
@@ -469,7 +469,7 @@ fn writing_is_stopped_by_a_key() {
     viewer.show_picture_alone();
     display.input(&["key", "F12", "key", "Escape"]);
     viewer.wait_for("stopped writing fence.png");
-    // What is written now comes after what was stopped, to a file of the same name.
+    // New work is written after the stopped work, to a file of the same name.
     viewer.key("n");
     viewer.wait_for("at rest");
     viewer.key("F12");
@@ -488,7 +488,7 @@ fn at_twice_the_density_the_panel_is_twice_as_large_and_pixels_are_the_windows()
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
     viewer.wait_for("at rest");
     viewer.focus("copied: ");
-    // The panel's button `none`, which is at 101, 69 of an ordinary display.
+    // This is the panel's button `none`, at 101, 69 on a display of normal density.
     display.input(&["mousemove", "202", "138", "sleep", "0.3", "click", "1"]);
     viewer.wait_for("at rest");
     let command = viewer.command();
@@ -498,7 +498,7 @@ fn at_twice_the_density_the_panel_is_twice_as_large_and_pixels_are_the_windows()
     display.input(&["mousemove", "630", "470", "key", "p"]);
     let rendered = render(folder.path(), &command, "none.png");
     assert_shows(&display, [600, 440], &rendered);
-    // A lens is where the pointer is.
+    // The lens appears at the pointer.
     display.input(&["mousemove", "420", "300", "key", "z"]);
     viewer.wait_for("at rest");
     let command = viewer.command();
@@ -519,7 +519,7 @@ fn the_density_of_the_display_may_change() {
     viewer.wait_for("at rest");
     viewer.show_picture_alone();
     display.input(&["mousemove", "630", "470"]);
-    // As where a window is moved to another monitor, it is as large as before for the eye.
+    // As after moving a window to another monitor, it keeps its apparent size.
     for (dots, size) in [(192, [600, 400]), (96, [300, 200])] {
         density.set(dots);
         let asked = format!("{}x{}", size[0], size[1]);
@@ -574,7 +574,7 @@ fn a_window_goes_to_another_monitor_and_fills_it() {
         let command: Vec<_> = command.into_iter().map(str::to_owned).collect();
         let expected = render(folder.path(), &command, "there.png");
         let expected = image::load_from_memory(&expected).unwrap().to_rgb8();
-        // The panel is left of the middle: its points are as large for the eye on both.
+        // The panel is left of the middle, and has the same apparent size on both monitors.
         let panel = 2 * size[0] / 3;
         let until = Instant::now() + PATIENCE;
         loop {
@@ -600,12 +600,12 @@ fn a_window_goes_to_another_monitor_and_fills_it() {
 
 #[test]
 fn closing_waits_for_no_load_and_no_compiler() {
-    // A pipe that nobody writes to is never read to its end.
+    // A pipe to which nobody writes is never read to its end.
     let size = ["--size", "320x200"];
     assert_closes_at_once(&[&["slow.glb"][..], &size].concat(), |_, _| {});
     let scene = asset("letters.glb");
     assert_closes_at_once(&[&[scene.as_str()][..], &size].concat(), |viewer, _| {
-        // Every other method has kernels of its own.
+        // Every other method has its own kernels.
         for method in ["b", "m", "s"] {
             viewer.key(method);
         }
@@ -614,7 +614,7 @@ fn closing_waits_for_no_load_and_no_compiler() {
 
 #[test]
 fn closing_stops_pictures_that_are_made() {
-    // Each takes many seconds.
+    // Each scene takes many seconds.
     let (fence, spheres) = (asset("fence.glb"), asset("spheres.glb"));
     let size = ["--size", "640x480"];
     let said = assert_closes_at_once(
@@ -656,7 +656,7 @@ fn a_file_that_is_written_again_is_shown_again() {
     viewer.show_picture_alone();
     let before = render(folder.path(), &viewer.command(), "before.png");
     assert_shows(&display, [320, 200], &before);
-    // What can't be read is said, and the picture stays.
+    // A file that can't be read causes a note, and the picture stays.
     std::fs::write(&file, "no scene").unwrap();
     viewer.wait_for("error");
     std::fs::copy(asset("spheres.glb"), &file).unwrap();
@@ -733,7 +733,7 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
         assert!(Instant::now() < until, "the window says nothing");
         std::thread::sleep(Duration::from_millis(100));
     }
-    // The next ones can be seen all the same.
+    // The following scenes can still be shown.
     viewer.repeat_until("nothing to draw", |display| {
         display.input(&["key", "Right"]);
     });
@@ -743,7 +743,7 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
     viewer.wait_for("at rest");
     viewer.key("Left");
     viewer.wait_for("shows empty.gltf");
-    // So can this one, once it is a scene.
+    // So can this file, once it is a scene.
     viewer.repeat_until("error: broken.glb", |display| {
         display.input(&["key", "Left"]);
     });
@@ -785,7 +785,7 @@ fn files_and_folders_that_are_dropped_are_opened() {
     drop_file(&display, window, &scenes.join("b.glb"));
     viewer.wait_for("scenes/b.glb");
     viewer.wait_for("at rest");
-    // A folder is its scenes by name.
+    // A folder stands for its scenes, sorted by name.
     drop_file(&display, window, &scenes);
     viewer.wait_for("scenes/a.glb");
     viewer.wait_for("at rest");
@@ -823,7 +823,7 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
         &render(folder.path(), &asked, "ordinary.png"),
     );
 
-    // Forward while the key is down, then a look aside.
+    // The eye moves forward while the key is down, then looks to the side.
     viewer.key("f");
     viewer.wait_for("flying");
     let eye = |command: &[String]| {
@@ -835,7 +835,7 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
         DVec3::from_slice(&numbers.collect::<Vec<f64>>())
     };
     let start = eye(&command);
-    // A window that is busy may hear of both ends of a press at once.
+    // A busy window may receive the press and the release at once.
     let until = Instant::now() + PATIENCE;
     while (eye(&viewer.command()) - start).length() < 0.05 {
         assert!(Instant::now() < until, "the eye does not move");
@@ -852,7 +852,8 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
     );
     viewer.key("Escape");
 
-    // A window that is hidden is drawn again when it is seen. A key that went down meanwhile was meant for others.
+    // A hidden window is drawn again when it becomes visible. A key that went down meanwhile was meant for another
+    // window.
     let window = display.window().to_string();
     display.input(&["windowunmap", "--sync", &window, "keydown", "q"]);
     display.input(&[
@@ -890,7 +891,7 @@ fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
     });
     viewer.wait_for("shows ");
     viewer.wait_for("at rest");
-    // The view is what it was.
+    // The view is unchanged.
     assert_eq!(viewer.command(), command);
     assert_shows(
         &display,
@@ -910,18 +911,20 @@ fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
     );
 }
 
-/// Seconds of random input: `GPC_SOAK`, or a few.
+/// Duration of random input in seconds: `GPC_SOAK`, or a few.
 fn soak_seconds() -> u64 {
     std::env::var("GPC_SOAK").map_or(20, |text| text.parse().unwrap())
 }
 
-/// What can't be had is said, but no validation layer complains: then the viewer would fail.
+/// Random input may cause error notes, but no message of the validation layer, which would end the viewer with an
+/// error.
 #[test]
 fn random_input_does_nothing_forbidden() {
     soak(&[]);
 }
 
-/// Without the validation layer, which itself keeps a third of a megabyte for each change of method.
+/// Random input leaks no memory. The validation layer is off, because it keeps a third of a megabyte for each change
+/// of method.
 #[test]
 fn random_input_leaves_nothing_behind() {
     let memory = soak(&[("GPC_VALIDATION", Path::new(""))]);
@@ -936,12 +939,12 @@ fn random_input_leaves_nothing_behind() {
     let fifth = memory.len() / 5;
     let middle = median(&memory[2 * fifth..3 * fifth]);
     let end = median(&memory[4 * fifth..]);
-    // Kernels are compiled and heaps torn into pieces for some minutes; what is never freed goes on growing.
+    // For some minutes kernels are compiled and heaps become fragmented; a leak would go on growing.
     let allowed = if soak_seconds() < 300 { middle } else { 96 };
     assert!(end < middle + allowed, "{middle} MiB became {end} MiB");
 }
 
-/// Random input, and the memory that the viewer used meanwhile: seconds and bytes.
+/// Sends random input, and returns samples of the viewer's memory: seconds and bytes.
 fn soak(variables: &[(&str, &Path)]) -> Vec<(u64, u64)> {
     let seconds = soak_seconds();
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
@@ -965,14 +968,14 @@ fn soak(variables: &[(&str, &Path)]) -> Vec<(u64, u64)> {
         viewer.read();
         memory.push((start.elapsed().as_secs(), viewer.memory_bytes()));
     }
-    // Out of whatever it has come to.
+    // Escape leaves any mode that the viewer may be in.
     display.input(&["key", "Escape"]);
     let status = viewer.quit();
     assert!(status.success(), "{status}: {:#?}", viewer.said);
     memory
 }
 
-/// A sequence of numbers that is the same in every run (Knuth's MMIX).
+/// Pseudo-random numbers that are the same in every run (Knuth's MMIX).
 struct Random(u64);
 
 impl Random {
@@ -985,7 +988,7 @@ impl Random {
     }
 }
 
-/// A key, a drag, the wheel, or another size of the window.
+/// Sends a random key, drag, turn of the wheel, or size of the window.
 fn random_input(display: &Display, random: &mut Random) {
     const KEYS: &str = "h p Return 1 3 7 9 c f w a s d s n m b plus minus x l z a Delete t u o \
          space bracketleft bracketright Left Right Up Escape";

@@ -1,4 +1,4 @@
-//! A window on a display of its own, with real input.
+//! The viewer in a window on a separate display, with real input.
 
 mod density;
 mod display;
@@ -18,5 +18,5 @@ pub use xdnd::drop_file;
 
 use std::time::Duration;
 
-/// Generous: a software driver under validation, on a machine that may be busy.
+/// Time limit for waiting. It is generous: a software driver under validation may run on a busy machine.
 pub const PATIENCE: Duration = Duration::from_secs(180);

@@ -1,5 +1,5 @@
-//! A checker floor to the horizon: on the left each tile is geometry, on the right the same tiles are a
-//! texture with mipmaps, so that one picture shows what each kind of aliasing asks of a renderer.
+//! A checker floor to the horizon. The tiles are geometry on the left and a texture with mipmaps on the right, so that
+//! one picture shows both kinds of aliasing.
 
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
@@ -10,11 +10,11 @@ use serde_json::json;
 
 const LIGHT: [u8; 3] = [238, 230, 214];
 const DARK: [u8; 3] = [27, 84, 96];
-/// Tiles along one side of a patch of geometry; a tile is a metre wide.
+/// Number of tiles along one side of a patch of geometry; a tile is a metre wide.
 const PATCH: i32 = 16;
-/// Patches from the camera to the mountains.
+/// Number of rows of patches between camera and mountains.
 const ROWS: i32 = 20;
-/// Half of the strip between the two halves of the floor.
+/// Half of the width of the strip between the two halves of the floor.
 const STRIP: f64 = 0.35;
 
 /// Builds the scene.
@@ -54,7 +54,7 @@ fn geometry_floor(file: &mut Builder, light: usize, dark: usize) {
     let patch = file.mesh(&[(parts[0], light), (parts[1], dark)]);
     let side = f64::from(PATCH);
     for row in 0..ROWS {
-        // As many patches as a picture of 16:9 sees at this distance.
+        // This number of patches fills a picture of 16:9 at this distance.
         let columns = row * 3 / 4 + 2;
         for column in 1..=columns {
             let corner = dvec3(
@@ -81,7 +81,7 @@ fn textured_floor(file: &mut Builder) {
     }));
     let mut floor = Mesh::default();
     let depth = f64::from(PATCH * ROWS);
-    // The texture holds two tiles each way.
+    // The texture holds two tiles in each direction.
     let corner = |x: f64, z: f64| (dvec3(STRIP + x, 0.0, 8.0 - z), dvec2(x / 2.0, -z / 2.0));
     let [a, b, c, d] = [
         corner(0.0, 0.0),
@@ -122,7 +122,7 @@ fn strip_and_columns(file: &mut Builder) {
             file.place(
                 mesh,
                 Placement {
-                    // A prism stands along z; turned, it stands along y.
+                    // A prism extends along z; this rotation makes it extend along y.
                     rotation: DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2),
                     ..Placement::at(dvec3(side * 3.1, 0.0, -2.0 - 6.0 * f64::from(i)))
                 },
@@ -131,7 +131,7 @@ fn strip_and_columns(file: &mut Builder) {
     }
 }
 
-/// A range that hides where the floor ends.
+/// A range of mountains that hides the end of the floor.
 fn mountains(file: &mut Builder) {
     let near = file.paint("near mountains", [92, 122, 118], 0.9);
     let far = file.paint("far mountains", [136, 160, 172], 0.9);

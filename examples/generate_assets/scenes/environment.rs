@@ -1,4 +1,5 @@
-//! `EXT_lights_image_based`: spheres of metal and of paint, ever rougher, beneath a sky with a sun and on a warm ground.
+//! `EXT_lights_image_based`: spheres of metal and of paint with increasing roughness, under a sky with a sun and above
+//! a warm ground.
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::globe;
@@ -50,7 +51,7 @@ pub fn build() -> Vec<u8> {
     file.finish("Image-based light")
 }
 
-/// Radiance from a direction, ever smoother.
+/// Radiance from a direction; a larger `blur` makes it smoother.
 fn sky(towards: DVec3, blur: f64) -> DVec3 {
     const SUN: DVec3 = DVec3::new(0.48, 0.6, 0.64);
     let (horizon, zenith) = (dvec3(0.75, 0.85, 1.0), dvec3(0.15, 0.35, 0.9));
@@ -58,13 +59,13 @@ fn sky(towards: DVec3, blur: f64) -> DVec3 {
     let sky = horizon.lerp(zenith, towards.y.clamp(0.0, 1.0));
     let edge = 0.02 + blur;
     let share = ((towards.y + edge) / (2.0 * edge)).clamp(0.0, 1.0);
-    // As much light, over a cone that the roughness widens.
+    // The same light is spread over a cone that the roughness widens.
     let sharpness = 60.0 / (1.0 + 30.0 * blur);
     let sun = (sharpness * (towards.dot(SUN) - 1.0)).exp() * sharpness / 3.0;
     ground.lerp(sky, share) + dvec3(1.0, 0.9, 0.7) * sun
 }
 
-/// A direction of a face, as graphics interfaces have them: of its column `a` and row `b`, 0 to 1.
+/// Direction of a place on a face of a cube map in the order of Vulkan; column `a` and row `b` are 0 to 1.
 fn direction(face: u32, a: f64, b: f64) -> DVec3 {
     let (a, b) = (2.0 * a - 1.0, 2.0 * b - 1.0);
     let towards = match face {
@@ -78,7 +79,7 @@ fn direction(face: u32, a: f64, b: f64) -> DVec3 {
     towards.normalize()
 }
 
-/// An sRGB colour that divided by its alpha is a radiance.
+/// An sRGB colour and an alpha, whose quotient is the radiance.
 fn rgbd(radiance: DVec3) -> [u8; 4] {
     let divisor = (255.0 / radiance.max_element().max(1.0)).floor().max(1.0);
     let code = |x: f64| {
@@ -94,7 +95,7 @@ fn rgbd(radiance: DVec3) -> [u8; 4] {
     [r, g, b, divisor as u8]
 }
 
-/// Coefficients of the irradiance, summed over directions that are spread evenly.
+/// Coefficients of the irradiance, summed over evenly spread directions.
 fn irradiance() -> Vec<[f32; 3]> {
     const DIRECTIONS: u32 = 20_000;
     let mut sums = [DVec3::ZERO; 9];
@@ -122,7 +123,7 @@ fn irradiance() -> Vec<[f32; 3]> {
     let band = |i: usize| cosine[usize::from(i > 0) + usize::from(i > 3)];
     let scale = 4.0 * PI / f64::from(DIRECTIONS);
     let sums = sums.into_iter().enumerate();
-    // Three decimals are what all processors agree on.
+    // Three decimals are the same on all processors.
     let round = |x: f64| ((1e3 * x).round() / 1e3) as f32;
     sums.map(|(i, sum)| (sum * scale * band(i)).to_array().map(round))
         .collect()

@@ -1,5 +1,5 @@
-//! A lane between a picket fence and a chain-link fence, wires overhead: nearly everything is
-//! thinner than a pixel somewhere along it.
+//! A lane between a picket fence and a chain-link fence, with wires overhead. Nearly everything is thinner than a
+//! pixel somewhere along it.
 
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
@@ -9,7 +9,7 @@ use gpc::bench::Random;
 /// Length of one fence panel in metres, and how many stand in a row.
 const PANEL: f64 = 2.0;
 const PANELS: i32 = 45;
-/// The lane runs from here towards -z.
+/// z at which the lane starts; it runs towards -z.
 const START: f64 = 4.0;
 
 /// Builds the scene.
@@ -116,7 +116,7 @@ fn chain_link(file: &mut Builder) {
     row(file, &panel, steel, 1.7);
 }
 
-/// Places panels one behind the other, their length along -z.
+/// Places panels in a row, with their length along -z.
 fn row(file: &mut Builder, panel: &Mesh, material: usize, x: f64) {
     let surface = file.surface(panel);
     let mesh = file.mesh(&[(surface, material)]);
@@ -195,7 +195,7 @@ fn cottage(file: &mut Builder) {
         let ridge = dvec2(middle, 5.05);
         let thickness = dvec2(0.0, 0.18);
         let mut outline = [eave, eave + thickness, ridge + thickness, ridge];
-        // On the left the same corners run clockwise.
+        // On the left side the same corners are clockwise.
         if side < 0.0 {
             outline.reverse();
         }

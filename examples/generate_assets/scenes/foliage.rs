@@ -1,4 +1,4 @@
-//! A tree and grass of cards with alpha masks: edges that lie within a triangle.
+//! A tree and grass made of cards with alpha masks, whose edges lie within triangles.
 
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
@@ -45,7 +45,7 @@ pub fn build() -> Vec<u8> {
                 random.range(-0.4, 0.8),
                 random.range(-0.8, 0.8),
             );
-            // The back of a card shades as if its normal were turned; both cameras stand at +z.
+            // The back of a card is shaded as if its normal were reversed; both cameras are at +z.
             let mut facing = (outward + lean).normalize();
             facing.z = facing.z.abs();
             let size = random.range(0.17, 0.27);
@@ -114,7 +114,7 @@ struct Branch {
     level: u32,
 }
 
-/// Adds a branch's wood, then the branches at its end; twigs of the last levels bear leaves.
+/// Adds a branch's wood, then the branches at its end; twigs of the last level carry leaves.
 fn grow(wood: &mut Mesh, tips: &mut Vec<DVec3>, random: &mut Random, branch: &Branch) {
     let middle = branch.from + branch.along * 0.5 + wander(random, 0.05 * branch.along.length());
     let end = branch.from + branch.along;
@@ -177,7 +177,7 @@ fn mix(a: [f64; 3], b: [f64; 3], t: f64) -> [u8; 3] {
     std::array::from_fn(|i| (a[i] + (b[i] - a[i]) * t.clamp(0.0, 1.0)).round() as u8)
 }
 
-/// Nine pointed leaves around a twig. Transparent texels are leaf green too, so that filtering brings in no fringe.
+/// Nine pointed leaves around a twig. Transparent texels are leaf green too, so that filtering adds no fringe.
 fn leaf_cluster(u: f64, v: f64) -> [u8; 4] {
     let point = dvec2(u - 0.5, 0.5 - v);
     let mut alpha = coverage((point.x.abs() - 0.008).max(point.y.abs() - 0.44), TEXELS);
@@ -193,7 +193,7 @@ fn leaf_cluster(u: f64, v: f64) -> [u8; 4] {
         if !(0.0..=1.0).contains(&t) {
             continue;
         }
-        // Widest at a third of the length, pointed at the tip.
+        // A leaf is widest at a third of its length and pointed at the tip.
         let width = 0.1 * (PI * t.powf(0.7)).sin().max(0.0);
         let cover = coverage(side.abs() - width, TEXELS);
         if cover > 0.0 {
@@ -211,7 +211,7 @@ fn leaf_cluster(u: f64, v: f64) -> [u8; 4] {
     [r, g, b, (alpha * 255.0).round() as u8]
 }
 
-/// Fourteen bent blades that rise from the lower edge.
+/// Fourteen bent blades that grow from the lower edge.
 fn grass_tuft(u: f64, v: f64) -> [u8; 4] {
     let height = 1.0 - v;
     let mut alpha: f64 = 0.0;

@@ -1,4 +1,4 @@
-//! Tinted panes, some standing in one another, some behind one another: translucent edges and exact order.
+//! Tinted panes, some intersecting, some behind one another, which test translucent edges and exact order.
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::{Mesh, icosphere};
@@ -28,7 +28,7 @@ pub fn build() -> Vec<u8> {
     });
     let brass = file.paint("frame", [92, 74, 52], 0.5);
     table(&mut file);
-    // A fan: five panes through one vertical axis.
+    // The fan has five panes through one vertical axis.
     let mut leaf = Mesh::default();
     leaf.polygon(&rectangle(-1.25, 1.25, 0.06, 2.3));
     let leaf = file.surface(&leaf);
@@ -43,7 +43,7 @@ pub fn build() -> Vec<u8> {
             },
         );
     }
-    // A row: framed panes one behind the other.
+    // The row has framed panes behind one another.
     let mut pane = Mesh::default();
     pane.polygon(&rectangle(-0.8, 0.8, 0.1, 1.9));
     let pane = file.surface(&pane);
@@ -79,7 +79,7 @@ fn rectangle(left: f64, right: f64, bottom: f64, top: f64) -> [DVec3; 4] {
     ]
 }
 
-/// Thin bars around a pane of the row, and feet.
+/// Thin bars around a pane of the row, and its feet.
 fn frame() -> Mesh {
     let mut mesh = Mesh::default();
     let depth = dvec3(0.0, 0.0, 0.012);
@@ -107,7 +107,7 @@ fn table(file: &mut Builder) {
     file.place(mesh, Placement::at(DVec3::ZERO));
 }
 
-/// What is seen through the glass.
+/// Objects behind the glass.
 fn behind(file: &mut Builder) {
     let ball = file.surface(&icosphere(3, |_| 1.0));
     for (color, place, size) in [

@@ -11,7 +11,7 @@ const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
-/// The accessors of one mesh's triangles, to be used with any material.
+/// Accessors of a mesh's triangles, which can be used with any material.
 #[derive(Clone, Copy)]
 pub struct Surface {
     positions: usize,
@@ -20,7 +20,7 @@ pub struct Surface {
     indices: usize,
 }
 
-/// Where a node stands.
+/// Place of a node.
 #[derive(Clone, Copy)]
 pub struct Placement {
     pub translation: DVec3,
@@ -29,7 +29,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// At a point, neither turned nor scaled.
+    /// Placement at a point, without rotation or scale.
     pub fn at(translation: DVec3) -> Self {
         Self {
             translation,
@@ -39,7 +39,7 @@ impl Placement {
     }
 }
 
-/// A glTF file under construction; every method that adds something returns its index.
+/// A glTF file that is being built. Every method that adds something returns its index.
 #[derive(Default)]
 pub struct Builder {
     lists: Map<String, Value>,
@@ -94,7 +94,7 @@ impl Builder {
     }
 
     fn indices(&mut self, indices: &[u32]) -> usize {
-        // 65,535 itself is the primitive restart value.
+        // 65,535 is the primitive restart value, so that it can't be an index.
         let narrow = indices.iter().all(|&i| i < u32::from(u16::MAX));
         let (bytes, kind): (Vec<_>, _) = if narrow {
             let bytes = indices.iter().flat_map(|&i| (i as u16).to_le_bytes());
@@ -141,7 +141,7 @@ impl Builder {
         self.push("meshes", json!({ "primitives": primitives }))
     }
 
-    /// A mesh of a surface with a material for each variant, the first of them where none is chosen.
+    /// A mesh of a surface with a material for each variant; the first one is also the default.
     pub fn mesh_of_variants(
         &mut self,
         surface: Surface,
@@ -163,7 +163,7 @@ impl Builder {
         mesh
     }
 
-    /// A material as glTF writes it.
+    /// Adds a material, given as its glTF object.
     pub fn material(&mut self, material: Value) -> usize {
         let extensions = material.get("extensions").and_then(Value::as_object);
         self.extensions
@@ -171,7 +171,7 @@ impl Builder {
         self.push("materials", material)
     }
 
-    /// An opaque dielectric without textures; `color` is sRGB.
+    /// Adds an opaque dielectric material without textures; `color` is sRGB.
     pub fn paint(&mut self, name: &str, color: [u8; 3], roughness: f64) -> usize {
         let [r, g, b] = color.map(linear);
         self.material(json!({
@@ -182,7 +182,7 @@ impl Builder {
         }))
     }
 
-    /// An encoded PNG.
+    /// Adds an image, given as an encoded PNG.
     pub fn image(&mut self, png: &[u8]) -> usize {
         let view = self.view(png, None);
         self.push(
@@ -191,12 +191,12 @@ impl Builder {
         )
     }
 
-    /// Light from all around, as `EXT_lights_image_based` writes it.
+    /// Sets the environment, given as its object of `EXT_lights_image_based`.
     pub fn environment(&mut self, light: Value) {
         self.environment = Some(light);
     }
 
-    /// An animation of one second: for each pointer its value at first, in the middle and at last.
+    /// Adds an animation of one second. Each pointer has values at the beginning, in the middle and at the end.
     pub fn animate(&mut self, name: &str, pointers: &[(String, [Vec<f32>; 3])]) {
         let times = self.keyframes(&[vec![0.0], vec![0.5], vec![1.0]]);
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
@@ -214,7 +214,7 @@ impl Builder {
         );
     }
 
-    /// As many numbers for each keyframe.
+    /// Adds an accessor with values for each of three keyframes.
     fn keyframes(&mut self, values: &[Vec<f32>; 3]) -> usize {
         let bytes: Vec<_> = values
             .iter()
@@ -237,7 +237,7 @@ impl Builder {
         self.push("accessors", accessor)
     }
 
-    /// A texture from an encoded PNG; trilinear, repeating where `repeat` is set, else clamped.
+    /// Adds a texture, given as an encoded PNG: trilinear, and repeating if `repeat` is set, otherwise clamped.
     pub fn texture(&mut self, png: &[u8], repeat: bool) -> usize {
         let image = self.image(png);
         let wrap = if repeat { 10497 } else { 33071 };
@@ -248,7 +248,7 @@ impl Builder {
         self.push("textures", json!({ "source": image, "sampler": sampler }))
     }
 
-    /// Places a mesh in the scene.
+    /// Adds a node with a mesh to the scene.
     pub fn place(&mut self, mesh: usize, placement: Placement) {
         let mut node = json!({ "mesh": mesh });
         if placement.translation != DVec3::ZERO {
@@ -263,7 +263,7 @@ impl Builder {
         self.push("nodes", node);
     }
 
-    /// Hides what was placed last.
+    /// Hides the last node.
     pub fn hide(&mut self) {
         const NAME: &str = "KHR_node_visibility";
         let nodes = self.lists["nodes"].as_array_mut();
@@ -280,7 +280,7 @@ impl Builder {
         }));
     }
 
-    /// A perspective camera with an infinite far plane; `fov` is vertical, in degrees.
+    /// Adds a perspective camera with an infinite far plane; `fov` is its vertical field of view in degrees.
     pub fn perspective(&mut self, name: &str, eye: DVec3, target: DVec3, fov: f64) {
         let yfov = narrow(&[fov.to_radians()])[0].clone();
         self.camera(
@@ -291,7 +291,7 @@ impl Builder {
         );
     }
 
-    /// An orthographic camera that shows `height` at 16:9.
+    /// Adds an orthographic camera that sees `height` in an image of 16:9.
     pub fn orthographic(&mut self, name: &str, eye: DVec3, target: DVec3, height: f64) {
         let ymag = height / 2.0;
         self.camera(
@@ -304,7 +304,7 @@ impl Builder {
         );
     }
 
-    /// A directional light that travels along `direction`; intensity in lux.
+    /// Adds a directional light along `direction`; intensity in lux.
     pub fn sun(&mut self, name: &str, direction: DVec3, color: [f64; 3], intensity: f64) {
         self.lights.push(json!({
             "name": name, "type": "directional", "color": narrow(&color), "intensity": intensity,
@@ -319,7 +319,7 @@ impl Builder {
         );
     }
 
-    /// Late-morning light: a warm sun over the right shoulder, and cool light from the sky and the ground.
+    /// Adds late-morning light: a warm sun over the right shoulder, and cool light from the sky and the ground.
     pub fn daylight(&mut self) {
         self.sun(
             "sun",
@@ -397,13 +397,13 @@ impl Builder {
     }
 }
 
-/// Numbers in seven decimals, about what a reader's f32 keeps of them.
+/// Numbers rounded to seven decimals, about the precision of an f32.
 fn narrow(values: &[f64]) -> Value {
     let round = |v: &f64| (v * 1e7).round() / 1e7 + 0.0;
     json!(values.iter().map(round).collect::<Vec<_>>())
 }
 
-/// The rotation that turns a node's -z axis to `direction`, its y axis upward.
+/// Rotation that turns a node's -z axis to `direction`, with its y axis upwards.
 fn look(direction: DVec3) -> DQuat {
     let back = -direction.normalize();
     let helper = if back.y.abs() > 0.999 {
@@ -415,7 +415,7 @@ fn look(direction: DVec3) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back))
 }
 
-/// sRGB to linear (IEC 61966-2-1), in three digits, which is finer than a byte needs.
+/// Linear value of an sRGB code (IEC 61966-2-1), rounded to three digits, which is finer than a byte needs.
 pub fn linear(value: u8) -> f64 {
     let v = f64::from(value) / 255.0;
     let linear = if v <= 0.040_45 {

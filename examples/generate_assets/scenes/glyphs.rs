@@ -5,12 +5,12 @@ use glam::{DVec2, dvec2};
 
 /// Height of a capital in the font's units.
 pub const CAPITAL: f64 = 6.0;
-/// From one letter's origin to the next one's.
+/// Distance between the origins of consecutive letters.
 pub const ADVANCE: f64 = 5.9;
 const STROKE: f64 = 0.78;
 const DEPTH: f64 = 0.9;
 
-/// A glyph's strokes: `M x,y` starts one, `L x,y` is a line, `Q x,y x,y` a quadratic curve.
+/// Strokes of a glyph: `M x,y` starts a stroke, `L x,y` is a line, `Q x,y x,y` a quadratic curve.
 fn strokes(glyph: char) -> &'static str {
     match glyph {
         'A' => "M0,0 L2,6 L4,0 M.8,2 L3.2,2",
@@ -62,7 +62,7 @@ fn strokes(glyph: char) -> &'static str {
     }
 }
 
-/// A glyph extruded from z = 0 to the front, its origin at the lower left.
+/// A glyph extruded from z = 0 towards +z, with its origin at the lower left.
 pub fn solid(glyph: char) -> Mesh {
     let mut mesh = Mesh::default();
     for line in polylines(strokes(glyph)) {
@@ -116,7 +116,7 @@ fn ribbon(mesh: &mut Mesh, line: &[DVec2]) {
             i => (direction(i - 1), direction(i)),
         };
         let across = (before.perp() + after.perp()).normalize();
-        // A sharp corner's mitre is cut at twice the width.
+        // The mitre of a sharp corner is limited to twice the width.
         across * (STROKE / 2.0 / across.dot(after.perp()).max(0.5))
     };
     let edges: Vec<_> = (0..=last)

@@ -1,4 +1,4 @@
-//! A chart of raised letters, each line smaller than the one above it, down to strokes of a fraction of a pixel.
+//! A chart of raised letters. Each line is smaller than the one above it, down to strokes of a fraction of a pixel.
 
 use super::glb::{Builder, Placement};
 use super::glyphs::{self, ADVANCE, CAPITAL};
@@ -6,7 +6,7 @@ use super::mesh::Mesh;
 use glam::{DVec3, dvec3};
 use std::collections::BTreeMap;
 
-/// Text and letter height in metres, from the top.
+/// Lines from the top: text, and height of the letters in metres.
 const LINES: [(&str, f64); 10] = [
     ("GPC", 0.36),
     ("PINHOLE CAMERA", 0.15),
@@ -19,7 +19,7 @@ const LINES: [(&str, f64); 10] = [
     ("AND HERE ABOUT HALF AS WIDE AS A PIXEL", 0.0105),
     ("PACK MY BOX WITH FIVE DOZEN LIQUOR JUGS.", 0.0075),
 ];
-/// Upper edge of the first line.
+/// Height of the upper edge of the first line.
 const TOP: f64 = 1.8;
 
 /// Builds the scene.
@@ -68,7 +68,7 @@ pub fn build() -> Vec<u8> {
     file.finish("Letters")
 }
 
-/// The board behind the letters, its frame, and the easel that bears it.
+/// The board behind the letters, its frame, and the easel that carries it.
 fn board(file: &mut Builder) {
     let paper = file.paint("paper", [243, 236, 222], 0.9);
     let wood = file.paint("wood", [164, 118, 78], 0.7);

@@ -1,4 +1,4 @@
-//! Rows of spheres, a scene for each material extension: from its least effect on the left to its greatest on the right.
+//! Rows of spheres, a scene for each material extension; its effect grows from left to right.
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::{Mesh, globe};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 const COUNT: usize = 5;
 
-/// `KHR_materials_ior`: from 1 to 3.
+/// `KHR_materials_ior`: index of refraction from 1 to 3.
 pub fn ior() -> Vec<u8> {
     row(
         "Index of refraction",
@@ -17,7 +17,7 @@ pub fn ior() -> Vec<u8> {
     )
 }
 
-/// `KHR_materials_specular`: from none to a strong, golden one.
+/// `KHR_materials_specular`: from no reflection to a strong, golden one.
 pub fn specular() -> Vec<u8> {
     row("Specular", [40, 40, 44], 0.2, |share| {
         json!({ "KHR_materials_specular": {
@@ -26,7 +26,7 @@ pub fn specular() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_clearcoat`: over a rough base.
+/// `KHR_materials_clearcoat`: growing coat over a rough base.
 pub fn clearcoat() -> Vec<u8> {
     row("Clearcoat", [170, 30, 36], 0.7, |share| {
         json!({ "KHR_materials_clearcoat": {
@@ -35,7 +35,7 @@ pub fn clearcoat() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_sheen`: ever rougher.
+/// `KHR_materials_sheen`: growing roughness.
 pub fn sheen() -> Vec<u8> {
     row("Sheen", [30, 34, 60], 0.9, |share| {
         json!({ "KHR_materials_sheen": {
@@ -44,7 +44,7 @@ pub fn sheen() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_anisotropy`: ever more, along parallels.
+/// `KHR_materials_anisotropy`: growing strength, along the parallels of the spheres.
 pub fn anisotropy() -> Vec<u8> {
     metal(
         "Anisotropy",
@@ -54,7 +54,7 @@ pub fn anisotropy() -> Vec<u8> {
     )
 }
 
-/// `KHR_materials_iridescence`: ever thicker.
+/// `KHR_materials_iridescence`: growing thickness.
 pub fn iridescence() -> Vec<u8> {
     row("Iridescence", [16, 16, 18], 0.15, |share| {
         json!({ "KHR_materials_iridescence": {
@@ -64,7 +64,7 @@ pub fn iridescence() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_diffuse_transmission`: ever more.
+/// `KHR_materials_diffuse_transmission`: growing share of transmitted light.
 pub fn diffuse_transmission() -> Vec<u8> {
     row("Diffuse transmission", [70, 130, 60], 0.8, |share| {
         json!({ "KHR_materials_diffuse_transmission": {
@@ -73,7 +73,7 @@ pub fn diffuse_transmission() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_transmission` and `KHR_materials_volume`: ever thicker.
+/// `KHR_materials_transmission` and `KHR_materials_volume`: growing thickness.
 pub fn transmission() -> Vec<u8> {
     row("Transmission", [255, 255, 255], 0.1, |share| {
         json!({
@@ -86,7 +86,7 @@ pub fn transmission() -> Vec<u8> {
     })
 }
 
-/// `KHR_materials_pbrSpecularGlossiness`: ever glossier.
+/// `KHR_materials_pbrSpecularGlossiness`: growing glossiness.
 pub fn specular_glossiness() -> Vec<u8> {
     row("Specular-glossiness", [0, 0, 0], 1.0, |share| {
         json!({ "KHR_materials_pbrSpecularGlossiness": {
@@ -96,12 +96,13 @@ pub fn specular_glossiness() -> Vec<u8> {
     })
 }
 
-/// Dielectric spheres of one colour and roughness; `extensions` are those of a share from 0 to 1.
+/// A row of dielectric spheres of the same colour and roughness; `extensions` gives their extensions for a share from
+/// 0 to 1.
 fn row(title: &str, color: [u8; 3], roughness: f64, extensions: impl Fn(f64) -> Value) -> Vec<u8> {
     spheres(title, color, 0.0, roughness, extensions)
 }
 
-/// The same of metal.
+/// A row of metal spheres, as [`row`] makes dielectric ones.
 fn metal(
     title: &str,
     color: [u8; 3],
@@ -139,7 +140,7 @@ fn spheres(
     file.finish(title)
 }
 
-/// Stripes, so that what shows through the spheres can be told.
+/// Striped floor, against which the transparency of spheres is visible.
 fn floor(file: &mut Builder) {
     for (name, color, first) in [("light", [222, 212, 196], 0), ("dark", [120, 110, 100], 1)] {
         let paint = file.paint(name, color, 0.9);

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Mesh {
     pub positions: Vec<DVec3>,
     pub normals: Vec<DVec3>,
-    /// Empty, or one a vertex.
+    /// Texture coordinates: empty, or one for each vertex.
     pub uvs: Vec<DVec2>,
     pub indices: Vec<u32>,
 }
@@ -22,7 +22,7 @@ impl Mesh {
         index
     }
 
-    /// A flat convex polygon, corners counter-clockwise.
+    /// Adds a flat convex polygon with counter-clockwise corners.
     pub fn polygon(&mut self, corners: &[DVec3]) {
         let normal = (corners[1] - corners[0])
             .cross(corners[2] - corners[0])
@@ -36,13 +36,13 @@ impl Mesh {
         }
     }
 
-    /// A flat quad with texture coordinates; every polygon of such a mesh must be one of these.
+    /// Adds a flat quad with texture coordinates. All polygons of such a mesh must have them.
     pub fn textured_quad(&mut self, corners: [DVec3; 4], uvs: [DVec2; 4]) {
         self.polygon(&corners);
         self.uvs.extend(uvs);
     }
 
-    /// A quad with one normal for all of it, for cards that should shade like what they stand for.
+    /// Adds a quad with a single normal, for cards that should be shaded like the object that they represent.
     pub fn card(&mut self, corners: [DVec3; 4], normal: DVec3) {
         let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(DVec2::from_array);
         self.textured_quad(corners, uvs);
@@ -50,7 +50,7 @@ impl Mesh {
         self.normals[first..].fill(normal);
     }
 
-    /// An axis-aligned box.
+    /// Adds an axis-aligned box.
     pub fn cuboid(&mut self, low: DVec3, high: DVec3) {
         let corner = |i: usize| {
             let pick = |bit: usize, a: f64, b: f64| if i & bit == 0 { a } else { b };
@@ -73,7 +73,8 @@ impl Mesh {
         }
     }
 
-    /// A convex outline in the xy plane, counter-clockwise seen from +z, as a prism from `back` to `front`.
+    /// Adds a prism from `back` to `front` along z over a convex outline in the xy plane, counter-clockwise seen from
+    /// +z.
     pub fn prism(&mut self, outline: &[DVec2], back: f64, front: f64) {
         let front_face: Vec<_> = outline.iter().map(|p| p.extend(front)).collect();
         self.polygon(&front_face);
@@ -90,7 +91,7 @@ impl Mesh {
         }
     }
 
-    /// A round tube along a path, its radius going evenly from `radii[0]` to `radii[1]`; ends are open.
+    /// Adds a round tube along a path. Its radius changes evenly from `radii[0]` to `radii[1]`; the ends are open.
     pub fn tube(&mut self, path: &[DVec3], radii: [f64; 2], sides: u32) {
         let first = self.positions.len() as u32;
         let last = path.len() - 1;
@@ -121,7 +122,7 @@ impl Mesh {
     }
 }
 
-/// A unit sphere of meridians and parallels, with texture coordinates: u once around, v from the upper pole down.
+/// A unit sphere of meridians and parallels, with texture coordinates: u goes once around, v from the upper pole down.
 pub fn globe(meridians: u32, parallels: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for row in 0..=parallels {
@@ -140,7 +141,7 @@ pub fn globe(meridians: u32, parallels: u32) -> Mesh {
         for column in 0..meridians {
             let a = row * (meridians + 1) + column;
             let below = a + meridians + 1;
-            // At the poles, one of the two has no area.
+            // At a pole, one of the two triangles has no area.
             if row > 0 {
                 mesh.indices.extend([a, below + 1, a + 1]);
             }
@@ -152,8 +153,8 @@ pub fn globe(meridians: u32, parallels: u32) -> Mesh {
     mesh
 }
 
-/// A unit sphere from an icosahedron, each triangle split into four `levels` times. `radius`
-/// gives the distance of the surface in a direction; normals follow from its differences.
+/// A unit sphere from an icosahedron, each of whose triangles is split into four, `levels` times. `radius` gives the
+/// distance of the surface in a direction; normals are computed from its differences.
 pub fn icosphere(levels: u32, radius: impl Fn(DVec3) -> f64) -> Mesh {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut points: Vec<DVec3> = Vec::new();
@@ -167,7 +168,7 @@ pub fn icosphere(levels: u32, radius: impl Fn(DVec3) -> f64) -> Mesh {
         points.push(DVec3::new(0.0, a, b).normalize());
         points.push(DVec3::new(b, 0.0, a).normalize());
     }
-    // The faces of an icosahedron are the triples of corners at its edge length from one another.
+    // Each three corners of an icosahedron at its edge length from each other are a face.
     let near = |a: DVec3, b: DVec3| a.distance(b) < 1.2;
     let mut faces = Vec::new();
     for i in 0..points.len() {

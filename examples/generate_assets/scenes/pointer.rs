@@ -1,4 +1,5 @@
-//! `KHR_animation_pointer`: spheres whose colour, roughness, coat, glow and texture change, under a lamp that does too.
+//! `KHR_animation_pointer`: spheres whose colour, roughness, coat, glow and texture change, under a lamp that changes
+//! too.
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::globe;

@@ -1,4 +1,5 @@
-//! Plain and bumpy spheres packed on a disc: many triangles, most edges of pixels between two of one sphere.
+//! Plain and bumpy spheres packed on a disc: many triangles, where most neighbouring pixels show different triangles
+//! of the same sphere.
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::{Mesh, icosphere};
@@ -41,7 +42,7 @@ pub fn build() -> Vec<u8> {
         })
         .collect();
     let mut random = Random::new(3);
-    // Sunflower packing: each sphere a golden angle further round, at a radius that keeps density even.
+    // Sunflower packing: each sphere is a golden angle further around, at a radius that keeps the density even.
     let golden_angle = TAU * (1.0 - 1.0 / ((1.0 + 5.0_f64.sqrt()) / 2.0));
     for i in 0..COUNT {
         let index = f64::from(i);

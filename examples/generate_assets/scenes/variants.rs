@@ -1,4 +1,5 @@
-//! `KHR_materials_variants` and `KHR_node_visibility`: spheres in the colours of a day or of a night, behind one that is hidden.
+//! `KHR_materials_variants` and `KHR_node_visibility`: spheres in the colours of a day or of a night, behind a hidden
+//! sphere.
 
 use super::glb::{Builder, Placement};
 use super::mesh::globe;

@@ -1,4 +1,5 @@
-//! Encodings of colours, in 64 bits: what files and detection have, and what `shaders/include/color.glsl` computes in 32.
+//! Encodings of colours in double precision, for files and detection; `shaders/include/color.glsl` computes the same
+//! in single precision.
 
 #![forbid(unsafe_code)]
 

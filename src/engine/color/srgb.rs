@@ -1,6 +1,6 @@
 //! The sRGB transfer function (IEC 61966-2-1:1999, section 5.2).
 
-/// Linear light, 0 to 1, as an sRGB-encoded value, 0 to 1. What lies outside is brought to the nearer bound.
+/// sRGB-encoded value, 0 to 1, of linear light. Light outside of 0 to 1 is clamped.
 pub fn encode(linear: f64) -> f64 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 {
@@ -10,7 +10,7 @@ pub fn encode(linear: f64) -> f64 {
     }
 }
 
-/// An sRGB-encoded value, 0 to 1, as linear light, 0 to 1; bounds as in [`encode`].
+/// Linear light, 0 to 1, of an sRGB-encoded value. A value outside of 0 to 1 is clamped.
 pub fn decode(encoded: f64) -> f64 {
     let encoded = encoded.clamp(0.0, 1.0);
     if encoded <= 0.040_45 {
@@ -20,12 +20,12 @@ pub fn decode(encoded: f64) -> f64 {
     }
 }
 
-/// Linear light as the nearest 8-bit sRGB code value.
+/// Nearest 8-bit sRGB code of linear light, which is clamped to 0 to 1.
 pub fn encode_u8(linear: f64) -> u8 {
     (encode(linear) * 255.0).round() as u8
 }
 
-/// An 8-bit sRGB code value as linear light.
+/// Linear light, 0 to 1, of an 8-bit sRGB code.
 pub fn decode_u8(code: u8) -> f64 {
     decode(f64::from(code) / 255.0)
 }

@@ -1,18 +1,19 @@
 //! Khronos PBR Neutral tone mapping (Khronos Group, "Khronos PBR Neutral Tone Mapper", 2024).
 //!
-//! Base colours under neutral light come through unchanged up to 0.76, less the 4 % that a dielectric reflects; what
-//! is brighter is compressed below 1 and bleached as it gets there.
+//! Colours up to 0.76 only lose the 4 % that a dielectric reflects, so that base colours under neutral light stay
+//! unchanged. Brighter colours are compressed below 1, and become less saturated as they approach it.
 
-/// Brightness at which compression starts, after the reflection is taken off.
+/// Brightness at which compression starts, after the reflection was subtracted.
 const START: f64 = 0.8 - REFLECTION;
 
 /// Reflection of a dielectric at normal incidence.
 const REFLECTION: f64 = 0.04;
 
-/// How quickly bright colours bleach.
+/// Rate at which bright colours lose saturation.
 const DESATURATION: f64 = 0.15;
 
-/// The displayed colour, linear, 0 to below 1, of a scene-linear colour: red, green and blue, finite, 0 or more.
+/// Display colour, linear and from 0 to below 1, of a scene-linear colour. Red, green and blue must be finite and not
+/// negative.
 pub fn neutral(colour: [f64; 3]) -> [f64; 3] {
     let darkest = colour.into_iter().fold(f64::INFINITY, f64::min);
     let offset = if darkest < 2.0 * REFLECTION {

@@ -1,4 +1,4 @@
-//! A host's image of colours, as kernels read it.
+//! The image of colours that a host has drawn, as input of kernels.
 
 use super::spirv::take_set;
 use crate::engine::pipelines::FrameLayout;
@@ -7,13 +7,13 @@ use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError, compute_pipeli
 use ash::vk;
 use std::sync::Arc;
 
-/// The layouts of kernels that read a host's image beside the frame's set.
+/// Layouts of kernels that read a host's image in a second descriptor set.
 pub(crate) struct HostImageLayout {
     pipeline: PipelineLayout,
     set: SetLayout,
 }
 
-/// A host's image, as the kernels of one frame read it.
+/// Descriptor set of a host's image, for the kernels of one frame.
 pub(crate) struct HostImage {
     set: OwnSet,
     encoded: bool,
@@ -33,7 +33,8 @@ impl HostImageLayout {
         }))
     }
 
-    /// An image that holds linear light or, `encoded`, sRGB codes as plain numbers; [`HostImage::show`] says which one.
+    /// Makes the set of an image. [`HostImage::show`] sets the image, which holds linear light or, if `encoded`, sRGB
+    /// codes as plain numbers.
     ///
     /// # Errors
     /// If the driver refuses the set.
@@ -47,21 +48,21 @@ impl HostImageLayout {
 }
 
 impl HostImage {
-    /// Shows the image behind a view, which is in the layout `SHADER_READ_ONLY_OPTIMAL` when kernels read it.
+    /// Sets the image. It must be in the layout `SHADER_READ_ONLY_OPTIMAL` when kernels read it.
     ///
     /// # Safety
-    /// No commands that use the image's set are pending, and the view outlives those recorded from now on.
+    /// No commands that use the set are pending, and the view outlives the commands that are recorded from now on.
     pub unsafe fn show(&self, view: vk::ImageView) {
-        // SAFETY: passed on to the caller; the binding is that of an image.
+        // SAFETY: guaranteed by the caller; the binding is that of an image.
         unsafe { self.set.write_image(take_set::HOST_IMAGE, view) };
     }
 
-    /// Whether the host writes sRGB codes as plain numbers.
+    /// Whether the image holds sRGB codes as plain numbers.
     pub fn encoded(&self) -> bool {
         self.encoded
     }
 
-    /// The pipeline of a kernel that reads the image; `subgroup` fixes the size of its subgroups.
+    /// Makes or finds the pipeline of a kernel that reads the image; `subgroup` fixes the size of its subgroups.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -78,9 +79,9 @@ impl HostImage {
         frame.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
     }
 
-    /// Binds the image beside the frame's set, which stays bound.
+    /// Binds the set of the image. The frame's set stays bound.
     pub fn bind(&self, recorder: &Recorder<'_>) {
-        // SAFETY: the recorder's contract; the set is of the layout, which agrees with the frame's in all before it.
+        // SAFETY: the recorder's contract; the layout of the pipeline equals the frame's layout up to this set.
         unsafe {
             recorder.device().cmd_bind_descriptor_sets(
                 recorder.bindings(),

@@ -1,21 +1,21 @@
-//! Colours and their transforms as the shaders take them.
+//! Colours and colour transforms in the form that shaders take.
 
 use super::{Reference, Settings};
 use crate::color::{srgb, tonemap};
 use crate::engine::data::{ColorConstants, Content};
 
 impl Settings {
-    /// The background as linear, premultiplied RGBA.
+    /// Background as linear, premultiplied RGBA.
     pub(crate) fn background_rgba(&self) -> [f32; 4] {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
     }
 
-    /// Whether colours of the image are tone-mapped.
+    /// Whether the image's colours are tone-mapped.
     pub(crate) fn tonemaps(&self) -> bool {
         self.reference == Reference::Display && self.tonemapped_detection
     }
 
-    /// How colours of a scene are made.
+    /// Constants of `shaders/include/color.glsl` that turn a scene's radiance into colours.
     pub(crate) fn color_constants(&self, scene: &dyn Content) -> ColorConstants {
         ColorConstants {
             tonemap: self.tonemaps(),
@@ -26,7 +26,7 @@ impl Settings {
     }
 }
 
-/// What detection compares of a background, as `display_code` of `shaders/include/color.glsl` packs it.
+/// Code of a colour that detection compares, packed like `display_code` of `shaders/include/color.glsl`.
 pub(crate) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(srgb::encode_u8);
@@ -35,8 +35,8 @@ pub(crate) fn display_code(color: [f32; 4]) -> u32 {
 }
 
 impl Settings {
-    /// What detection compares of a colour in the output, as the shaders' `display_code` does: scene-referred ones are
-    /// tone-mapped for it.
+    /// Code of an output colour that detection compares, like `display_code` of the shaders. Scene-referred colours
+    /// are tone-mapped for it.
     pub(crate) fn output_code(&self, color: [f32; 4]) -> u32 {
         if self.reference == Reference::Display || !self.tonemapped_detection {
             return display_code(color);

@@ -1,19 +1,19 @@
-//! Counters of the passes, kept for the host.
+//! Copies of the passes' counters, for the host to read.
 
 use crate::engine::data::{Counter, Resources};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::slice::ChunksExact;
 
-/// Copies of the passes' counters, one slot for each time that they are copied in a recording.
+/// Copies of the passes' counters: a slot for each time that they are copied in a recording.
 pub(crate) struct CounterLog {
-    /// Nothing without slots.
+    /// Buffer of the copies; `None` without slots.
     buffer: Option<Buffer>,
     slots: usize,
 }
 
 impl CounterLog {
-    /// Makes one of so many slots.
+    /// Makes a log with `slots` slots.
     ///
     /// # Errors
     /// If memory runs out.
@@ -32,17 +32,18 @@ impl CounterLog {
         })
     }
 
-    /// Records a copy of the counters to a slot; nothing without slots.
+    /// Records a copy of the counters to a slot, if there are slots.
     pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, slot: usize) {
         if let Some(buffer) = &self.buffer {
             resources.record_keep_counters(recorder, buffer, slot as u64);
         }
     }
 
-    /// The counters of the last recording, once its commands are done: for each run of so many slots the counters of each slot.
+    /// Counters of the last recording, once its commands have run. For each run they hold the counters of
+    /// `slots_of_run` slots.
     ///
     /// # Errors
-    /// If they can't be read.
+    /// If the counters can't be read.
     pub fn read(
         &self,
         slots_of_run: usize,

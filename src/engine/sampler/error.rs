@@ -8,81 +8,81 @@ use crate::vulkan::VulkanError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EngineError {
-    /// The device refuses.
+    /// Error of the device.
     #[error(transparent)]
     Vulkan(#[from] VulkanError),
-    /// The pattern can't have that many sub-samples.
+    /// Number of samples that the pattern can't have.
     #[error(transparent)]
     Pattern(#[from] PatternError),
-    /// A region of an image has no pixels or leaves the image.
+    /// Region of an image that has no pixels or leaves the image.
     #[error(
         "a region of {} x {} pixels from column {}, row {}: it must have pixels and lie in the image of {} x {}",
         region.size[0], region.size[1], region.corner[0], region.corner[1], image[0], image[1]
     )]
     Region {
-        /// The region.
+        /// The region that was asked for.
         region: PixelRect,
         /// Width and height of the image.
         image: [u32; 2],
     },
-    /// The method can't have that many samples.
+    /// Number of samples that the method can't have.
     #[error("{method} can't have {asked} samples a pixel; it can have {possible}")]
     Samples {
-        /// The method's name.
+        /// Name of the method.
         method: &'static str,
-        /// What was asked for.
+        /// Number that was asked for.
         asked: u32,
-        /// What can be had.
+        /// Possible numbers, in words.
         possible: String,
     },
-    /// Multisampling has several IDs a pixel.
+    /// Attributes with multisampling, which has several IDs in a pixel.
     #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,
-    /// Texture levels can't be chosen for a footprint of that side.
+    /// Footprint with a side that is not above 0 and at most 1.
     #[error("texture levels for a square of {0} pixels: its side must be above 0 and at most 1")]
     Footprint(f32),
-    /// Lines or points can't be of that size.
+    /// Width of lines, or size of points, that is not above 0 and at most the limit.
     #[error(
         "lines or points of {0} pixels: their width or size must be above 0 and at most {limit}",
         limit = super::Settings::LARGEST_STROKE
     )]
     Stroke(f32),
-    /// A number of the background is not finite.
+    /// Background with a component that is not finite.
     #[error("a background of {0:?}: its light must be finite")]
     Background([f32; 3]),
-    /// The image has no pixels or too many.
+    /// Image without pixels, or with too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
-        /// Asked width.
+        /// Width that was asked for.
         width: u32,
-        /// Asked height.
+        /// Height that was asked for.
         height: u32,
-        /// Largest side.
+        /// Largest possible width and height.
         limit: u32,
     },
-    /// Not even the smallest part of the image fits.
+    /// Limit for memory that is too small even for the smallest part of the image.
     #[error(
         "{needed} bytes of device memory are needed at the least, and the bound on it allows {allowed}"
     )]
     Memory {
-        /// The least that will do.
+        /// Smallest number of bytes that suffices.
         needed: u64,
-        /// What is allowed.
+        /// Number of bytes that is allowed.
         allowed: u64,
     },
-    /// Lists of records outgrew their memory in every round, or lists of triangles what a kernel can walk: one pixel
-    /// shows tens of thousands of them.
+    /// Superpixels that could not be finished: their visibility samples did not fit into memory, or their tiles had
+    /// more triangles than a kernel can process, for example because one pixel shows tens of thousands of triangles.
     #[error(
         "{cells} superpixels have more records than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or allow more memory"
     )]
     Unfinished {
-        /// How many superpixels or tiles are left.
+        /// Number of superpixels or tiles that were not finished.
         cells: u64,
     },
 }
 
 impl EngineError {
-    /// Whether what was asked for can't be had from this method at all.
+    /// Whether the request was impossible, so that other settings or inputs are needed.
     #[must_use]
     pub fn is_usage(&self) -> bool {
         matches!(

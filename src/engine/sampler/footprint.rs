@@ -1,31 +1,32 @@
-//! How large the squares are that textures are filtered over.
+//! Sizes of the squares over which textures are filtered.
 
 use super::{Footprint, Method, Settings};
 
-/// Side of the square that alpha is filtered over before it is tested, in distances between samples. What a test makes of
-/// filtered alpha is not the filtered outcome of tests, so that the finest is best: leaves keep their holes and tips.
+/// Side of the square over which alpha is filtered before its test, in distances between samples. Testing filtered
+/// alpha differs from filtering the results of tests, so that a small square is best: leaves keep their holes and
+/// tips.
 const ALPHA_SIDE: f32 = 0.125;
 
-/// Sides of these squares.
+/// Sides of the squares over which textures are filtered.
 pub(crate) struct Footprints {
-    /// At the centre of a pixel, in pixels of the region.
+    /// Side at the centre of a pixel, in pixels of the region.
     pub centre: f32,
-    /// At the place of a visibility sample, in pixels of the region; of [`Footprint::Sample`], over the root of the
-    /// record's share of a cell.
+    /// Side at the place of a visibility sample, in pixels of the region. For [`Footprint::Sample`], the side divided
+    /// by the root of the sample's share of a cell.
     pub place: f32,
-    /// At a sub-sample that tests alpha, in pixels of the region.
+    /// Side at a sample that tests alpha, in pixels of the region.
     pub sample: f32,
 }
 
 impl Footprints {
-    /// Those of cells of so many samples.
+    /// Footprints for cells of `samples` samples.
     pub fn new(settings: &Settings, samples: u32) -> Self {
         let everywhere = |side: f32| Self {
             centre: side,
             place: side,
             sample: side,
         };
-        // The distance between samples.
+        // The distance between samples, in pixels.
         let sample = 1.0 / (samples as f32).sqrt();
         match settings.footprint {
             Footprint::Pixel => everywhere(settings.side() as f32),

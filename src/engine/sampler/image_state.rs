@@ -3,25 +3,25 @@
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// State of a host's image, of one mipmap level and one layer.
+/// State of a host's image with one mipmap level and one layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageState {
-    /// Its layout.
+    /// Layout of the image.
     pub layout: vk::ImageLayout,
-    /// Stages that use it.
+    /// Pipeline stages that use the image.
     pub stage: vk::PipelineStageFlags2,
-    /// How they use it.
+    /// Memory accesses of these stages.
     pub access: vk::AccessFlags2,
 }
 
 impl ImageState {
-    /// Where shaders read the image, and the caller's barriers wait for all that was written before.
+    /// State in which shaders read the image; the caller's barriers wait for everything that was written before.
     pub(crate) const READ: Self = Self {
         layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         stage: vk::PipelineStageFlags2::COMPUTE_SHADER,
         access: vk::AccessFlags2::SHADER_SAMPLED_READ,
     };
-    /// Where the image is drawn to, over what it holds.
+    /// State in which the image is drawn to, over its contents.
     pub(crate) const DRAWN: Self = Self {
         layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
         stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
@@ -56,7 +56,7 @@ impl ImageState {
             .image(image)
             .subresource_range(range)];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: the recorder's contract; the host vouches for its image and states.
+        // SAFETY: guaranteed by the recorder's caller; the host guarantees its image and states.
         unsafe {
             recorder
                 .device()

@@ -10,23 +10,23 @@ use crate::engine::sampler::plan::{
 use crate::engine::sampler::{EngineError, Settings};
 use ash::vk;
 
-/// What the cells of a list are, and what is asked of them.
+/// Kind of the cells of a list, and the results that they need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ListCells {
     pub cells: Cells,
     /// Whether locations that are sampled once have attributes.
     pub attributes: bool,
-    /// Words of each place that say which lights reach it.
+    /// Number of words for each place that say which lights reach it.
     pub shadow_words: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
 }
 
 impl ListCells {
-    /// Offsets of a cell's samples, and how many these are.
+    /// Offsets of a cell's samples, and the number of samples.
     ///
     /// # Errors
-    /// If the pattern has no such number.
+    /// If the pattern can't have this number.
     pub fn offsets(
         &self,
         layout: &FrameLayout,
@@ -50,7 +50,8 @@ impl ListCells {
         )
     }
 
-    /// Room for `locations` locations in a region of so many pixels, whole tiles, and for `lists` times the usual candidates.
+    /// Sizes of the memory for `locations` locations in a region of `pixels` pixels, in whole tiles, with room for
+    /// `lists` times the usual number of candidates.
     pub fn sizes(
         &self,
         layout: &FrameLayout,
@@ -90,13 +91,13 @@ impl ListCells {
         }
     }
 
-    /// Makes a sampler of the locations that `locations` shows.
+    /// Makes a sampler for the locations in the view `locations`.
     ///
     /// # Errors
     /// If the driver refuses a pipeline, or memory runs out.
     ///
     /// # Safety
-    /// The view of `locations` outlives the sampler, and shows as many as the resources have room for.
+    /// The view `locations` outlives the sampler, and has as many locations as the resources have room for.
     pub unsafe fn sampler(
         &self,
         context: &SamplerContext<'_>,
@@ -117,7 +118,7 @@ impl ListCells {
         };
         let options = context.sample_options(self.cells, samples);
         let source = || {
-            // SAFETY: passed on to the caller.
+            // SAFETY: guaranteed by the caller.
             let distribute =
                 unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
             Ok(Source::List(distribute))

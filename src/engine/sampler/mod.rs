@@ -64,38 +64,39 @@ use statistics::Shortfall;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 
-/// The owner of the surfaces that a [`Sampler`] finds: it shades them. Set 0 is bound before each of these calls, and bound again after
-/// it.
+/// Client of a [`Sampler`], which owns the surfaces that it finds and shades them. Set 0 is bound before each of these
+/// calls, and is bound again after it.
 pub(crate) trait RecordShading {
-    /// Records the shading of a round's visibility samples, sorted by key: the radiance of each goes to its place in the buffer of
-    /// shaded records.
+    /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
+    /// written to its place in the buffer of shaded records.
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
 
-    /// Records marks of pixels that show what their centres do not, beside those of [`Thin`].
+    /// Records marks for pixels that show more than their centres, in addition to those of [`Thin`].
     fn record_marks(&self, _recorder: &mut Recorder<'_>) {}
 
-    /// Records what reads the visibility samples of a round after they were shaded.
+    /// Records passes that read a round's visibility samples after they were shaded.
     fn record_round_end(&self, _recorder: &mut Recorder<'_>) {}
 }
 
-/// What a [`Sampler`] is made with.
+/// Everything that a [`Sampler`] is made from.
 #[derive(Clone, Copy)]
 pub(crate) struct SamplerContext<'a> {
     pub layout: &'a Arc<FrameLayout>,
     pub memory: &'a Memory,
     pub scene: &'a dyn Content,
     pub settings: &'a Settings,
-    /// The colour constants of `shaders/include/color.glsl`.
+    /// Colour constants of `shaders/include/color.glsl`.
     pub output: &'a ColorConstants,
-    /// The sizes of the memory that it works in.
+    /// Sizes of the memory in which the sampler works.
     pub sizes: &'a ResourceSizes,
     pub capacity: Capacity,
-    /// Number of runs of a recording whose counters the host reads; 0 where none of them are read.
+    /// Number of runs of a recording whose counters the host reads; 0 if it reads none.
     pub runs: usize,
 }
 
 impl SamplerContext<'_> {
-    /// What `sample` does with cells of so many samples, or at most so many locations that are sampled once.
+    /// Options of `sample` for cells of `samples` samples; for cells that are sampled once, `samples` is the largest
+    /// number of locations.
     fn sample_options(&self, cells: Cells, samples: u32) -> SampleOptions {
         let (settings, scene, points) = (self.settings, self.scene, cells.are_points());
         let superpixels = settings.superpixels();
@@ -109,7 +110,7 @@ impl SamplerContext<'_> {
                 record_rate(settings, scene)
             },
             exact_areas: superpixels.coverage == Coverage::Area && samples > 1 && !points,
-            // High-frequency triangles are shaded in many places.
+            // High-frequency triangles are shaded in many places, so that a few samples never suffice.
             can_settle: superpixels.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             apart: self.capacity.apart,
             unlisted: self.capacity.unlisted,
@@ -120,54 +121,55 @@ impl SamplerContext<'_> {
     }
 }
 
-/// Passes that sample the cells of one kind, the capacity that they were made with, and what they counted. They know triangles and shading
-/// keys, no materials.
+/// Passes that sample cells of one kind, the capacity that they were made with, and their counters. They know
+/// triangles and shading keys, but no materials.
 pub(crate) struct Sampler {
     source: Source,
     cull: Cull,
     bin: Bin,
     schedule: Schedule,
-    /// Of lists.
+    /// Pass that groups the cells of a list; `None` for pixels.
     groups: Option<Groups>,
     setup: Setup,
     sample: Sample,
-    /// Nothing where only the triangles of records are asked for, not their colours.
+    /// Pass that sorts visibility samples; `None` if only their triangles are needed, not their colours.
     sort: Option<Sort>,
-    /// Nothing where no colours are made of the records.
+    /// Pass that makes colours; `None` if no colours are needed.
     finish: Option<Finish>,
     capacity: Capacity,
     rounds: u32,
     counters: CounterLog,
-    /// Triangles that [`Cull`] has room for.
+    /// Number of triangles for which [`Cull`] has room.
     triangle_capacity: u32,
 }
 
-/// The passes that find cells.
+/// Passes that find the cells.
 enum Source {
     Pixels {
         thin: Option<Thin>,
         detect: Detect,
-        /// In the order in which they run.
+        /// Growth passes, in the order in which they run.
         growths: Vec<Grow>,
     },
     List(Distribute),
 }
 
-/// The pass that makes colours of shaded records.
+/// Pass that turns shaded visibility samples into colours.
 enum Finish {
     Points(Points),
     Resolve(Resolve),
 }
 
-/// One run of a sampler: over a region of an image, or a list. [`Resources::record_begin`] was recorded with its set and uniform block.
+/// A run of a sampler over a region of an image or over a list. [`Resources::record_begin`] was recorded with its set
+/// and uniform block.
 #[derive(Clone, Copy)]
 pub(crate) struct SamplerRun<'a> {
     pub resources: &'a Resources,
     pub set: &'a SampleSet,
     pub uniform: &'a FrameUniform,
-    /// The number of locations of a list, or the most that there can be, and where it is known; without meaning for pixels.
+    /// Number of locations of a list, or its upper bound, and where the number is stored; ignored for pixels.
     pub list: (u32, ListLength<'a>),
-    /// Which of the recording's runs this is, from 0 on.
+    /// Index of this run in the recording, from 0.
     pub index: usize,
 }
 
@@ -187,7 +189,7 @@ impl Sampler {
         } = *context;
         let is_shaded = options.cells != Cells::Occluders || scene.has_blend();
         let sort = || Sort::new(layout, scene, scene.bin_count() == 1);
-        // The kernels of `sample` take drivers the longest.
+        // The kernels of `sample` take drivers longest to compile, so that they get a thread of their own.
         let (sample, others) = std::thread::scope(|scope| {
             let sample = scope.spawn(|| Sample::new(layout, scene, options));
             let others = (|| {
@@ -224,27 +226,27 @@ impl Sampler {
         })
     }
 
-    /// Records at most so many rounds, of what is detected and of each growth of it.
+    /// Limits the number of recorded rounds: of the detected superpixels, and of each growth.
     pub fn limit_rounds(&mut self, most: u32) {
         self.rounds = self.rounds.min(most);
     }
 
-    /// The capacity that it was made with.
+    /// Capacity with which the sampler was made.
     pub fn capacity(&self) -> Capacity {
         self.capacity
     }
 
-    /// Number of samples of a cell, or of locations of a cell that are sampled once.
+    /// Number of samples of a cell; for locations that are sampled once, their number in a cell.
     pub fn samples(&self) -> u32 {
         self.sample.options().samples
     }
 
-    /// How often superpixels grow.
+    /// Number of times that superpixels grow.
     pub fn growths(&self) -> usize {
         self.source.growths().len()
     }
 
-    /// Records a run: which cells there are, their sampling and shading, and their growth.
+    /// Records a run: finding the cells, sampling and shading them, and their growth.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -289,7 +291,7 @@ impl Sampler {
         self.record_rounds(recorder, resources, shading);
         self.counters.record(recorder, resources, first_slot);
         let mut of_growth = *uniform;
-        // Centres whose colours are alike miss what superpixels beside them show.
+        // Where centres have similar colours, they may miss what the superpixels beside them show.
         of_growth.alike = 0;
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
@@ -340,10 +342,10 @@ impl Sampler {
         });
     }
 
-    /// Adds what the last recording could not finish, whose runs were over so many tiles, one after the other.
+    /// Adds the work that the last recording could not finish. `tiles` holds the number of tiles of each of its runs.
     ///
     /// # Errors
-    /// If what was counted can't be read.
+    /// If the counters can't be read.
     pub fn add_shortfall(
         &self,
         tiles: impl IntoIterator<Item = u32>,
@@ -359,10 +361,10 @@ impl Sampler {
         Ok(())
     }
 
-    /// Adds the figures of the last recording, whose runs were over so many tiles, one after the other.
+    /// Adds the statistics of the last recording. `tiles` holds the number of tiles of each of its runs.
     ///
     /// # Errors
-    /// If what was counted can't be read.
+    /// If the counters can't be read.
     pub fn add_statistics(
         &self,
         tiles: impl IntoIterator<Item = u32>,
@@ -381,16 +383,16 @@ impl Sampler {
         Ok(())
     }
 
-    /// Locations of the lists of the last recording that did not lie in their region.
+    /// Number of locations in the lists of the last recording that lay outside of their region.
     ///
     /// # Errors
-    /// If what was counted can't be read.
+    /// If the counters can't be read.
     pub fn left_out(&self) -> Result<u32, VulkanError> {
         let counters = self.counted()?.flatten();
         Ok(counters.map(|counters| Counter::LeftOut.of(counters)).sum())
     }
 
-    /// For each run of the last recording: the counters of what was detected, and of each growth of it.
+    /// For each run of the last recording: the counters of the detected superpixels, and of each growth.
     fn counted(&self) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
         self.counters.read(1 + self.growths())
     }
@@ -405,13 +407,13 @@ impl Source {
     }
 }
 
-/// Offsets of a cell's samples, followed by those of a first run.
+/// Offsets of a cell's samples, followed by the offsets of the first few samples that decide whether all are needed.
 pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, EngineError> {
     offsets.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
     Ok(offsets)
 }
 
-/// How many records the settings' shading asks for.
+/// Rate of visibility samples for the settings' shading.
 pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRate {
     match settings.superpixels().shading {
         Shading::Part if scene.has_high_frequency() => RecordRate::Part,
@@ -420,7 +422,7 @@ pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRat
     }
 }
 
-/// Sorts and shades the records of a round.
+/// Records sorting and shading of a round's visibility samples.
 pub(crate) fn record_shading(
     recorder: &mut Recorder<'_>,
     resources: &Resources,

@@ -8,21 +8,21 @@ use crate::engine::passes::{
 use crate::engine::sampler::{Detection, EngineError, Settings};
 use std::sync::Arc;
 
-/// Which pixels of an image are cells.
+/// The pixels of an image that become cells.
 pub(crate) struct PixelCells {
-    /// Which pixels are cells.
+    /// Rule by which pixels become cells.
     pub mode: DetectMode,
-    /// Whether thin triangles that no pixel centre saw make cells too.
+    /// Whether pixels that a thin triangle crosses without covering a centre become cells too.
     pub thin: bool,
-    /// Whether the depth that was drawn grows with distance.
+    /// Whether larger values of the drawn depth are farther away.
     pub farther_is_larger: bool,
-    /// Whether there are IDs of the nearest BLEND triangles, where there are any.
+    /// Whether IDs of the nearest BLEND triangles exist.
     pub blend_ids: bool,
     /// Whether the triangle IDs are multisampled.
     pub multisampled: bool,
-    /// Sub-samples of a cell.
+    /// Number of samples of a cell.
     pub samples: u32,
-    /// How often superpixels grow.
+    /// Number of times that superpixels grow.
     pub growths: u32,
     /// Whether `detect` of another sampler compares the resolved colours.
     pub detected: bool,
@@ -43,7 +43,7 @@ impl DetectMode {
 }
 
 impl PixelCells {
-    /// The superpixels that settings ask for.
+    /// The superpixels of the settings.
     pub fn superpixels(settings: &Settings) -> Self {
         let options = settings.superpixels();
         Self {
@@ -59,7 +59,7 @@ impl PixelCells {
         }
     }
 
-    /// Makes a sampler of them.
+    /// Makes a sampler for these cells.
     ///
     /// # Errors
     /// If the driver refuses a pipeline, or memory runs out.

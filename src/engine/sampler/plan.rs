@@ -1,37 +1,37 @@
-//! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
+//! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
 use super::statistics::Shortfall;
 use super::{EngineError, Method, Settings, Shading};
 use crate::engine::data::{Content, ResourceSizes};
 use crate::vulkan::Limits;
 
-/// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
-/// regions that the whole image has, and drawn in that region's place: devices round vertices to a fraction of a pixel
-/// after they have been moved there.
+/// Part of an image, in output pixels. If only a part of the image is wanted, a region is still placed and drawn as
+/// for the whole image, because devices round vertices to a fraction of a pixel after the viewport transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Region {
-    /// Upper left pixel that the region has in the whole image.
+    /// Upper left pixel of the region in the whole image.
     low: [u32; 2],
-    /// Lower right pixel, exclusive.
+    /// Lower right pixel of the region in the whole image, exclusive.
     high: [u32; 2],
-    /// Upper left pixel that is wanted of it.
+    /// Upper left pixel that is wanted.
     pub wanted_low: [u32; 2],
-    /// Lower right pixel, exclusive.
+    /// Lower right pixel that is wanted, exclusive.
     wanted_high: [u32; 2],
-    /// Pixels around it that detection compares with: left, top, right, bottom. It needs [`NEIGHBOURS`]; on the left and at
-    /// the top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
+    /// Number of pixels around the region that detection compares with: left, top, right, bottom. Detection needs
+    /// [`NEIGHBOURS`]; on the left and at the top it is a whole tile, so that tiles, and the rounding of edge
+    /// functions, are those of the undivided image.
     halo: [u32; 4],
 }
 
 impl Region {
-    /// Wants only what lies from `low` to before `high` in the image; false where that is nothing.
+    /// Restricts the wanted pixels to those from `low` to before `high` in the image; returns false if none are left.
     fn keep(&mut self, low: [u32; 2], high: [u32; 2]) -> bool {
         self.wanted_low = [0, 1].map(|axis| self.low[axis].max(low[axis]));
         self.wanted_high = [0, 1].map(|axis| self.high[axis].min(high[axis]));
         (0..2).all(|axis| self.wanted_low[axis] < self.wanted_high[axis])
     }
 
-    /// Width and height of what is wanted of it.
+    /// Width and height of the wanted pixels.
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.wanted_high[axis] - self.wanted_low[axis])
     }
@@ -41,19 +41,19 @@ impl Region {
         [0, 1].map(|axis| self.high[axis] - self.low[axis] + self.halo[axis] + self.halo[axis + 2])
     }
 
-    /// The image's pixel at the upper left in memory.
+    /// Pixel of the image at the upper left in memory.
     pub fn corner(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.low[axis] - self.halo[axis])
     }
 
-    /// Place in memory of the upper left pixel that is wanted.
+    /// Position in memory of the upper left wanted pixel.
     pub fn first_wanted(&self) -> [u32; 2] {
         let corner = self.corner();
         [0, 1].map(|axis| self.wanted_low[axis] - corner[axis])
     }
 
-    /// Places in memory, from the first to beyond the last, that are to be drawn: what is wanted and the neighbours that
-    /// detection compares it with.
+    /// Positions in memory, from the first to beyond the last, that have to be drawn: the wanted pixels, and the
+    /// neighbours with which detection compares them.
     pub fn drawn(&self) -> [[u32; 2]; 2] {
         let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
         [
@@ -63,32 +63,32 @@ impl Region {
     }
 }
 
-/// The regions of an image and the memory that the largest of them needs.
+/// Regions of an image, and the memory that the largest of them needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// What it was planned for.
+    /// Capacity for which it was planned.
     pub capacity: Capacity,
     /// Whether the device has room for longer lists.
     pub lists_can_grow: bool,
 }
 
-/// What a frame was found to need more of than first planned.
+/// Capacity of a frame, which is raised where a frame turned out to need more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Capacity {
-    /// BLEND layers of a list, and half the lists of a block, that tiles are admitted with.
+    /// Number of BLEND layers of a list, and half of the number of lists in a block, for which tiles are admitted.
     pub layers: u32,
-    /// Factor on the room for candidates.
+    /// Factor for the room for candidates.
     pub lists: u32,
     /// Whether a subgroup samples one cell at a time.
     pub apart: bool,
-    /// Whether there is a kernel for tiles whose list outgrows its buffer.
+    /// Whether there is a kernel for tiles whose candidate list outgrows its buffer.
     pub unlisted: bool,
 }
 
 impl Capacity {
-    /// Twice the lists.
+    /// This capacity with twice the room for candidates.
     pub fn with_doubled_lists(self) -> Self {
         Self {
             lists: self.lists * 2,
@@ -96,7 +96,8 @@ impl Capacity {
         }
     }
 
-    /// With the kernels that most frames need alone: compiling one for tiles without a list may take longer than a frame.
+    /// Capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
+    /// longer than a frame.
     pub fn least() -> Self {
         Self {
             unlisted: false,
@@ -104,7 +105,7 @@ impl Capacity {
         }
     }
 
-    /// Twice as much of what a frame lacked, or as much as it is known to need.
+    /// Capacity with twice as much of what a frame lacked, or as much as the frame is known to need.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool| if lacked { 2 } else { 1 };
         let crowded = shortfall.crowded > 0;
@@ -131,30 +132,31 @@ impl Default for Capacity {
     }
 }
 
-/// How far away what a pixel shows can matter, in pixels: it is compared with neighbours, which may be superpixels that
-/// grew beside others, which grew beside others.
+/// Distance in pixels within which pixels affect each other: a pixel is compared with its neighbours, which may have
+/// become superpixels because of theirs, and so on.
 const NEIGHBOURS: u32 = 3;
-/// Largest region in virtual pixels; larger images are rendered in parts, each of which is a submission of its own where
-/// the renderer has a device to itself.
+/// Largest number of rendered pixels in a region. Larger images have several regions; each is a separate submission if
+/// the renderer has a device of its own.
 const REGION_PIXELS: u64 = 4 << 20;
-/// A region that is not made smaller for the sake of how long it takes.
+/// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
-/// Samples that one sample stands for where each is asked for lights: once more for each, on up to six planes.
+/// Number of samples by which a sample is multiplied with shadows: it is projected once for each light, on up to six
+/// planes.
 const SHADOWED: u64 = 8;
-/// Most visibility samples and candidates of a round.
+/// Largest number of visibility samples and of candidates in a round.
 pub(crate) const MOST_RECORDS: u64 = 6 << 20;
 pub(crate) const MOST_CANDIDATES: u64 = 2 << 20;
-/// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them. That makes
-/// more rounds, which cost little.
+/// Number of visibility samples in a round, for each 64 samples of a superpixel, above which the room is reduced to a
+/// third. This makes more rounds, which cost little.
 const LARGE_RECORDS: u64 = 1 << 20;
-/// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
+/// Largest number of pairs of a triangle and a tile, over all rounds, for which a frame is first planned.
 pub(crate) const MOST_PAIRS: u64 = 8 << 20;
-/// The same for each tile where there are instances: their triangles are many, and what they take of memory is to be in
-/// proportion to the image. Rounds of fewer candidates are more rounds, which cost little.
+/// Largest number of pairs for each tile if there are instances, whose triangles are many, so that memory grows with
+/// the image rather than the scene. Fewer candidates in a round make more rounds, which cost little.
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
 
-/// Visibility samples that superpixels have room for, on average.
+/// Average number of visibility samples for which a superpixel has room.
 pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
     let options = settings.superpixels();
     let samples = u64::from(options.samples);
@@ -213,7 +215,7 @@ impl Plan {
                     allowed: allowed.unwrap_or(0),
                 });
             }
-            // Whole tiles, so that a region's tiles are those of the image.
+            // A side is a whole number of tiles, so that a region's tiles are those of the image.
             region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
         }
     }
@@ -238,7 +240,8 @@ impl Plan {
         }
     }
 
-    /// Trades room for rounds until the plan takes what is allowed, if it can, with what others take. Returns what it takes.
+    /// Reduces the room for visibility samples, which makes more rounds, until the plan and other owners fit into the
+    /// allowed memory, if possible. Returns the number of bytes.
     fn shrink(
         &mut self,
         scene: &dyn Content,
@@ -247,7 +250,7 @@ impl Plan {
     ) -> u64 {
         let all = |plan: &Self| plan.bytes(scene, settings) + taken(&plan.sizes);
         let mut needed = all(self);
-        // Fewer records mean more rounds, which cost less than more regions.
+        // Smaller rounds cost less than more regions.
         while settings.max_memory.is_some_and(|allowed| needed > allowed)
             && self.sizes.record_capacity > 1 << 16
         {
@@ -337,7 +340,7 @@ impl Plan {
             region: outer,
             lanes: limits.lanes,
             locations: None,
-            // What survives is in a pair at the least.
+            // A surviving triangle is in at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
                 .min(scene.index_count()),
             pair_capacity: at_most(pairs, most_listed),
@@ -372,7 +375,8 @@ mod tests {
     use super::*;
     use crate::engine::data::Counter;
 
-    /// A frame that dropped triangles says how many there were: it is not made again and again for lists that can't hold them.
+    /// A frame that dropped triangles reports their number, so that it is not repeated with lists that are still too
+    /// short.
     #[test]
     fn lists_grow_to_what_they_are_known_to_need() {
         const ROOM: u32 = 1 << 14;
@@ -381,7 +385,7 @@ mod tests {
         let mut shortfall = Shortfall::default();
         shortfall.add(&counters, (1, ROOM), false);
         assert_eq!(Capacity::default().more(shortfall).lists, 128);
-        // What is short without saying by how much is doubled, and nothing else grows.
+        // A shortage of unknown size doubles what was short, and nothing else.
         let unlisted = Shortfall {
             unlisted: 1,
             ..Shortfall::default()

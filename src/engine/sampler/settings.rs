@@ -1,46 +1,47 @@
-//! What to render and how.
+//! Settings of a rendering: method, samples, colours and limits.
 
 use super::{Coverage, Detection, EngineError, Method, Shading, SuperpixelOptions};
 use crate::vulkan::Limits;
 
-/// The part of the image that texture levels, those of MASK alpha included, are chosen for. [`Method::None`] and
-/// [`Method::Msaa`] choose them for the output pixel with either of the first two.
+/// Area of the image for which texture levels are chosen, also for the alpha of MASK materials. [`Method::None`] and
+/// [`Method::Msaa`] use the output pixel with either of the first two variants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Footprint {
-    /// What each shading place stands for: the k-th part of the pixel's side under supersampling by k x k samples; in
-    /// superpixels the triangle's share of the pixel that is shaded there. The more samples, the sharper the textures,
-    /// and the image converges to the scene as it is.
+    /// The part of the pixel that a shading represents: with supersampling by k x k samples, 1/k of the pixel's side;
+    /// in superpixels, the triangle's share of the pixel that is shaded there. More samples make textures sharper, and
+    /// the image converges to the unfiltered scene.
     Sample,
-    /// The output pixel, whatever the number of samples: the image converges to one of textures that are filtered twice.
-    /// Methods then differ by geometry alone.
+    /// The output pixel, whatever the number of samples. The image converges to one whose textures are filtered twice,
+    /// and methods differ by geometry alone.
     Pixel,
-    /// A square of this side, in output pixels, above 0 and at most 1, wherever it is shaded. References are made so.
+    /// A square with this side in output pixels, above 0 and at most 1, for every shading. References are made with
+    /// it.
     Side(f32),
 }
 
-/// Whether surfaces keep the light from others.
+/// Shadows of the scene's lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Shadows {
-    /// Lights shine through everything.
+    /// No shadows: lights shine through everything.
     None,
-    /// Every point that is shaded asks every light whether another triangle lies before it: a sampling set on the light's
-    /// own image plane, without the aliasing of a map of depths. Superpixels then are shaded at every sample, whatever
-    /// [`Settings::shading`] says. The scene has to be prepared for it: see `SceneRequest::shadows`.
+    /// Exact shadows: every shaded point tests for every light whether another triangle occludes it, by sampling on
+    /// the light's image plane, without the aliasing of a shadow map. Superpixels are then shaded at every sample,
+    /// whatever [`Settings::shading`] says. The scene has to be prepared for shadows: see `SceneRequest::shadows`.
     Exact,
 }
 
-/// What the numbers in the image refer to.
+/// Meaning of the numbers in the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
-    /// Tone-mapped (Khronos PBR Neutral) linear light in 0 to 1, for a display.
+    /// Linear light of 0 to 1, tone-mapped by Khronos PBR Neutral, for a display.
     Display,
-    /// Linear radiance times exposure, unbounded.
+    /// Scene-linear radiance times exposure, unbounded.
     Scene,
 }
 
-/// A part of an image, in its pixels.
+/// Rectangle of an image, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRect {
     /// Column and row of the upper left pixel, from 0.
@@ -71,50 +72,50 @@ impl PixelRect {
     }
 }
 
-/// All that decides an image beside scene and camera.
+/// Settings of a rendering: everything that determines an image besides scene and camera.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The part of the image that is rendered, as if all of it were: to the same numbers, unless `max_memory` has the image
-    /// drawn in other parts, whose vertices the device may round otherwise. `None` is all of it.
+    /// Part of the image to render; `None` for the whole image. Its pixels equal those of the whole image, unless
+    /// `max_memory` divides the image differently, so that the device may round vertices differently.
     pub region: Option<PixelRect>,
-    /// How edges are antialiased.
+    /// Method of antialiasing.
     pub method: Method,
-    /// Linear light behind the scene; `None` leaves it transparent.
+    /// Linear colour of the background; `None` leaves it transparent.
     pub background: Option<[f32; 3]>,
-    /// Exposure in stops.
+    /// Exposure in stops: 1 is twice as bright.
     pub exposure: f32,
-    /// What the numbers in the image refer to.
+    /// Meaning of the numbers in the image.
     pub reference: Reference,
-    /// Whether detection compares tone-mapped colours although the image holds scene-referred ones.
+    /// Whether detection compares tone-mapped colours even if the image is scene-referred.
     pub tonemapped_detection: bool,
-    /// Whether depth, ID, normal and sampling of every pixel are wanted too.
+    /// Whether to output depth, ID, normal and number of samples of every pixel too.
     pub attributes: bool,
-    /// What texture levels are chosen for.
+    /// Area for which texture levels are chosen.
     pub footprint: Footprint,
-    /// Whether surfaces keep the light from others.
+    /// Shadows of the scene's lights.
     pub shadows: Shadows,
-    /// Width of lines in output pixels, above 0 and at most [`Self::LARGEST_STROKE`]. Where locations are sampled, these are the
-    /// pixels of their pinhole's plane.
+    /// Width of lines in output pixels, above 0 and at most [`Self::LARGEST_STROKE`]. For sampling locations, these
+    /// are pixels of the pinhole's plane.
     pub line_width: f32,
-    /// Diameter of points in output pixels, with the same bounds.
+    /// Diameter of points in output pixels, with the same limits.
     pub point_size: f32,
-    /// Width of [edges](crate::scene::Scene::add_edges) of meshes in output pixels, with the same bounds.
+    /// Width of [edges](crate::scene::Scene::add_edges) of meshes in output pixels, with the same limits.
     pub edge_width: f32,
-    /// Bound on device memory in bytes, uploads and read-back included.
+    /// Limit for device memory in bytes, including uploads and read-back; `None` for no limit.
     pub max_memory: Option<u64>,
 }
 
 impl Settings {
-    /// Default number of sub-samples.
+    /// Default number of samples of a superpixel.
     pub const DEFAULT_SAMPLES: u32 = 64;
 
-    /// Largest width of lines and size of points.
+    /// Largest width of lines and size of points, in output pixels.
     pub const LARGEST_STROKE: f32 = 1024.0;
 
-    /// Superpixel antialiasing with the defaults, at a size.
+    /// Superpixel antialiasing with the default settings, for an image of `width` x `height` pixels.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         Self {
@@ -159,7 +160,7 @@ impl Settings {
         }
     }
 
-    /// Width and height in pixels of what is rendered: the region, or the whole image.
+    /// Width and height in pixels of the rendered image: the region, or the whole image.
     #[must_use]
     pub fn output_size(&self) -> [u32; 2] {
         self.region.map_or(self.size, |region| region.size)
@@ -174,7 +175,7 @@ impl Settings {
         }
     }
 
-    /// These, with superpixels that are shaded at every sample where it is asked which lights reach them.
+    /// These settings, with superpixels shaded at every sample if shadows are on.
     pub(crate) fn with_shadowed_samples(&self) -> Self {
         let settings = self.clone();
         match (&self.method, self.shadows) {
@@ -186,19 +187,20 @@ impl Settings {
         }
     }
 
-    /// Whether superpixels are shaded as brute force is: each sample with the texture levels of the samples' distance.
+    /// Whether superpixels are shaded like supersampling: each sample with texture levels for the distance between
+    /// samples.
     pub(crate) fn shades_samples(&self) -> bool {
         let of_samples = self.footprint == Footprint::Sample;
         matches!(&self.method, Method::Superpixel(options) if of_samples && options.shading == Shading::Sample)
     }
 
-    /// Whether textures are filtered by boxes: over what each shading place stands for, along both of its axes.
+    /// Whether textures are filtered by boxes over the area that each shading represents, along both of its axes.
     pub(crate) fn filters_boxes(&self) -> bool {
         let of_samples = self.footprint == Footprint::Sample;
         matches!(&self.method, Method::Superpixel(options) if of_samples && options.shading != Shading::Sample)
     }
 
-    /// How often pixels beside superpixels are looked at again, by what these were found to show.
+    /// Number of times that pixels beside superpixels are examined again, by the colours that sampling these revealed.
     pub(crate) fn growths(&self) -> u32 {
         match &self.method {
             Method::Superpixel(options) if options.detection == Detection::Contrast => {
@@ -217,7 +219,7 @@ impl Settings {
         }
     }
 
-    /// Checks what does not depend on the scene.
+    /// Checks the settings as far as that is independent of the scene.
     pub(crate) fn check(&self, limits: &Limits) -> Result<(), EngineError> {
         const LARGEST_SIDE: u32 = 65_535;
         if let Footprint::Side(side) = self.footprint

@@ -1,74 +1,75 @@
-//! What a frame did, and what it left undone because the scene did not need it.
+//! Statistics of a frame, and the work that it left unfinished.
 
 use super::EngineError;
 use crate::engine::data::Counter;
 use crate::vulkan::VulkanError;
 
-/// GPU time of one pass.
+/// Time of a pass on the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
-    /// The pass.
+    /// Name of the pass.
     pub pass: &'static str,
-    /// Milliseconds.
+    /// Time in milliseconds.
     pub ms: f64,
 }
 
-/// Triangles of the scene, and why some were not sampled.
+/// Numbers of triangles of the scene, and reasons why some were not sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TriangleCounts {
-    /// Triangles in the scene.
+    /// Number of triangles in the scene.
     pub total: u64,
-    /// Triangles that were candidates for sub-samples.
+    /// Number of triangles that were candidates for samples.
     pub drawn: u64,
-    /// Outside of the view.
+    /// Number of triangles outside of the view.
     pub outside: u64,
-    /// Facing away.
+    /// Number of triangles that face away.
     pub backfacing: u64,
-    /// Without area.
+    /// Number of triangles without an area.
     pub degenerate: u64,
-    /// Touching no superpixel.
+    /// Number of triangles that touch no superpixel.
     pub untouching: u64,
 }
 
-/// Figures of one frame; sums over its regions.
+/// Statistics of a frame: sums over its regions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Superpixels.
+    /// Number of superpixels.
     pub superpixels: u64,
-    /// Superpixels that the first few of their samples did not settle.
+    /// Number of superpixels whose first few samples did not suffice.
     pub resampled: u64,
-    /// Tiles of 8 x 4 pixels.
+    /// Number of tiles of 8 x 4 pixels.
     pub tiles: u64,
-    /// Tiles that hold superpixels before these grow.
+    /// Number of tiles that hold superpixels, before these grow.
     pub busy_tiles: u64,
-    /// Triangles of the antialiasing passes; counted once for each region.
+    /// Triangles of the antialiasing passes, counted once for each region.
     pub triangles: TriangleCounts,
-    /// Triangles in the lists of tiles.
+    /// Number of entries in the candidate lists of all tiles.
     pub candidates: u64,
-    /// Visibility samples.
+    /// Number of visibility samples.
     pub records: u64,
-    /// Tiles whose list outgrew its buffer, for which every triangle was a candidate.
+    /// Number of tiles whose candidate list outgrew its buffer, so that every triangle was tried.
     pub unlisted_tiles: u64,
-    /// Rounds that had work.
+    /// Number of rounds that had work to do.
     pub rounds: u64,
-    /// Regions that the image was rendered in.
+    /// Number of regions of the image.
     pub regions: u64,
-    /// Passes that the scene or the image did not need.
+    /// Names of the passes that the scene or the image did not need.
     pub skipped_passes: Vec<&'static str>,
-    /// GPU time by pass, in order. Of rounds, the passes of the first one are timed each, and all others together as `rounds`.
+    /// Device times of the passes, in order. The passes of the first round are timed separately, all further rounds
+    /// together as `rounds`.
     pub passes: Vec<PassTime>,
-    /// Device memory of scene and frame in bytes.
+    /// Device memory of scene and frame, in bytes.
     pub memory_bytes: u64,
 }
 
 impl Statistics {
-    /// GPU time of the whole frame in milliseconds.
+    /// Device time of the whole frame in milliseconds.
     #[must_use]
     pub fn gpu_ms(&self) -> f64 {
         self.passes.iter().map(|pass| pass.ms).sum()
     }
 
-    /// Adds the time of a pass to what is booked under its name.
+    /// Adds the time of a pass to the time under its name.
     pub(crate) fn add_time(&mut self, time: PassTime) {
         match self.passes.iter_mut().find(|known| known.pass == time.pass) {
             Some(known) => known.ms += time.ms,
@@ -76,7 +77,7 @@ impl Statistics {
         }
     }
 
-    /// Adds what other runs over the same scene did.
+    /// Adds the statistics of other runs over the same scene.
     pub fn append(&mut self, other: Self) {
         self.superpixels += other.superpixels;
         self.resampled += other.resampled;
@@ -99,7 +100,7 @@ impl Statistics {
         }
     }
 
-    /// Adds the counters of one region's superpixels.
+    /// Adds the counters of a region's superpixels.
     pub(crate) fn add(&mut self, counters: &[u32]) {
         let get = |counter: Counter| u64::from(counter.of(counters));
         self.superpixels += get(Counter::Superpixels);
@@ -110,7 +111,7 @@ impl Statistics {
         self.rounds += get(Counter::Rounds);
     }
 
-    /// Adds what the counters of one region's superpixels say of tiles and triangles.
+    /// Adds the counters of a region that are about tiles and triangles.
     pub(super) fn add_scene(&mut self, counters: &[u32]) {
         let get = |counter: Counter| u64::from(counter.of(counters));
         self.busy_tiles += get(Counter::Tiles);
@@ -122,30 +123,30 @@ impl Statistics {
     }
 }
 
-/// What the sampling passes could not finish, by what they lacked.
+/// Work that the sampling passes could not finish, by what they lacked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shortfall {
-    /// Tiles that no round took.
+    /// Number of tiles that no round processed.
     pub waiting: u64,
-    /// Cells whose records found no room in their round.
+    /// Number of cells whose visibility samples did not fit into their round.
     pub crowded: u64,
-    /// Cells with more candidates than loops may have trips.
+    /// Number of cells with more candidates than a loop may process.
     pub stalled: u64,
-    /// Tiles without a list, where no kernel is made for them.
+    /// Number of tiles without a list, if no kernel was made for them.
     pub unlisted: u64,
-    /// Triangles that found no room among those that may touch a cell, or are thin.
+    /// Number of triangles that did not fit into the list of those that may touch a cell, or of thin ones.
     pub dropped: u64,
-    /// Tiles and triangles of a light's view that were left, and cells in them.
+    /// Number of tiles, triangles and cells of lights' views that were not processed.
     pub unshadowed: u64,
-    /// How many times the room there is these would have needed.
+    /// Factor by which the room would have to grow for the dropped triangles.
     pub rooms: u32,
-    /// Whether the device ran kernels in other subgroups than they were made for, which no capacity mends.
+    /// Whether the device ran kernels with another subgroup size than they were made for; no capacity helps then.
     pub other_subgroups: bool,
 }
 
 impl Shortfall {
-    /// Adds a run of the sampling passes over so many tiles, with room for so many triangles, which sampled tiles without
-    /// a list or left them.
+    /// Adds a run of the sampling passes over `tiles` tiles, with room for `room` triangles. `samples_unlisted` says
+    /// whether tiles without a list were sampled or skipped.
     pub fn add(&mut self, counters: &[u32], (tiles, room): (u32, u32), samples_unlisted: bool) {
         let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
@@ -163,18 +164,18 @@ impl Shortfall {
         self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
     }
 
-    /// Adds what kernels found of the subgroups that they were run in, as counters say at any later time.
+    /// Adds the counter of wrong subgroup sizes, which may be read at any later time.
     pub fn add_subgroups(&mut self, counters: &[u32]) {
         self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
     }
 
-    /// Cells and tiles that are left.
+    /// Number of cells and tiles that were not finished.
     pub fn left(&self) -> u64 {
         let of_lights = self.unshadowed;
         self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped + of_lights
     }
 
-    /// Fails where kernels that count on subgroups of `lanes` invocations had others.
+    /// Fails if kernels that need subgroups of `lanes` invocations ran in others.
     pub fn check_subgroups(&self, lanes: u32) -> Result<(), VulkanError> {
         if self.other_subgroups {
             return Err(VulkanError::Subgroups { lanes });
@@ -182,7 +183,7 @@ impl Shortfall {
         Ok(())
     }
 
-    /// Fails where anything is left.
+    /// Fails if any work was not finished.
     pub fn check(&self, lanes: u32) -> Result<(), EngineError> {
         self.check_subgroups(lanes)?;
         match self.left() {

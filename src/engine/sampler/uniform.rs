@@ -1,17 +1,18 @@
-//! The uniform block of the sampling passes. All clients of these make it here.
+//! Uniform block of the sampling passes; all of their clients make it here.
 
 use super::Settings;
 use super::footprint::Footprints;
 use crate::engine::data::{FrameUniform, ResourceSizes};
 
-/// The triangles and materials that passes read, and who looks at them. A client whose passes read none leaves the default.
+/// Part of the uniform block about the scene: triangles, materials and viewpoint. Clients whose passes read none of it
+/// leave the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SceneBlock {
-    /// The eye in the space of the geometry; the last component is 1.
+    /// Position of the eye in the coordinates of the geometry; the last component is 1.
     pub eye: [f32; 4],
-    /// A unit vector; the last component is 1 where all rays are parallel to it, otherwise 0.
+    /// Unit vector of the view direction; the last component is 1 if all rays are parallel to it, otherwise 0.
     pub view_direction: [f32; 4],
-    /// The environment's diffuse light in spherical harmonics.
+    /// Spherical harmonics of the environment's irradiance.
     pub irradiance: [[f32; 4]; 9],
     /// The axes of the environment map.
     pub environment: [[f32; 4]; 3],
@@ -29,26 +30,27 @@ pub(crate) struct SceneBlock {
     pub light_count: u32,
 }
 
-/// The part of the image plane whose pixels or locations are sampled.
+/// Part of the uniform block about the image plane: the rectangle whose pixels or locations are sampled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaneBlock {
-    /// From the space of positions to pixels of the plane, in columns.
+    /// Matrix, by columns, from positions to pixels of the plane.
     pub transform: [f32; 16],
-    /// The upper left corner of the part, in pixels from the place that clip-space positions are relative to.
+    /// Upper left corner of the rectangle in pixels, relative to the place to which clip-space positions are relative.
     pub corner: [f64; 2],
-    /// Width and height of the part in pixels.
+    /// Width and height of the rectangle in pixels.
     pub size: [u32; 2],
-    /// The pixels that may become cells: from the first to before the second one.
+    /// Pixels that may become cells: the first one, and the one after the last.
     pub interior: [[u32; 2]; 2],
-    /// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+    /// Difference of depth between surfaces whose distances differ by a pixel's width: a factor on the depth, and a
+    /// constant.
     pub gap: [f32; 2],
-    /// The least difference of code values for which a pixel is shaded in several parts.
+    /// Difference of code values above which colours vary enough for a pixel to be shaded in several parts.
     pub alike: u32,
-    /// Pixels along a side of an output pixel's grid.
+    /// Number of pixels along a side of an output pixel's grid.
     pub side: u32,
-    /// The pixel of a host's images of IDs and depth at which the part begins.
+    /// Pixel of a host's images of IDs and depth at which the rectangle begins.
     pub seen_corner: [u32; 2],
-    /// The pixel of a host's colour image at which the part begins.
+    /// Pixel of a host's colour image at which the rectangle begins.
     pub color_corner: [u32; 2],
 }
 
@@ -68,7 +70,7 @@ impl Default for PlaneBlock {
     }
 }
 
-/// The uniform block of cells of `samples` samples, in memory of these sizes.
+/// Makes the uniform block for cells of `samples` samples, in memory of these sizes.
 pub(crate) fn frame_uniform(
     scene: &SceneBlock,
     plane: &PlaneBlock,
@@ -111,7 +113,7 @@ pub(crate) fn frame_uniform(
         place_footprint: footprints.place,
         sample_footprint: footprints.sample,
         side: plane.side,
-        // Of a list, `distribute` measures it.
+        // For a list, `distribute` computes it.
         reach: 0.5,
         group_count: sizes.locations.map_or(0, |locations| locations.groups),
         seen_corner: plane.seen_corner,

@@ -1,13 +1,13 @@
-//! Lattices: the rotated square one, whose rows are straight, and Korobov's, which err less.
+//! Lattices: the rotated square lattice, whose rows are straight, and Korobov's, whose error is smaller.
 
 use super::{Location, locate};
 
-/// A `side` x `side` grid turned by one part in `side`, so that its projections on either axis are spread evenly over
-/// side^2 places, and each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at
-/// x = -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
+/// A `side` x `side` grid, turned by one part in `side`, so that its projections on either axis are spread evenly over
+/// side^2 places, while each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at x =
+/// -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
 ///
-/// The signs of the two tilts must differ: with equal ones the lattice is sheared along one diagonal of the pixel and
-/// leaves two corners empty, and its error falls as N^-0.55 only.
+/// The signs of the two tilts must differ: equal signs shear the lattice along a diagonal of the pixel, which leaves
+/// two corners empty, and the error falls as N^-0.55 only.
 pub(super) fn rotated(side: u32) -> Vec<Location> {
     let k = f64::from(side);
     let centre = |index: u32| (f64::from(index) + 0.5) / k;
@@ -18,7 +18,7 @@ pub(super) fn rotated(side: u32) -> Vec<Location> {
         .collect()
 }
 
-/// The rank-1 lattice of the points (i, g i mod n), each at the centre of its cell of the n x n grid, n being `count`.
+/// Rank-1 lattice of the points (i, g i mod n), each at the centre of its cell in an n x n grid; n is `count`.
 pub(super) fn korobov(count: u32) -> Vec<Location> {
     let centre = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
     let generator = generator(count);
@@ -27,11 +27,12 @@ pub(super) fn korobov(count: u32) -> Vec<Location> {
         .collect()
 }
 
-/// The generator prime to `count` with the least worst-case error over smooth periodic functions (I. H. Sloan and
-/// S. Joe, "Lattice Methods for Multiple Integration", 1994, section 4.3), which picks all but the best for edges too.
+/// The generator, coprime to `count`, with the smallest worst-case error over smooth periodic functions (I. H. Sloan
+/// and S. Joe, "Lattice Methods for Multiple Integration", 1994, section 4.3). For edges it is among the best as well.
 ///
-/// That error grows with the sum over i of B(i/n) B({g i/n}), where B(x) = x^2 - x + 1/6: here 6 n^2 times B, so that
-/// the sums are exact. Of a lattice and its mirror images, which tie, the greatest generator is taken.
+/// The error grows with the sum over i of B(i/n) B({g i/n}), where B(x) = x^2 - x + 1/6. The code computes 6 n^2 times
+/// B, so that the sums are exact. Of a lattice and its mirror images, which have the same error, the one with the
+/// largest generator is taken.
 fn generator(count: u32) -> u32 {
     let n = i64::from(count);
     let kernel: Vec<i64> = (0..n).map(|i| 6 * i * i - 6 * i * n + n * n).collect();
@@ -46,7 +47,7 @@ fn generator(count: u32) -> u32 {
         .unwrap_or(1)
 }
 
-/// Euclid's algorithm.
+/// Greatest common divisor by Euclid's algorithm.
 fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 {
         a

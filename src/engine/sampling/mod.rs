@@ -1,15 +1,15 @@
-//! Where in a pixel the samples lie.
+//! Patterns: the places of the samples in a pixel.
 //!
-//! A [`Pattern`] gives the locations of the samples of one superpixel as offsets from the pixel's centre, in pixels,
-//! x to the right and y down, each coordinate in [-0.5, 0.5) and a multiple of 2^-16. The multiples make offsets exact
-//! in 32-bit floating and in fixed point alike, so that a shader and its exact twin sample the same places.
+//! A [`Pattern`] gives the samples of a superpixel as offsets from the pixel's centre, in pixels, x to the right and y
+//! down. Each coordinate is in [-0.5, 0.5) and a multiple of 2^-16, and so exact in 32-bit floating point and in fixed
+//! point: a shader and its exact twin sample the same places.
 //!
 //! # Order
-//! The offsets of every pattern come in the same spatial order: the pixel is halved again and again, the longer side
-//! first (the vertical one where they are equal), and the samples of the first half precede those of the second. A
-//! half takes a whole number of blocks of 256, 64, 16, 4 or 1 samples, the largest of these that is smaller than what
-//! there is to halve. Hence every aligned run of 64 or of 256 samples is compact: at 1,024 samples, each run of 256 is
-//! a quarter of the pixel and each run of 64 a sixteenth. The order is a function of the set alone.
+//! The offsets of every pattern are in the same spatial order. The pixel is halved repeatedly, along its longer side
+//! first (vertically if the sides are equal), and the samples of the first half precede those of the second. A half
+//! takes a whole number of blocks of 256, 64, 16, 4 or 1 samples: the largest of these sizes that is smaller than the
+//! number of samples to halve. So every aligned run of 64 or of 256 samples is compact: at 1,024 samples, each run of
+//! 256 is a quarter of the pixel and each run of 64 a sixteenth. The order depends on the set of samples alone.
 
 mod lattice;
 mod order;
@@ -23,16 +23,16 @@ pub use sobol::owen_sobol;
 /// A location in a pixel, in units of 2^-16 pixel from its top left corner.
 type Location = [u16; 2];
 
-/// Units of a [`Location`] in a pixel's side.
+/// Number of units of a [`Location`] along a pixel's side.
 const UNITS: f64 = 65536.0;
 
-/// The location nearest to a fraction (0 to 1) of the pixel's width and height; halves round up.
+/// Location nearest to a fraction (0 to 1) of the pixel's width and height; halves round up.
 fn locate(x: f64, y: f64) -> Location {
-    // A cast from floating point saturates, which keeps what rounds up to the far side inside the pixel.
+    // A cast from floating point saturates, so that values which round up to the far side stay inside the pixel.
     [x, y].map(|fraction| (fraction * UNITS + 0.5).floor() as u16)
 }
 
-/// The offset of a location from the pixel's centre, in pixels; exact.
+/// Exact offset of a location from the pixel's centre, in pixels.
 fn offset(location: Location) -> [f32; 2] {
     location.map(|units| f32::from(units) / UNITS as f32 - 0.5)
 }

@@ -1,17 +1,18 @@
-//! The spatial order that all patterns share.
+//! Spatial order of samples, common to all patterns.
 
 use super::Location;
 
-/// Block sizes that halves are made of.
+/// Sizes of the blocks of which halves consist.
 const BLOCKS: [usize; 5] = [256, 64, 16, 4, 1];
 
-/// Sorts different locations into the order that the [module](super#order) describes.
+/// Sorts distinct locations into the order that the [module](super#order) describes.
 pub(super) fn sort(locations: &mut [Location]) {
     halve(locations, [1.0, 1.0]);
 }
 
-/// Sorts the locations of a part of the pixel with these sides. The sides are those of an even spread of samples, not
-/// of the samples' bounding box, which would make the order depend on where a few samples happen to lie.
+/// Sorts the locations of a part of the pixel whose sides are `width` and `height`. These are the sides of an even
+/// spread of samples rather than of the samples' bounding box, so that the order does not depend on the places of a
+/// few samples.
 fn halve(locations: &mut [Location], [width, height]: [f64; 2]) {
     let count = locations.len();
     let Some(block) = BLOCKS.into_iter().find(|&block| block < count) else {

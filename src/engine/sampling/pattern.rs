@@ -1,4 +1,4 @@
-//! The patterns by name, and what each can have.
+//! Patterns by name, and the numbers of samples that each can have.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -8,100 +8,103 @@ use thiserror::Error;
 
 use super::{Location, lattice, locate, offset, order, sobol, standard};
 
-/// The most samples that a superpixel can have.
+/// Largest number of samples of a superpixel.
 pub const MAX_SAMPLES: u32 = 1024;
 
-/// How the samples of a superpixel are placed.
+/// Pattern of the samples in a superpixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
-    /// Samples on straight lines, rows or columns, whichever edges in the superpixel cross more often, 64 on each: 8
-    /// lines up to a count of 64, and 16 above that. The count decides in how many places the superpixel is shaded.
-    /// Superpixels of a frame have them that see opaque and alpha-tested triangles; where each sample is shaded, where
-    /// BLEND triangles show, in lists of locations, and below a count of 16, there are [Sobol](Pattern::Sobol)'s. Any count.
+    /// Samples on straight lines: rows or columns, whichever are crossed more often by the edges in the superpixel,
+    /// with 64 samples each. A count up to 64 has 8 lines, a larger one 16; the count also limits the number of places
+    /// in which the superpixel is shaded. Any count. Only superpixels of frames that see opaque and alpha-tested
+    /// triangles have lines. [Sobol](Pattern::Sobol) points replace them where each sample is shaded, where BLEND
+    /// triangles are visible, in lists of locations, and for counts below 16.
     Lines,
-    /// The first points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2: any count. Its error on
-    /// straight edges is the most even over orientations.
+    /// First points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2. Any count. Its error on straight
+    /// edges depends least on their orientation.
     Sobol,
-    /// A k x k lattice turned by 1/k, so that its k^2 columns and k^2 rows are all different while each of its k rows is
-    /// straight and evenly spaced: `x = -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2` and
-    /// `y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2` for column i and row j from 0, rounded to 2^-16. For counts that are
-    /// no square, [Korobov](Pattern::Korobov)'s. Any count.
+    /// A k x k lattice turned by 1/k, so that its k^2 columns and k^2 rows are all different, while each of its k rows
+    /// is straight and evenly spaced: `x = -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2` and
+    /// `y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2` for column i and row j from 0, rounded to 2^-16. Any count; for a
+    /// count that is no square, the [Korobov](Pattern::Korobov) lattice.
     Lattice,
-    /// The rank-1 lattice (i, g i mod N) with the best generator g: any count. On average over straight edges it errs as
-    /// little as the grid, without the grid's weakness along the axes; at its own worst orientations it errs more than
-    /// Sobol points.
+    /// Rank-1 lattice (i, g i mod N) with the best generator g. Any count. On average over straight edges its error is
+    /// as small as the grid's, without the grid's weakness along the axes; at its own worst orientations it errs more
+    /// than Sobol points.
     Korobov,
-    /// The centres of a k x k grid; square counts only. The worst on edges along an axis, which meet k samples at once.
+    /// Centres of a k x k grid. Square counts only. It is the worst pattern for edges along an axis, which meet k
+    /// samples at once.
     Grid,
-    /// The standard sample locations of graphics APIs (Vulkan 1.3, section 25.3): 1, 2, 4, 8 or 16 samples. The last
-    /// set is off the pixel's centre by 1/32 pixel.
+    /// Standard sample locations of graphics APIs (Vulkan 1.3, section 25.3): 1, 2, 4, 8 or 16 samples. The mean of
+    /// the last set is 1/32 pixel from the pixel's centre.
     Rotated,
-    /// The caller's own offsets in pixels from the pixel's centre, x to the right, y down, each in [-0.5, 0.5). They
-    /// are rounded to multiples of 2^-16 and given the common order.
+    /// Offsets of the caller's own in pixels from the pixel's centre, x to the right, y down, each in [-0.5, 0.5).
+    /// They are rounded to multiples of 2^-16 and sorted into the common order.
     List(Vec<[f32; 2]>),
 }
 
-/// Why a pattern cannot be had.
+/// Error: a pattern that does not exist.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PatternError {
-    /// No pattern has this name.
+    /// Name of no pattern.
     #[error(
         "no sample pattern is called `{0}`; there are lines, sobol, lattice, korobov, grid and rotated"
     )]
     Unknown(String),
-    /// The count is 0 or above [`MAX_SAMPLES`].
+    /// Number of samples that is 0 or above [`MAX_SAMPLES`].
     #[error("{0} samples in a pixel were asked for; choose 1 to {MAX_SAMPLES}")]
     CountOutOfRange(u32),
-    /// The pattern exists for some counts only.
+    /// Number of samples that the pattern can't have.
     #[error(
         "pattern {pattern} cannot have {count} samples; choose {}, or pattern lines, sobol, lattice or korobov",
         alternatives(available)
     )]
     CountUnavailable {
-        /// The pattern's name.
+        /// Name of the pattern.
         pattern: &'static str,
-        /// The count asked for.
+        /// Number of samples that was asked for.
         count: u32,
-        /// Counts that the pattern can have: the nearest ones, or all where they are few.
+        /// Numbers of samples that the pattern can have: the nearest ones, or all if they are few.
         available: Vec<u32>,
     },
-    /// A list holds another number of offsets than asked for.
+    /// List whose length is not the number of samples.
     #[error("{count} samples were asked for, but the list holds {found} offsets; ask for {found}")]
     ListLength {
-        /// The count asked for.
+        /// Number of samples that was asked for.
         count: u32,
-        /// How many offsets the list holds.
+        /// Number of offsets in the list.
         found: usize,
     },
-    /// An offset of a list is not a number or lies outside the pixel.
+    /// Offset of a list that is NaN or outside of the pixel.
     #[error(
         "offset {index} of the list is ({x}, {y}); both coordinates must be at least -0.5 and below 0.5"
     )]
     ListOutside {
-        /// The offset's position in the list, from 0.
+        /// Index of the offset in the list.
         index: usize,
-        /// Its x.
+        /// Coordinate x of the offset.
         x: f32,
-        /// Its y.
+        /// Coordinate y of the offset.
         y: f32,
     },
-    /// Two offsets of a list are the same after rounding to 2^-16 pixel.
+    /// Offsets of a list that are equal after rounding to 2^-16 pixel.
     #[error("offsets {first} and {second} of the list are the same to 2^-16 pixel; remove one")]
     ListDuplicate {
-        /// The earlier one's position in the list, from 0.
+        /// Index of the first of them in the list.
         first: usize,
-        /// The later one's position.
+        /// Index of the second of them.
         second: usize,
     },
 }
 
 impl Pattern {
-    /// The offsets of `count` samples from the pixel's centre, in pixels and in the [module's order](super#order):
-    /// each in [-0.5, 0.5), a multiple of 2^-16, no two the same. One sample is the centre, except in a
-    /// [list](Pattern::List), whose own location is kept.
+    /// Offsets of `count` samples from the pixel's centre, in pixels and in the [module's order](super#order). Each
+    /// coordinate is in [-0.5, 0.5) and a multiple of 2^-16, and no two offsets are equal. A single sample is at the
+    /// centre, except in a [list](Pattern::List).
     ///
     /// # Errors
-    /// The count is outside 1 to [`MAX_SAMPLES`] or one that the pattern cannot have, or a list is invalid.
+    /// [`PatternError`] if the count is 0, above [`MAX_SAMPLES`] or one that the pattern can't have, or if a list is
+    /// invalid.
     pub fn offsets(&self, count: u32) -> Result<Vec<[f32; 2]>, PatternError> {
         if !(1..=MAX_SAMPLES).contains(&count) {
             return Err(PatternError::CountOutOfRange(count));
@@ -138,7 +141,7 @@ impl fmt::Display for Pattern {
 impl FromStr for Pattern {
     type Err = PatternError;
 
-    /// The pattern of a name; a [list](Pattern::List) has none, since it needs its offsets.
+    /// Pattern with this name. A [list](Pattern::List) has no name, because it needs its offsets.
     fn from_str(name: &str) -> Result<Self, PatternError> {
         match name {
             "lines" => Ok(Self::Lines),
@@ -152,7 +155,7 @@ impl FromStr for Pattern {
     }
 }
 
-/// The locations of a caller's list, checked.
+/// Locations of a caller's list, checked.
 fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternError> {
     if list.len() != count as usize {
         return Err(PatternError::ListLength {
@@ -163,7 +166,7 @@ fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternEr
     let mut seen = HashMap::with_capacity(list.len());
     let mut locations = Vec::with_capacity(list.len());
     for (index, &[x, y]) in list.iter().enumerate() {
-        // NaN is in no range.
+        // `contains` is false for NaN.
         if ![x, y].iter().all(|v| (-0.5..0.5).contains(v)) {
             return Err(PatternError::ListOutside { index, x, y });
         }
@@ -179,7 +182,7 @@ fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternEr
     Ok(locations)
 }
 
-/// "4", "4 or 9", "1, 2 or 4".
+/// The counts in words: "4", "4 or 9", "1, 2 or 4".
 fn alternatives(counts: &[u32]) -> String {
     let words: Vec<String> = counts.iter().map(u32::to_string).collect();
     match words.split_last() {

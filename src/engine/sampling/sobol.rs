@@ -1,25 +1,24 @@
-//! The first two dimensions of the Sobol sequence, with Owen's scrambling.
+//! First two dimensions of the Sobol sequence, with Owen's scrambling.
 //!
 //! The sequence is a (0,2)-sequence in base 2: of 2^m consecutive points that start at a multiple of 2^m, one lies in
 //! each of the 2^m equal boxes of any shape 2^-i x 2^-(m-i). Owen's scrambling (A. B. Owen, "Randomly permuted
-//! (t,m,s)-nets and (t,s)-sequences", 1995) flips each binary digit by a coin that depends on the digits before it: it
-//! keeps that property and breaks the plain sequence's rows, which err on edges of some orientations.
+//! (t,m,s)-nets and (t,s)-sequences", 1995) flips each binary digit at random, depending on the digits before it. This
+//! keeps the property above, and breaks up the rows of the plain sequence, which err on edges of some orientations.
 
 use super::{Location, offset};
 
-/// The scrambling that [`Pattern::Sobol`](super::Pattern::Sobol) uses, found by the search in
-/// `tests/cpu/coverage_chart.rs`.
+/// Scrambling seed of [`Pattern::Sobol`](super::Pattern::Sobol), found by the search in `tests/cpu/coverage_chart.rs`.
 pub(super) const SEED: u32 = 551;
 
-/// The first `count` points of the Sobol sequence's first two dimensions under the Owen scrambling that `seed` selects:
-/// offsets from the pixel's centre in [-0.5, 0.5), multiples of 2^-16, in the order of the sequence.
+/// First `count` points of the Sobol sequence's first two dimensions, Owen-scrambled with `seed`: offsets from the
+/// pixel's centre in [-0.5, 0.5), multiples of 2^-16, in the order of the sequence.
 ///
-/// The first 65,536 points differ from each other; after them the sequence, cut to 16 binary digits, begins again.
+/// The first 65,536 points are distinct; then the sequence, which is cut to 16 binary digits, repeats.
 pub fn owen_sobol(count: u32, seed: u32) -> Vec<[f32; 2]> {
     locations(count, seed).into_iter().map(offset).collect()
 }
 
-/// The same points as locations.
+/// The points of [`owen_sobol`] as locations.
 pub(super) fn locations(count: u32, seed: u32) -> Vec<Location> {
     let seeds = [hash(seed), hash(!seed)];
     (0..count)
@@ -33,8 +32,8 @@ pub(super) fn locations(count: u32, seed: u32) -> Vec<Location> {
         .collect()
 }
 
-/// The Sobol sequence's second dimension, of the primitive polynomial x + 1: each direction number is the one before,
-/// exclusive-or itself halved.
+/// Second dimension of the Sobol sequence, from the primitive polynomial x + 1: each direction number is the one
+/// before, exclusive-or the same shifted right by one.
 fn second_dimension(index: u16) -> u16 {
     let mut direction = 1_u16 << 15;
     let mut value = 0;
@@ -47,10 +46,10 @@ fn second_dimension(index: u16) -> u16 {
     value
 }
 
-/// Flips each digit of a binary fraction by a coin of its own for each string of digits before it.
+/// Flips each digit of a binary fraction by a random bit that depends on all digits before it.
 fn scramble(value: u16, seed: u32) -> u16 {
     (0..u16::BITS).fold(0, |scrambled, digit| {
-        // A one in front of the prefix tells prefixes of different lengths apart.
+        // A one in front of the prefix distinguishes prefixes of different lengths.
         let prefix = (1 << digit) | u32::from(value) >> (u16::BITS - digit);
         let coin = (hash(prefix ^ seed) >> 31) as u16;
         let bit = u16::BITS - 1 - digit;

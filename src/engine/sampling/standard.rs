@@ -1,12 +1,12 @@
-//! The regular grid, and the sample locations that graphics APIs prescribe.
+//! The regular grid, and the sample locations that graphics APIs define.
 
 use super::pattern::PatternError;
 use super::{Location, locate};
 
-/// The grid pattern's name.
+/// Name of the grid pattern.
 pub(super) const GRID: &str = "grid";
 
-/// The rotated pattern's name.
+/// Name of the rotated pattern.
 pub(super) const ROTATED: &str = "rotated";
 
 /// Standard sample locations (Vulkan 1.3, section 25.3, "Multisampling"), in sixteenths of a pixel from its top left
@@ -45,7 +45,7 @@ const STANDARD: [&[[u8; 2]]; 5] = [
     ],
 ];
 
-/// The centres of a square grid of `count` cells.
+/// Centres of the cells of a square grid with `count` cells.
 pub(super) fn grid(count: u32) -> Result<Vec<Location>, PatternError> {
     let side = count.isqrt();
     if side * side != count {
@@ -61,7 +61,7 @@ pub(super) fn grid(count: u32) -> Result<Vec<Location>, PatternError> {
         .collect())
 }
 
-/// The standard locations of `count` samples.
+/// Standard sample locations for `count` samples.
 pub(super) fn rotated(count: u32) -> Result<Vec<Location>, PatternError> {
     let sixteenths = STANDARD
         .iter()

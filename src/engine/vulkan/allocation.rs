@@ -1,4 +1,4 @@
-//! Where device memory comes from.
+//! Sources of device memory: an allocator of the library, a shared allocator, or functions of the host.
 
 use super::MemoryUse;
 use ash::vk;
@@ -8,19 +8,19 @@ use std::ffi::c_void;
 use std::ptr::NonNull;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An allocator that several parts of a program share.
+/// Allocator of device memory that several parts of a program share.
 pub type SharedAllocator = Arc<Mutex<Allocator>>;
 
-/// Where the memory of buffers and images comes from.
+/// Source of the memory for buffers and images.
 #[derive(Clone, Default)]
 #[non_exhaustive]
 pub enum MemorySource {
-    /// An allocator of the library's own.
+    /// A separate allocator of the library.
     #[default]
     Own,
-    /// The host's `gpu-allocator`.
+    /// A `gpu-allocator` of the host.
     Shared(SharedAllocator),
-    /// The host's own functions.
+    /// Functions of the host.
     Host(Arc<dyn AllocateMemory>),
 }
 
@@ -28,48 +28,52 @@ pub enum MemorySource {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct MemoryRequest<'a> {
-    /// What it is for, for a log.
+    /// Purpose of the memory, for logs.
     pub name: &'a str,
-    /// Its size, alignment and possible types.
+    /// Size, alignment and permitted memory types.
     pub requirements: vk::MemoryRequirements,
-    /// Where it lies. Other than [`MemoryUse::Device`] is mapped and `HOST_COHERENT`.
+    /// Kind of memory. All kinds except [`MemoryUse::Device`] must be mapped and `HOST_COHERENT`.
     pub usage: MemoryUse,
-    /// Whether it is a buffer's, and else an image's of optimal tiling: see `bufferImageGranularity`.
+    /// Whether the memory is for a buffer; otherwise it is for an image with optimal tiling. Allocators need this to
+    /// respect the limit `bufferImageGranularity`.
     pub linear: bool,
 }
 
 /// Memory that a host allocated.
 #[derive(Clone, Copy, Debug)]
 pub struct HostMemory {
-    /// The memory.
+    /// Handle of the memory object.
     pub memory: vk::DeviceMemory,
-    /// Where in it, in bytes: a multiple of the alignment asked for.
+    /// Offset in the memory object in bytes, a multiple of the requested alignment.
     pub offset: u64,
-    /// Where that offset is mapped, of memory that is mapped and `HOST_COHERENT`.
+    /// Address at which the offset is mapped, if the memory is mapped and `HOST_COHERENT`.
     pub mapped: Option<NonNull<u8>>,
-    /// The host's own.
+    /// Any pointer of the host; the library does not use it.
     pub user: *mut c_void,
 }
 
-// SAFETY: pointers that are used by whoever has the memory alone, and, `user`, by the host's functions, which any thread may call.
+// SAFETY: only the owner of the memory uses `mapped`, and only the host's functions use `user`; any thread may call
+// them.
 unsafe impl Send for HostMemory {}
 // SAFETY: as above.
 unsafe impl Sync for HostMemory {}
 
-/// A host's functions for device memory, called by any thread that prepares or drops what is made by the library.
+/// Functions of a host that allocate and free device memory. Any thread that prepares or drops objects of the library
+/// may call them.
 ///
 /// # Safety
-/// What is allocated is of the device lent, of one of the types asked for, as large and aligned as was asked for, used by nobody else
-/// until it is freed, and mapped where it says so.
+/// Allocated memory belongs to the device of the [`Host`](super::Host), has one of the permitted types and at least
+/// the requested size and alignment. Nobody else uses it until it is freed. If `mapped` is set, the whole size is
+/// mapped there.
 pub unsafe trait AllocateMemory: Send + Sync {
-    /// Allocates; `None` where memory ran out.
+    /// Allocates memory; `None` if no memory is left.
     fn allocate(&self, request: &MemoryRequest<'_>) -> Option<HostMemory>;
 
-    /// Frees what [`Self::allocate`] gave. No command uses it any more.
+    /// Frees memory that [`Self::allocate`] returned. No command uses it any more.
     fn free(&self, memory: HostMemory);
 }
 
-/// The same of a device in use.
+/// Source of the memory of a device in use.
 pub(super) enum Source {
     Allocator(SharedAllocator),
     Host(Arc<dyn AllocateMemory>),
@@ -78,7 +82,7 @@ pub(super) enum Source {
 /// Memory of one buffer or image.
 pub(super) enum Allocation {
     Allocator(gpu_allocator::vulkan::Allocation),
-    /// With its bytes.
+    /// Memory of the host, and its size in bytes.
     Host(HostMemory, usize),
 }
 
@@ -114,13 +118,13 @@ impl Source {
                 let _ = locked(shared, |allocator| allocator.free(made));
             }
             (Self::Host(host), Allocation::Host(made, _)) => host.free(made),
-            // A device has one source from its first allocation to its last.
+            // A device keeps one source from its first allocation to its last.
             _ => {}
         }
     }
 }
 
-/// A poisoned lock is taken over, as an allocation that panicked left nothing half made.
+/// Calls `f` with the allocator. Poisoning of the lock is ignored: an allocation that panics leaves nothing half made.
 fn locked<R>(shared: &SharedAllocator, f: impl FnOnce(&mut Allocator) -> R) -> R {
     f(&mut shared.lock().unwrap_or_else(PoisonError::into_inner))
 }
@@ -128,7 +132,7 @@ fn locked<R>(shared: &SharedAllocator, f: impl FnOnce(&mut Allocator) -> R) -> R
 impl Allocation {
     pub fn memory(&self) -> vk::DeviceMemory {
         match self {
-            // SAFETY: the memory is used for what it was allocated for, until it is freed.
+            // SAFETY: the memory is used only for its purpose, and only until it is freed.
             Self::Allocator(made) => unsafe { made.memory() },
             Self::Host(made, _) => made.memory,
         }
@@ -141,20 +145,20 @@ impl Allocation {
         }
     }
 
-    /// The mapped bytes, where host and device see what the other writes without flushing. Memory to upload from and to read
-    /// back from always is so; that of the device may be mapped and not so.
+    /// Mapped bytes, if host and device see each other's writes without flushing. This is always so for upload and
+    /// readback memory; device memory may be mapped and yet need flushing.
     pub fn bytes(&self) -> Option<&[u8]> {
         match self {
             Self::Allocator(made) => coherent(made)?.mapped_slice(),
             Self::Host(made, bytes) => {
                 let mapped = made.mapped?;
-                // SAFETY: the host mapped as many bytes as were asked for, which nobody else uses.
+                // SAFETY: the host mapped the requested size, and nobody else uses the memory.
                 Some(unsafe { std::slice::from_raw_parts(mapped.as_ptr(), *bytes) })
             }
         }
     }
 
-    /// The same, to be written.
+    /// Mapped bytes for writing, under the same conditions as [`Self::bytes`].
     pub fn bytes_mut(&mut self) -> Option<&mut [u8]> {
         match self {
             Self::Allocator(made) => {
@@ -163,14 +167,14 @@ impl Allocation {
             }
             Self::Host(made, bytes) => {
                 let mapped = made.mapped?;
-                // SAFETY: as above; the allocation is borrowed for as long.
+                // SAFETY: as above; the allocation is mutably borrowed as long as the slice.
                 Some(unsafe { std::slice::from_raw_parts_mut(mapped.as_ptr(), *bytes) })
             }
         }
     }
 }
 
-/// The allocation, if it is coherent.
+/// The allocation, if its memory is coherent.
 fn coherent(
     allocation: &gpu_allocator::vulkan::Allocation,
 ) -> Option<&gpu_allocator::vulkan::Allocation> {

@@ -1,19 +1,19 @@
-//! Which barriers commands need, and which commands each of them orders.
+//! Barriers between commands, and the commands that each of them orders.
 
 use ash::vk;
 
-/// Commands of a kind.
+/// Kind of commands that a barrier orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Commands {
-    /// Dispatches, and what copies or fills buffers.
+    /// Dispatches, and copies and fills of buffers.
     Dispatches,
     /// Commands of any kind.
     Any,
 }
 
 impl Commands {
-    /// Makes what such commands wrote before visible to those after, and to what decides whether these are skipped, where the
-    /// device can skip commands.
+    /// Barrier that makes the writes of such earlier commands visible to later ones. If the device can skip commands,
+    /// the writes are also visible to the test whether commands are skipped.
     pub fn barrier(self, can_skip: bool) -> vk::MemoryBarrier2<'static> {
         use vk::{AccessFlags2 as A, PipelineStageFlags2 as S};
         let (stages, writes, reads) = match self {
@@ -40,22 +40,22 @@ impl Commands {
     }
 }
 
-/// What was recorded since the last barrier, and what waits for one.
+/// Commands that were recorded since the last barrier, and whether a barrier was requested.
 ///
-/// Between two commands with a barrier asked for between them, one is recorded that orders both: where one of them is none
-/// of the dispatches, that is one for commands of any kind.
+/// If a barrier was requested between two commands, one is recorded that orders both: a barrier for commands of any
+/// kind, if either of them is not a dispatch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Barriers {
-    /// A barrier is asked for.
+    /// Whether a barrier was requested.
     asked: bool,
-    /// Others than dispatches may have come since the last barrier.
+    /// Whether other commands than dispatches may have been recorded since the last barrier.
     others: bool,
-    /// Barriers since the last one for commands of any kind were for dispatches alone.
+    /// Whether all barriers since the last one for commands of any kind were for dispatches only.
     narrow: bool,
 }
 
 impl Barriers {
-    /// At the begin of a recording, after commands that nobody knows.
+    /// State at the beginning of a recording, after unknown commands.
     pub const fn new() -> Self {
         Self {
             asked: false,
@@ -64,12 +64,12 @@ impl Barriers {
         }
     }
 
-    /// What comes next is to come after all that was before.
+    /// Requests a barrier between the earlier and the later commands.
     pub fn ask(&mut self) {
         self.asked = true;
     }
 
-    /// What is to be recorded before such a command: a barrier for the commands named, if any.
+    /// Barrier that has to be recorded before a command of kind `next`, if any.
     pub fn before(&mut self, next: Commands) -> Option<Commands> {
         let others_next = next == Commands::Any;
         let wide = self.asked && (self.others || others_next) || self.narrow && others_next;
@@ -104,7 +104,7 @@ mod tests {
         Step::Record(Commands::Any),
     ];
 
-    /// What is recorded, and where a barrier was asked for.
+    /// Step of a recording: a command, or a request for a barrier.
     #[derive(Clone, Copy, Debug, PartialEq)]
     enum Recorded {
         Asked,
@@ -114,7 +114,7 @@ mod tests {
 
     fn record(steps: impl Iterator<Item = Step>) -> Vec<Recorded> {
         let mut barriers = Barriers::new();
-        // What came before the recording is a command too.
+        // The commands before the recording count as a command too.
         let mut recorded = vec![Recorded::Command(Commands::Any)];
         for step in steps {
             match step {
@@ -131,7 +131,7 @@ mod tests {
         recorded
     }
 
-    /// In all sequences of nine steps.
+    /// Tests all sequences of nine steps.
     #[test]
     fn commands_with_a_barrier_asked_for_between_them_are_ordered() {
         for number in 0..3_usize.pow(9) {

@@ -1,4 +1,4 @@
-//! Recording into a command buffer, and the time that each pass takes.
+//! Recording into a command buffer, and timing of the passes.
 
 use super::barriers::{Barriers, Commands};
 use super::conditions::{Change, Conditions};
@@ -8,32 +8,35 @@ use ash::vk;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// The stages that push constants are for.
+/// Shader stages to which push constants are visible.
 pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
     vk::ShaderStageFlags::VERTEX.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
 );
 
-/// Writes commands of one frame into a caller's command buffer.
+/// Recorder of a frame's commands into a caller's command buffer.
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
     raw: vk::CommandBuffer,
-    /// A barrier that is asked for is recorded before the next command. A mark goes before it: some drivers take the time of
-    /// a timestamp no earlier than at the barrier that follows it.
+    /// Barriers: a requested barrier is recorded before the next command. A mark is recorded before it, because some
+    /// drivers delay a timestamp until the barrier that follows it.
     barriers: Cell<Barriers>,
     conditions: Cell<Conditions>,
     timings: Option<&'a mut Timings>,
-    /// Whether dispatches are labelled, and kept for who asks.
+    /// Whether dispatches are labelled, and whether they are traced.
     labels: bool,
     traces: bool,
 }
 
 impl<'a> Recorder<'a> {
+    /// Starts recording.
+    ///
     /// # Safety
-    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state, outside of a render pass.
-    /// - All that is recorded with it is of that device, made for such commands, and bound before it is used; passes are recorded
-    ///   with resources of the sizes that they were made for.
-    /// - What is recorded is submitted only while everything it refers to is alive; and until it is done, the CPU neither reads
-    ///   what it writes nor writes what it reads.
+    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state, outside of a
+    ///   render pass.
+    /// - Everything that is recorded with it belongs to that device, was created for such commands, and is bound
+    ///   before it is used; passes are recorded with resources of the sizes that they were made for.
+    /// - The commands are submitted only while everything that they refer to is alive. Until they have run, the CPU
+    ///   neither reads what they write nor writes what they read.
     #[must_use]
     pub unsafe fn new(
         gpu: &'a Gpu,
@@ -51,7 +54,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The command buffer, to record commands of any kind until the next [`Self::barrier`]. None of them is skipped.
+    /// Command buffer for commands of any kind, until the next [`Self::barrier`]. None of them is skipped.
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
         self.change_condition(Conditions::before_others);
         self.before(Commands::Any)
@@ -68,7 +71,7 @@ impl<'a> Recorder<'a> {
         self.change_condition(|conditions| conditions.leave(before));
     }
 
-    /// The word that [`Self::unless_zero`] has dispatches depend on now, if any: the first of a buffer.
+    /// Buffer whose first word decides whether dispatches are skipped now, if [`Self::unless_zero`] is active.
     pub(crate) fn condition(&self) -> Option<vk::Buffer> {
         self.conditions.get().word()
     }
@@ -81,8 +84,8 @@ impl<'a> Recorder<'a> {
         let Some(functions) = &self.gpu.conditional_rendering else {
             return;
         };
-        // SAFETY: `new`'s contract; what was begun is ended before anything else is begun, and both happen outside of render
-        // passes, which are recorded with `raw`.
+        // SAFETY: `new`'s contract; conditional rendering is ended before it is begun again. Both happen outside of
+        // render passes, which are recorded with `raw`.
         unsafe {
             if change.ends {
                 (functions.fp().cmd_end_conditional_rendering_ext)(self.raw);
@@ -94,19 +97,19 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The command buffer, to record a dispatch.
+    /// Command buffer for a dispatch.
     fn dispatching(&self) -> vk::CommandBuffer {
         let raw = self.before(Commands::Dispatches);
         self.change_condition(Conditions::before_dispatch);
         raw
     }
 
-    /// The command buffer, to record what is bound and pushed: that waits for nothing.
+    /// Command buffer for binding and pushing, which need no barrier.
     pub(crate) fn bindings(&self) -> vk::CommandBuffer {
         self.raw
     }
 
-    /// The command buffer, after the barrier that commands of a kind need.
+    /// Command buffer, after the barrier that commands of this kind need.
     fn before(&self, next: Commands) -> vk::CommandBuffer {
         let mut barriers = self.barriers.get();
         if let Some(commands) = barriers.before(next) {
@@ -124,14 +127,14 @@ impl<'a> Recorder<'a> {
         &self.gpu.device
     }
 
-    /// Everything before is visible to everything after.
+    /// Requests a barrier that makes all earlier writes visible to all later commands.
     pub fn barrier(&self) {
         let mut barriers = self.barriers.get();
         barriers.ask();
         self.barriers.set(barriers);
     }
 
-    /// Moves an image to another layout, after all before and ahead of all after.
+    /// Records the transition of an image to another layout, after all earlier and before all later commands.
     pub fn transition(&self, image: &Image, from: vk::ImageLayout, to: vk::ImageLayout) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
         let barriers = [vk::ImageMemoryBarrier2::default()
@@ -161,13 +164,13 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
+    /// Dispatches `groups` workgroups of a pipeline, in rows of 32,768, and requests a barrier after them.
     pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
         self.dispatch_unordered(pipeline, groups);
         self.barrier();
     }
 
-    /// The same without a barrier after it, for dispatches that write different places.
+    /// Dispatches as [`Self::dispatch`] does, without a barrier, for dispatches that write different places.
     pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
         let rows = groups.div_ceil(32768) as u32;
         self.run(pipeline, Dispatched::Workgroups(groups), |device, raw| {
@@ -176,21 +179,21 @@ impl<'a> Recorder<'a> {
         });
     }
 
-    /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.
+    /// Dispatches the number of workgroups in vector `index` of `arguments`, and requests a barrier after them.
     pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.dispatch_indirect_unordered(pipeline, arguments, index);
         self.barrier();
     }
 
-    /// The same without a barrier after it, for dispatches that write different places.
+    /// Dispatches as [`Self::dispatch_indirect`] does, without a barrier, for dispatches that write different places.
     pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.run(pipeline, Dispatched::Indirect(index), |device, raw| {
-            // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
+            // SAFETY: `new`'s contract; the vector lies in the buffer, which was created for indirect use.
             unsafe { device.cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16) };
         });
     }
 
-    /// Records a dispatch of a pipeline, under its shader's name.
+    /// Records a dispatch of a pipeline, labelled with the name of its shader.
     fn run(
         &self,
         pipeline: &Pipeline,
@@ -209,7 +212,7 @@ impl<'a> Recorder<'a> {
         }
         record(&self.gpu.device, raw);
         if let Some((labels, _)) = labelled {
-            // SAFETY: it was begun above.
+            // SAFETY: the label was begun above.
             unsafe { labels.cmd_end_debug_utils_label(raw) };
         }
         if self.traces {
@@ -220,7 +223,7 @@ impl<'a> Recorder<'a> {
     /// Sets the push constants of `layout`.
     pub fn push(&self, layout: vk::PipelineLayout, pushed: &impl bytemuck::NoUninit) {
         let bytes = bytemuck::bytes_of(pushed);
-        // SAFETY: `new`'s contract; layouts reserve room for what their passes push.
+        // SAFETY: `new`'s contract; layouts have room for the push constants of their passes.
         unsafe {
             self.gpu
                 .device
@@ -228,17 +231,17 @@ impl<'a> Recorder<'a> {
         };
     }
 
-    /// Copies the first bytes of a buffer to another one, from a byte of that on. Both were created for copies, and callers
-    /// know their sizes.
+    /// Copies the first `bytes` bytes of a buffer to another one, from `first_byte` of that on. Both were created for
+    /// copies and are large enough.
     pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
-        // SAFETY: as documented.
+        // SAFETY: as documented above.
         unsafe { self.copy_raw((from.raw, 0), (to.raw, first_byte), bytes) };
     }
 
     /// Copies bytes of a buffer to another one, from a byte of each on.
     ///
     /// # Safety
-    /// Both were created for copies, and the bytes lie in them, which outlive the execution of the commands.
+    /// Both buffers were created for copies, contain the bytes, and outlive the execution of the commands.
     pub(crate) unsafe fn copy_raw(
         &self,
         (from, from_byte): (vk::Buffer, u64),
@@ -250,18 +253,19 @@ impl<'a> Recorder<'a> {
             .dst_offset(to_byte)
             .size(bytes)];
         let raw = self.before(Commands::Dispatches);
-        // SAFETY: `new`'s contract; the rest is passed on to the caller.
+        // SAFETY: `new`'s contract; the rest is guaranteed by the caller.
         unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, &region) };
     }
 
-    /// Writes bytes, a multiple of four, to a buffer from a byte on, another multiple.
+    /// Writes bytes to a buffer from `first_byte` on. Their number and `first_byte` are multiples of four.
     pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
-        /// Bytes that an inline update can have.
+        /// Largest number of bytes of an inline update.
         const AT_ONCE: usize = 65_536;
         let raw = self.before(Commands::Dispatches);
         for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
             let offset = first_byte + chunk * AT_ONCE as u64;
-            // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
+            // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its
+            // size.
             unsafe {
                 self.gpu
                     .device
@@ -278,7 +282,7 @@ impl<'a> Recorder<'a> {
     /// Fills the first `bytes` bytes of a buffer with zeros.
     pub fn clear_first(&self, buffer: &Buffer, bytes: u64) {
         let raw = self.before(Commands::Dispatches);
-        // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
+        // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its size.
         unsafe {
             self.gpu
                 .device
@@ -286,22 +290,22 @@ impl<'a> Recorder<'a> {
         };
     }
 
-    /// Ends a named stretch of the frame: the time since the mark before is booked under `name`.
+    /// Ends a named section of the frame: the time since the previous mark is attributed to `name`.
     pub fn mark(&mut self, name: &'static str) {
         if let Some(timings) = self.timings.as_deref_mut() {
             timings.mark(self.gpu, self.raw, Some(name));
         }
     }
 
-    /// Goes on timing, in a command buffer that follows the one before.
+    /// Continues timing in a command buffer that follows another one.
     pub fn go_on(&mut self) {
         if let Some(timings) = self.timings.as_deref_mut() {
             timings.mark(self.gpu, self.raw, None);
         }
     }
 
-    /// Records without marks and labels, which cost more than what is skipped, and unseen by who asks: what takes time is booked by
-    /// the next mark after it.
+    /// Records without marks, labels and traces, which would cost more than skipped commands. The next mark includes
+    /// their time.
     pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
         let timings = self.timings.take();
         let seen = (self.labels, self.traces);
@@ -311,7 +315,7 @@ impl<'a> Recorder<'a> {
         (self.labels, self.traces) = seen;
     }
 
-    /// Begins timing.
+    /// Starts timing.
     pub fn begin(&mut self) {
         if let Some(timings) = self.timings.as_deref_mut() {
             timings.begin(self.gpu, self.raw);
@@ -321,12 +325,12 @@ impl<'a> Recorder<'a> {
 
 impl Drop for Recorder<'_> {
     fn drop(&mut self) {
-        // What the caller records next comes after the last barrier too.
+        // Commands that the caller records next must also wait for the last barrier.
         self.raw();
     }
 }
 
-/// Timestamps of one frame; names may repeat and are added up.
+/// Timestamps of a frame. The times of equal names are added up.
 pub struct Timings {
     gpu: Arc<Gpu>,
     pool: vk::QueryPool,
@@ -335,10 +339,10 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// Room for `capacity` marks; later ones are not taken.
+    /// Makes a timer with room for `capacity` marks; further marks are ignored.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if the pool can't be made.
+    /// [`VulkanError::Call`] if the query pool can't be made.
     pub fn new(gpu: &Arc<Gpu>, capacity: u32) -> Result<Self, VulkanError> {
         let info = vk::QueryPoolCreateInfo::default()
             .query_type(vk::QueryType::TIMESTAMP)
@@ -356,7 +360,7 @@ impl Timings {
 
     fn begin(&mut self, gpu: &Gpu, raw: vk::CommandBuffer) {
         self.names.clear();
-        // SAFETY: the recorder's contract; the pool is not in use, as the frame before is done.
+        // SAFETY: the recorder's contract; the pool is not in use, because the previous frame's commands have run.
         unsafe {
             gpu.device
                 .cmd_reset_query_pool(raw, self.pool, 0, self.capacity)
@@ -369,7 +373,7 @@ impl Timings {
         if gpu.limits().timestamp_period == 0.0 || index >= self.capacity {
             return;
         }
-        // SAFETY: the recorder's contract; the query was reset at the frame's begin.
+        // SAFETY: the recorder's contract; the query was reset at the beginning of the frame.
         unsafe {
             gpu.device.cmd_write_timestamp2(
                 raw,
@@ -381,16 +385,16 @@ impl Timings {
         self.names.push(name);
     }
 
-    /// Milliseconds by name, in order of first appearance. It waits for nothing.
+    /// Milliseconds by name, in the order of first appearance. This does not wait.
     ///
     /// # Errors
-    /// [`VulkanError::NotDone`] if the commands are not done, [`VulkanError::Call`] if results can't be had.
+    /// [`VulkanError::NotDone`] if the commands have not run, [`VulkanError::Call`] if the results can't be read.
     pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
         let mut stamps = vec![0_u64; self.names.len()];
         if !stamps.is_empty() {
             let flags = vk::QueryResultFlags::TYPE_64;
-            // SAFETY: the pool is the device's, with at least as many queries; without waiting, their results may be asked for at
-            // any time after they were reset once, as they were where the names were recorded.
+            // SAFETY: the pool belongs to the device and has at least this many queries. They were reset when the
+            // names were recorded; after that, results may be read at any time without waiting.
             unsafe {
                 self.gpu
                     .device
@@ -419,7 +423,7 @@ impl Timings {
 
 impl Drop for Timings {
     fn drop(&mut self) {
-        // SAFETY: owners drop timings only after the frames that use them are done.
+        // SAFETY: owners drop timings only after the frames that use them have run.
         unsafe { self.gpu.device.destroy_query_pool(self.pool, None) };
     }
 }

@@ -1,11 +1,12 @@
-//! Whether the device has executed what was recorded last.
+//! Whether the device has executed the last recording.
 
 use super::{Gpu, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Tells whether the device has executed a recording that is made again and again: an event that the device resets where the
-/// commands begin and sets where they end. Unlike memory that the device writes, the CPU may ask for it at any time.
+/// Tells whether the device has executed a recording that is made repeatedly. The device resets an event where the
+/// commands begin and sets it where they end; unlike memory that the device writes, the CPU may query an event at any
+/// time.
 pub(crate) struct Completion {
     gpu: Arc<Gpu>,
     event: vk::Event,
@@ -13,7 +14,7 @@ pub(crate) struct Completion {
 }
 
 impl Completion {
-    /// That of what was never recorded.
+    /// Makes an event, for which nothing has been recorded.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the event can't be made.
@@ -31,16 +32,16 @@ impl Completion {
         })
     }
 
-    /// Begins a recording. The commands of the one before are done, or will never be executed.
+    /// Begins a recording. The commands of the previous one have run, or will never be executed.
     ///
-    /// Whether those were executed.
+    /// Returns whether they have run.
     pub fn begin(&mut self, recorder: &Recorder<'_>) -> bool {
         let was_done = self.check().is_ok();
         self.is_recorded = true;
-        // SAFETY: by the recorder's contract no commands that use the event are pending, and the new ones are outside of a
-        // render pass; synchronization2 is enabled.
+        // SAFETY: by the recorder's contract, no commands that use the event are pending, and the new ones are outside
+        // of a render pass; synchronization2 is enabled.
         unsafe {
-            // An event that stays set because resetting it failed is still reset by the device.
+            // An error can be ignored: the device resets the event too.
             let _ = self.gpu.device.reset_event(self.event);
             self.gpu.device.cmd_reset_event2(
                 recorder.raw(),
@@ -52,7 +53,7 @@ impl Completion {
         was_done
     }
 
-    /// Ends a recording, whose results the CPU may read once it is done.
+    /// Ends a recording; the CPU may read its results once it has run.
     pub fn end(&self, recorder: &Recorder<'_>) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
         let to_cpu = [vk::MemoryBarrier2::default()
@@ -73,15 +74,16 @@ impl Completion {
         }
     }
 
-    /// Refuses to go on before the device has executed what was recorded last. It waits for nothing.
+    /// Checks that the device has executed the last recording. This does not wait.
     ///
     /// # Errors
-    /// [`VulkanError::NotRecorded`], [`VulkanError::NotDone`], or [`VulkanError::DeviceLost`].
+    /// [`VulkanError::NotRecorded`] if nothing was recorded, [`VulkanError::NotDone`] if the commands have not run, or
+    /// [`VulkanError::DeviceLost`].
     pub fn check(&self) -> Result<(), VulkanError> {
         if !self.is_recorded {
             return Err(VulkanError::NotRecorded);
         }
-        // SAFETY: the event is the device's, and may be asked at any time.
+        // SAFETY: the event belongs to the device, and may be queried at any time.
         match unsafe { self.gpu.device.get_event_status(self.event) } {
             Ok(true) => Ok(()),
             Ok(false) => Err(VulkanError::NotDone),
@@ -92,7 +94,7 @@ impl Completion {
 
 impl Drop for Completion {
     fn drop(&mut self) {
-        // SAFETY: owners drop it only after the commands that use it are done.
+        // SAFETY: owners drop it only after the commands that use it have run.
         unsafe { self.gpu.device.destroy_event(self.event, None) };
     }
 }

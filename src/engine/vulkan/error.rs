@@ -1,100 +1,100 @@
-//! What can go wrong with a device.
+//! Errors of Vulkan and its devices.
 
 use super::Missing;
 use ash::vk;
 
-/// An error of the Vulkan layer.
+/// Error of the Vulkan layer.
 #[derive(Debug, thiserror::Error)]
 pub enum VulkanError {
-    /// There is no Vulkan loader.
+    /// Vulkan loader that can't be loaded; holds the reason.
     #[error("no Vulkan loader: {0}. {help}", help = super::MISSING_DRIVER_HELP)]
     NoLoader(String),
-    /// There is no device that fits.
+    /// No suitable device.
     #[error("no suitable Vulkan device{}: {found}. {help}", asked.as_ref().map(|name| format!(" named \"{name}\"")).unwrap_or_default(), help = super::MISSING_DRIVER_HELP)]
     NoDevice {
-        /// The name asked for, if one was.
+        /// Part of a device's name that was asked for.
         asked: Option<String>,
-        /// Each device found and what it lacks.
+        /// Every device that was found, and what it lacks.
         found: String,
     },
-    /// The device lacks something.
+    /// Device that lacks requirements.
     #[error("device \"{device}\" lacks {}", .missing.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))]
     Missing {
-        /// The device's name.
+        /// Name of the device.
         device: String,
-        /// All that it lacks.
+        /// Everything that the device lacks.
         missing: Vec<Missing>,
     },
-    /// The queue family is none of the device's, or can't do what commands ask of it.
+    /// Queue family that does not exist, or lacks graphics or compute.
     #[error(
         "queue family {found} of device \"{device}\" has no graphics and compute; {}",
         match possible { Some(family) => format!("family {family} has"), None => "none has".to_owned() }
     )]
     QueueFamily {
-        /// The device's name.
+        /// Name of the device.
         device: String,
-        /// The family asked for.
+        /// Index of the family that was given.
         found: u32,
-        /// The first family that will do.
+        /// Index of the first suitable family.
         possible: Option<u32>,
     },
-    /// A function is absent that an extension has of which the host said that it is enabled.
+    /// Missing function of an extension that is enabled according to the host.
     #[error("Host::{member} is true and there is no {function}: {remedy}")]
     NotEnabled {
-        /// The member of [`Host`](super::Host).
+        /// Name of the member of [`Host`](super::Host) that says so.
         member: &'static str,
-        /// The function.
+        /// Name of the missing function.
         function: &'static str,
-        /// What makes it there.
+        /// Advice for getting the function.
         remedy: &'static str,
     },
-    /// A function of Vulkan 1.3 is absent.
+    /// Name of a missing function of Vulkan 1.3.
     #[error(
         "there is no {0}: create the instance for Vulkan 1.3 (apiVersion), with a loader and a driver that have it"
     )]
     NoFunction(&'static str),
-    /// The device was lost.
+    /// Lost device.
     #[error("the device was lost; its driver may have reset it")]
     DeviceLost,
-    /// Memory ran out.
+    /// Device memory that could not be allocated.
     #[error(
         "out of memory: {what} of {bytes} bytes could not be allocated; ask for a smaller image, fewer samples or another bound on memory"
     )]
     OutOfMemory {
-        /// What the memory was for.
+        /// Purpose of the memory.
         what: String,
-        /// Its size.
+        /// Size of the memory in bytes.
         bytes: u64,
     },
-    /// A buffer is larger than the device can address.
+    /// Buffer that is larger than the device can address.
     #[error("{what} needs {needed} {unit} and the device addresses at most {limit} in one buffer")]
     TooLarge {
-        /// What the buffer was for.
+        /// Purpose of the buffer.
         what: String,
-        /// How much was asked for.
+        /// Size that was needed.
         needed: u64,
-        /// Bytes or elements.
+        /// Unit of the sizes: bytes or elements.
         unit: &'static str,
-        /// The device's limit.
+        /// Limit of the device.
         limit: u64,
     },
-    /// The driver runs workgroups in subgroups that kernels were not made for.
+    /// Workgroups that the driver runs in another subgroup size than kernels were made for.
     #[error(
         "the driver runs workgroups of {lanes} invocations in several subgroups, and can't be asked for others; another driver of the device may have VkPhysicalDeviceVulkan13Properties::requiredSubgroupSizeStages with compute shaders"
     )]
     Subgroups {
-        /// Invocations of a subgroup that kernels were made for.
+        /// Number of invocations of a subgroup that kernels were made for.
         lanes: u32,
     },
-    /// It was asked what a recording did before there was one.
+    /// Query about a recording before the first one was made.
     #[error("nothing was recorded yet; record and submit it, and wait for its commands")]
     NotRecorded,
-    /// It was asked what a recording did before the device had done it.
+    /// Query about a recording before the device has executed it.
     #[error(
         "the commands of the last recording are not done: they were not submitted, or still run; wait for them, by a fence or a timeline semaphore"
     )]
     NotDone,
-    /// The validation layer was asked for and is not installed.
+    /// Validation layer that was asked for and is not installed.
     #[error(
         "the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)"
     )]
@@ -102,24 +102,24 @@ pub enum VulkanError {
     /// Any other error of Vulkan.
     #[error("{call} failed: {result}")]
     Call {
-        /// What was tried.
+        /// Name of the function that failed.
         call: &'static str,
-        /// Vulkan's answer.
+        /// Result of the function.
         result: vk::Result,
     },
 }
 
 impl VulkanError {
-    /// Whether the device is lost or its memory exhausted, so that trying again as it is makes no sense.
+    /// Whether the device is lost or out of memory, so that trying again is useless.
     #[must_use]
     pub fn is_device_failure(&self) -> bool {
         matches!(self, Self::DeviceLost | Self::OutOfMemory { .. })
     }
 
-    /// Refuses to need more of something than the device can address.
+    /// Checks that no more is needed than the device can address.
     ///
     /// # Errors
-    /// [`VulkanError::TooLarge`] if `needed` passes `limit`.
+    /// [`VulkanError::TooLarge`] if `needed` is above `limit`.
     pub(crate) fn check_limit(
         what: &str,
         needed: u64,
@@ -137,7 +137,7 @@ impl VulkanError {
         Ok(())
     }
 
-    /// Turns a result of `call` into an error: a lost device and exhausted memory are told apart from all else.
+    /// Converts a result of `call` to an error; a lost device and a lack of memory get their own variants.
     pub fn of(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
         move |result| match result {
             vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost,

@@ -9,32 +9,32 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, CString};
 use std::sync::{Arc, Mutex};
 
-/// A host's Vulkan objects, in which the renderer works.
+/// Vulkan objects of a host, in which the renderer works.
 #[non_exhaustive]
 pub struct Host {
-    /// The instance, created for Vulkan 1.3 or later.
+    /// Instance, created for Vulkan 1.3 or later.
     pub instance: ash::Instance,
-    /// The physical device; see [`Requirements::missing`].
+    /// Physical device without [missing requirements](Requirements::missing).
     pub physical_device: vk::PhysicalDevice,
-    /// The device, with the features of [`Requirements::features13`] enabled.
+    /// Device, created with the features of [`Requirements::features13`].
     pub device: ash::Device,
-    /// The family, with graphics and compute, of the queue that commands will be submitted to.
+    /// Index of the family of the queue to which commands will be submitted; it supports graphics and compute.
     pub queue_family: u32,
-    /// Where the memory of buffers and images comes from.
+    /// Source of the memory for buffers and images.
     pub memory: MemorySource,
-    /// A cache that pipelines are made with, or null. It was not created with `EXTERNALLY_SYNCHRONIZED`.
+    /// Pipeline cache for making pipelines, or null. It was not created with `EXTERNALLY_SYNCHRONIZED`.
     pub pipeline_cache: vk::PipelineCache,
-    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, for which
-    /// [`Requirements::has_conditional_rendering`] says whether it can be. Without it, rounds of a frame that have nothing to do
+    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`,
+    /// which [`Requirements::has_conditional_rendering`] checks. Without it, rounds of a frame that have nothing to do
     /// take some time.
     pub conditional_rendering: bool,
-    /// Whether the instance was created with `VK_EXT_debug_utils`: buffers, images and pipelines then have names, which begin with
-    /// `gpc`, and dispatches have labels.
+    /// Whether the instance was created with `VK_EXT_debug_utils`. If so, buffers, images and pipelines get names that
+    /// begin with `gpc`, and dispatches get labels.
     pub debug_utils: bool,
 }
 
 impl Host {
-    /// A device with no extension, an allocator of the library's own and no pipeline cache.
+    /// Describes a device without extensions or a pipeline cache, for which the library makes a separate allocator.
     #[must_use]
     pub fn new(
         instance: ash::Instance,
@@ -54,20 +54,23 @@ impl Host {
         }
     }
 
-    /// Refuses a device without functions that are called: calling one that is absent ends the program. Until then, none but
-    /// those of Vulkan 1.0 are called.
+    /// Checks that the device has the functions that the library calls, as a call of a missing function ends the
+    /// program. The check itself calls only functions of Vulkan 1.0.
+    ///
+    /// # Errors
+    /// [`VulkanError::Missing`], [`VulkanError::NoFunction`] or [`VulkanError::NotEnabled`].
     ///
     /// # Safety
     /// The handles are alive and belong together.
     unsafe fn check_functions(&self) -> Result<(), VulkanError> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let lacks = |name: &CStr| unsafe {
             let raw = self.device.handle();
             self.instance
                 .get_device_proc_addr(raw, name.as_ptr())
                 .is_none()
         };
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             let version = Requirements::check_version(&self.instance, self.physical_device);
             version.map_err(|version| VulkanError::Missing {
@@ -111,75 +114,78 @@ const DEBUG_UTILS_FUNCTIONS: [&CStr; 2] = [
     c"vkCmdBeginDebugUtilsLabelEXT",
 ];
 
-/// Properties of the device that decide how work is laid out.
+/// Properties of the device on which the layout of work depends.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// The device's name.
+    /// Name of the device.
     pub device_name: String,
     /// Name and version of the driver.
     pub driver: String,
-    /// Invocations of a subgroup that kernels use: 4, 8, 16 or 32.
+    /// Number of invocations of a subgroup that kernels use: 4, 8, 16 or 32.
     pub lanes: u32,
-    /// Invocations in a subgroup, as pipelines ask for; at least `lanes`. Where it is more, the others idle.
+    /// Number of invocations of a subgroup, at least `lanes`; the other invocations are idle.
     pub subgroup_size: u32,
     /// Whether a compute pipeline can be told its subgroup size.
     pub can_require_subgroup_size: bool,
-    /// Largest width or height of an image.
+    /// Largest width or height of an image in pixels.
     pub max_image_side: u32,
-    /// Most elements of a texel buffer.
+    /// Largest number of elements of a texel buffer.
     pub max_texel_elements: u64,
-    /// What offsets of storage and texel buffers are multiples of, in bytes.
+    /// Alignment of offsets into storage and texel buffers, in bytes.
     pub buffer_alignment: u64,
-    /// Most bytes of a storage buffer binding.
+    /// Largest number of bytes of a storage buffer binding.
     pub max_storage_bytes: u64,
-    /// Nanoseconds a timestamp step, 0 if the queue has no timestamps.
+    /// Nanoseconds per timestamp step; 0 if the queue has no timestamps.
     pub timestamp_period: f32,
-    /// Most samples, counted as if every pixel were a superpixel, of what is submitted at once where the renderer has the
-    /// device to itself: systems take a GPU away from what keeps it for seconds. Nothing takes a CPU away.
+    /// Largest number of samples, counted as if every pixel were a superpixel, in one submission if the renderer has a
+    /// device of its own: operating systems reset a GPU that works on a submission for seconds. CPU drivers have no
+    /// limit.
     pub max_submitted_samples: u64,
-    /// Sample counts of multisampled 8-bit colour and float depth.
+    /// Supported numbers of samples for multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,
-    /// Whether commands can be skipped by a word in the device's memory.
+    /// Whether the device can skip commands depending on a word in its memory.
     pub conditional_rendering: bool,
-    /// Most pipelines that are kept although no frame uses them: a frame has some 25, and a driver may keep a megabyte or
-    /// two for each.
+    /// Largest number of unused pipelines that are kept. A frame has some 25, and a driver may need a megabyte or two
+    /// for each.
     pub max_unused_pipelines: usize,
 }
 
-/// A device in use.
+/// A device with its limits and allocator.
 pub struct Gpu {
     pub(crate) device: ash::Device,
-    /// Functions that skip commands, where the device has them.
+    /// Functions of conditional rendering, if the device supports it.
     pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
-    /// Functions that label commands and name objects, where the instance has them.
+    /// Functions that label commands and name objects, if the instance has them.
     pub(super) debug_labels: Option<ash::ext::debug_utils::Device>,
     pub(super) trace: Trace,
     pub(crate) queue_family: u32,
     pub(super) pipeline_cache: vk::PipelineCache,
-    /// `None` only while dropping.
+    /// Source of memory; `None` only in `Drop`.
     memory: Option<Source>,
     limits: Limits,
-    /// Set where we created the device: it is destroyed with the Gpu, before the instance.
+    /// Instance, if the library created the device. The device is then destroyed with the `Gpu`, before the instance.
     owner: Option<Arc<Instance>>,
 }
 
 impl Gpu {
-    /// Works in a host's device.
+    /// Uses the device of a host.
     ///
     /// # Errors
-    /// [`VulkanError::Missing`] names all that the device lacks, [`VulkanError::QueueFamily`] a family that it has not,
-    /// [`VulkanError::NotEnabled`] an extension that is not enabled although the host says so.
+    /// [`VulkanError::Missing`] names everything that the device lacks, [`VulkanError::QueueFamily`] an unsuitable
+    /// queue family, [`VulkanError::NoFunction`] and [`VulkanError::NotEnabled`] a missing function.
     ///
     /// # Safety
-    /// - All handles are alive, belong together and outlive the returned value and all made with it.
-    /// - The device was created with the features of [`Requirements::features13`], and as [`Host::conditional_rendering`] says.
+    /// - All handles are alive, belong together, and outlive the returned value and everything made with it.
+    /// - The device was created with the features of [`Requirements::features13`]. [`Host::conditional_rendering`] is
+    ///   true only if the device was created with that extension and feature, and [`Host::debug_utils`] only if the
+    ///   instance was created with that extension.
     pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { host.check_functions() }?;
-        // SAFETY: passed on to the caller; instance and device were made for Vulkan 1.3.
+        // SAFETY: guaranteed by the caller; the instance and device were made for Vulkan 1.3.
         let mut limits = unsafe { limits(&host.instance, host.physical_device, host.queue_family) };
         limits.conditional_rendering &= host.conditional_rendering;
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { Self::owning(host, None, limits) }
     }
 
@@ -190,7 +196,7 @@ impl Gpu {
         owner: Option<Arc<Instance>>,
         limits: Limits,
     ) -> Result<Arc<Self>, VulkanError> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let missing: Vec<Missing> =
             unsafe { Requirements::missing(&host.instance, host.physical_device) };
         if !missing.is_empty() {
@@ -209,7 +215,7 @@ impl Gpu {
             conditional_rendering: _,
             debug_utils,
         } = host;
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let (is_fit, possible) = unsafe {
             (
                 Requirements::is_fit(&instance, physical_device, queue_family),
@@ -257,49 +263,49 @@ impl Gpu {
         }))
     }
 
-    /// The device's functions, for commands of one's own.
+    /// Functions of the device, for the caller's own commands.
     #[must_use]
     pub fn device(&self) -> &ash::Device {
         &self.device
     }
 
-    /// The device's functions to skip commands by a word in its memory, where it [has](Limits::conditional_rendering) them.
+    /// Functions of conditional rendering, if the device [has](Limits::conditional_rendering) them.
     #[must_use]
     pub fn conditional_rendering(&self) -> Option<&ash::ext::conditional_rendering::Device> {
         self.conditional_rendering.as_ref()
     }
 
-    /// The family of the queue that commands are submitted to.
+    /// Index of the family of the queue to which commands are submitted.
     #[must_use]
     pub fn queue_family(&self) -> u32 {
         self.queue_family
     }
 
-    /// Properties of the device.
+    /// Limits of the device.
     #[must_use]
     pub fn limits(&self) -> &Limits {
         &self.limits
     }
 
-    /// The instance, where it is our own.
+    /// Instance of the device, if the library created it.
     #[must_use]
     pub fn instance(&self) -> Option<&Arc<Instance>> {
         self.owner.as_ref()
     }
 
-    /// Memory, if there is some.
+    /// Allocates memory; `None` if no memory is left.
     pub(super) fn allocate(&self, request: &MemoryRequest<'_>) -> Option<Allocation> {
         self.memory.as_ref()?.allocate(request)
     }
 
-    /// Frees memory that [`Self::allocate`] gave.
+    /// Frees memory that [`Self::allocate`] returned.
     pub(super) fn free(&self, allocation: Allocation) {
         if let Some(memory) = &self.memory {
             memory.free(allocation);
         }
     }
 
-    /// Names an object of the library's, where debuggers can be told.
+    /// Names an object of the library for debuggers; does nothing without debug labels.
     pub(super) fn name(&self, object: impl vk::Handle, name: &str) {
         let Some(functions) = &self.debug_labels else {
             return;
@@ -308,31 +314,31 @@ impl Gpu {
         let info = vk::DebugUtilsObjectNameInfoEXT::default()
             .object_handle(object)
             .object_name(&name);
-        // SAFETY: the object was just made from this device by this thread. A debugger that can't keep the name says so, which
-        // matters to nobody else.
+        // SAFETY: this thread just made the object from this device. A debugger that fails to store the name is of no
+        // consequence.
         let _ = unsafe { functions.set_debug_utils_object_name(&info) };
     }
 }
 
 impl Drop for Gpu {
     fn drop(&mut self) {
-        // An allocator frees its blocks while the device is still alive.
+        // The allocator frees its blocks while the device is still alive.
         self.memory = None;
         if self.owner.is_some() {
-            // SAFETY: the device is ours, everything made from it holds an `Arc` of this and is gone.
+            // SAFETY: the library created the device, and everything made from it held an `Arc` of this and is gone.
             unsafe { self.device.destroy_device(None) };
         }
     }
 }
 
-/// How many invocations of a subgroup kernels use, and how many a subgroup has, where it usually has `usual` and from
-/// `least` to `most`.
+/// Number of invocations that kernels use, and number of invocations of a subgroup. Subgroups usually have `usual`
+/// invocations, and at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
         let size = usual.clamp(4, 32).clamp(least, most);
         (size.min(32), size)
     } else {
-        // The least that may come fits in all others.
+        // The driver may choose any size, so kernels use the smallest.
         (least.clamp(4, 32), usual)
     }
 }
@@ -340,14 +346,14 @@ fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u3
 /// # Safety
 /// The device belongs to the instance, which is alive.
 unsafe fn device_name(instance: &ash::Instance, device: vk::PhysicalDevice) -> String {
-    // SAFETY: passed on to the caller.
+    // SAFETY: guaranteed by the caller.
     let properties = unsafe { instance.get_physical_device_properties(device) };
     let name = properties.device_name_as_c_str();
     name.map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default()
 }
 
-/// Those of a physical device.
+/// Limits of a physical device.
 ///
 /// # Safety
 /// The device belongs to the instance, which is alive.
@@ -363,7 +369,7 @@ pub(super) unsafe fn limits(
         .push_next(&mut driver)
         .push_next(&mut subgroup)
         .push_next(&mut control);
-    // SAFETY: passed on to the caller.
+    // SAFETY: guaranteed by the caller.
     let families = unsafe {
         instance.get_physical_device_properties2(device, &mut properties);
         instance.get_physical_device_queue_family_properties(device)
@@ -413,7 +419,7 @@ pub(super) unsafe fn limits(
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         conditional_rendering: unsafe { Requirements::has_conditional_rendering(instance, device) },
         max_unused_pipelines: 64,
     }

@@ -1,4 +1,4 @@
-//! An instance and device of our own, for callers without one.
+//! Instance and device of the library, for callers without their own.
 
 use super::gpu::{Gpu, Host, Limits, limits};
 use super::{Missing, Requirements, VulkanError};
@@ -9,14 +9,14 @@ use std::sync::{Arc, Mutex};
 
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// How to create an [`Instance`].
+/// Options for creating an [`Instance`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct InstanceOptions {
-    /// Run under the validation layer with synchronisation validation; its messages are collected.
+    /// Whether to run under the validation layer with synchronisation validation, and collect its messages.
     pub validation: bool,
 }
 
-/// What the validation layer said.
+/// Messages of the validation layer.
 #[derive(Default)]
 pub(crate) struct Messages {
     count: AtomicUsize,
@@ -25,7 +25,7 @@ pub(crate) struct Messages {
 
 /// A Vulkan instance.
 pub struct Instance {
-    /// Keeps the loader's library open.
+    /// Vulkan loader, whose library stays open.
     _entry: ash::Entry,
     pub(crate) raw: ash::Instance,
     debug: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
@@ -33,22 +33,22 @@ pub struct Instance {
     messages: Arc<Messages>,
 }
 
-/// One device and what it lacks.
+/// Description of a device, and what it lacks.
 #[derive(Clone, Debug)]
 pub struct DeviceInfo {
-    /// The device's name.
+    /// Name of the device.
     pub name: String,
-    /// `discrete`, `integrated`, `virtual`, `cpu` or `other`.
+    /// Kind of the device: `discrete`, `integrated`, `virtual`, `cpu` or `other`.
     pub kind: &'static str,
-    /// The driver's name and version.
+    /// Name and version of the driver.
     pub driver: String,
     /// Vulkan version, such as `1.3.230`.
     pub api: String,
     /// Subgroup size.
     pub subgroup_size: u32,
-    /// Bytes of device-local memory.
+    /// Size of device-local memory in bytes.
     pub memory_bytes: u64,
-    /// Everything that it lacks; empty if it will do.
+    /// Everything that the device lacks; empty if it is suitable.
     pub missing: Vec<String>,
 }
 
@@ -85,10 +85,10 @@ impl Instance {
     /// Loads Vulkan and creates an instance.
     ///
     /// # Errors
-    /// [`VulkanError::NoLoader`] without a loader, [`VulkanError::NoValidation`] where validation is asked for
-    /// and not installed, [`VulkanError::Call`] otherwise.
+    /// [`VulkanError::NoLoader`] without a loader, [`VulkanError::NoValidation`] if the validation layer is asked for
+    /// and not installed, otherwise [`VulkanError::Call`].
     pub fn new(options: InstanceOptions) -> Result<Arc<Self>, VulkanError> {
-        // SAFETY: loading the system's Vulkan loader runs its initialisers, which any Vulkan program trusts.
+        // SAFETY: loading the Vulkan loader runs its initialisers, as in any Vulkan program.
         let entry =
             unsafe { ash::Entry::load() }.map_err(|e| VulkanError::NoLoader(e.to_string()))?;
         let application = vk::ApplicationInfo::default()
@@ -121,7 +121,7 @@ impl Instance {
         let listed = has
             .iter()
             .any(|extension| extension.extension_name_as_c_str() == Ok(name));
-        // The layer has it where no driver does.
+        // If no driver has the extension, the layer has it.
         let has_debug_utils = listed || options.validation;
         if has_debug_utils {
             extensions.push(name.as_ptr());
@@ -133,9 +133,9 @@ impl Instance {
         if options.validation {
             info = info.push_next(&mut features);
         }
-        // SAFETY: `info` and all it points to live until after the call.
+        // SAFETY: `info` and everything to which it points live until after the call.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|e| match e {
-            // The loader says so when it finds no driver at all.
+            // The loader returns this error if it finds no driver.
             vk::Result::ERROR_INCOMPATIBLE_DRIVER => VulkanError::NoDevice {
                 asked: None,
                 found: "no driver was found".to_owned(),
@@ -155,7 +155,7 @@ impl Instance {
                 )
                 .pfn_user_callback(Some(on_message))
                 .user_data(Arc::as_ptr(&messages).cast_mut().cast());
-            // SAFETY: the messages outlive the messenger: `Drop` destroys it before they go.
+            // SAFETY: the messages outlive the messenger, which `Drop` destroys first.
             let messenger = unsafe { loader.create_debug_utils_messenger(&info, None) }
                 .map_err(VulkanError::of("vkCreateDebugUtilsMessengerEXT"))?;
             Some((loader, messenger))
@@ -171,7 +171,7 @@ impl Instance {
         }))
     }
 
-    /// Everything the validation layer has said so far.
+    /// Messages of the validation layer so far.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
         self.messages
@@ -181,7 +181,7 @@ impl Instance {
             .unwrap_or_default()
     }
 
-    /// Every device, suitable or not.
+    /// Descriptions of all devices, suitable or not.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if devices can't be enumerated.
@@ -197,7 +197,7 @@ impl Instance {
         // SAFETY: the instance is alive.
         match unsafe { self.raw.enumerate_physical_devices() } {
             Ok(devices) => Ok(devices),
-            // The loader says so when it finds no driver at all.
+            // The loader returns this error if it finds no driver.
             Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Ok(Vec::new()),
             Err(e) => Err(VulkanError::of("vkEnumeratePhysicalDevices")(e)),
         }
@@ -209,8 +209,8 @@ impl Instance {
         let mut properties = vk::PhysicalDeviceProperties2::default()
             .push_next(&mut driver)
             .push_next(&mut subgroup);
-        // SAFETY: the device belongs to this instance, created for 1.3; chained structures of a version that the
-        // device lacks are left at their defaults.
+        // SAFETY: the device belongs to this instance, which was created for Vulkan 1.3; chained structures that the
+        // device does not know keep their defaults.
         let memory = unsafe {
             self.raw
                 .get_physical_device_properties2(device, &mut properties);
@@ -256,23 +256,24 @@ impl Instance {
         }
     }
 
-    /// Creates a device: the first suitable one whose name contains `name` (ignoring case), or, without a name,
-    /// the best by kind: discrete, integrated, virtual, CPU.
+    /// Creates a device: the first suitable one whose name contains `name` (ignoring case), or, without a name, the
+    /// best by kind: discrete, integrated, virtual, CPU.
     ///
     /// # Errors
     /// [`VulkanError::NoDevice`] lists every device and what it lacks; [`VulkanError::Call`] if creation fails.
     pub fn create_gpu(self: &Arc<Self>, name: Option<&str>) -> Result<Arc<Gpu>, VulkanError> {
-        // SAFETY: limits stay as they are.
+        // SAFETY: the function changes no limit.
         unsafe { self.create_gpu_within(name, |_| ()) }
     }
 
-    /// As [`Instance::create_gpu`], with limits that `lower` has lowered: so one device stands for others.
+    /// Creates a device as [`Instance::create_gpu`] does, with limits that `lower` reduces, to simulate weaker
+    /// devices.
     ///
     /// # Errors
     /// As [`Instance::create_gpu`].
     ///
     /// # Safety
-    /// `lower` gives the device nothing that it has not.
+    /// `lower` raises no limit and adds no feature.
     pub(crate) unsafe fn create_gpu_within(
         self: &Arc<Self>,
         name: Option<&str>,
@@ -335,20 +336,21 @@ impl Instance {
                 .enabled_extension_names(&extensions)
                 .push_next(&mut conditional);
         }
-        // SAFETY: the physical device has everything asked for, as checked above.
+        // SAFETY: the physical device has all requested features, as checked above.
         let device = unsafe { self.raw.create_device(physical_device, &info, None) }
             .map_err(VulkanError::of("vkCreateDevice"))?;
         let mut host = Host::new(self.raw.clone(), physical_device, device, queue_family);
         host.conditional_rendering = limits.conditional_rendering;
         host.debug_utils = self.has_debug_utils;
-        // SAFETY: the handles are alive, belong together, and the Gpu keeps the instance and owns the device.
+        // SAFETY: the handles are alive and belong together; the Gpu keeps the instance and owns the device.
         unsafe { Gpu::owning(host, Some(self.clone()), limits) }
     }
 }
 
 impl Drop for Instance {
     fn drop(&mut self) {
-        // SAFETY: devices hold an `Arc` of the instance, so none is left; the messenger goes before the instance.
+        // SAFETY: devices hold an `Arc` of the instance, so that none is left; the messenger is destroyed before the
+        // instance.
         unsafe {
             if let Some((loader, messenger)) = self.debug.take() {
                 loader.destroy_debug_utils_messenger(messenger, None);

@@ -1,18 +1,18 @@
-//! What shaders say of their interface.
+//! Interfaces of shaders.
 
 use super::Constants;
 use ash::vk;
 
-/// What a set shows in one place.
+/// Binding of a descriptor set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// Its number in the set.
+    /// Number of the binding in its set.
     pub number: u32,
-    /// Its name in the shaders.
+    /// Name of the binding in the shaders.
     pub name: &'static str,
-    /// How it is shown.
+    /// Type of the descriptors.
     pub kind: vk::DescriptorType,
-    /// Elements of an array of descriptors.
+    /// Number of descriptors; more than 1 for an array.
     pub count: u32,
 }
 
@@ -32,63 +32,63 @@ impl Binding {
     }
 }
 
-/// What a shader does with what is bound, whatever its constants are.
+/// Access of a shader to a binding, for any values of its constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// Nothing but reading it.
+    /// Reads only.
     Read,
-    /// Nothing but writing it.
+    /// Writes only.
     Write,
-    /// Both.
+    /// Reads and writes.
     ReadWrite,
 }
 
-/// A binding that a shader uses.
+/// Use of a binding by a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Use {
-    /// The number of its set.
+    /// Number of the set.
     pub set: u32,
     /// The binding.
     pub binding: Binding,
-    /// What is done with it.
+    /// Access to the binding.
     pub access: Access,
 }
 
-/// How many invocations a workgroup has.
+/// Number of invocations of a workgroup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Invocations {
-    /// So many.
+    /// A fixed number.
     Fixed(u32),
-    /// As many as a specialisation constant says.
+    /// Value of a specialisation constant.
     Constant,
-    /// The shader is one of a graphics pipeline.
+    /// None: the shader belongs to a graphics pipeline.
     Drawn,
 }
 
-/// What a shader uses, all its variants together.
+/// Interface of a shader over all of its variants.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Interface {
-    /// Its name: that of its file, and of its stage where it is drawn with.
+    /// Name of the shader's file, with its stage for shaders that draw.
     pub name: &'static str,
-    /// The bindings that it uses, by set and number.
+    /// Bindings that the shader uses, by set and number.
     pub uses: &'static [Use],
-    /// Bytes that are pushed to it.
+    /// Number of bytes of its push constants.
     pub push_bytes: u32,
-    /// Invocations of a workgroup.
+    /// Number of invocations of a workgroup.
     pub invocations: Invocations,
 }
 
-/// The specialisation constants of a shader.
+/// Specialisation constants of a shader.
 pub trait Specialized {
-    /// The shader's interface.
+    /// Interface of the shader.
     const INTERFACE: &'static Interface;
 
-    /// The constants by their IDs.
+    /// Values of the constants by ID.
     fn constants(&self) -> Constants;
 }
 
-/// The same of a shader that is compiled once.
+/// Specialisation constants of a shader with a single compiled variant.
 pub trait Compiled: Specialized {
-    /// Its SPIR-V.
+    /// SPIR-V of the shader.
     fn code() -> &'static [u8];
 }

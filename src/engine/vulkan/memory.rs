@@ -6,21 +6,22 @@ use ash::vk;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Where memory lies.
+/// Kind of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemoryUse {
-    /// On the device.
+    /// Device memory.
     Device,
-    /// Written by the host, read by the device.
+    /// Memory that the host writes and the device reads.
     Upload,
-    /// Written by the device, read by the host.
+    /// Memory that the device writes and the host reads.
     Readback,
 }
 
-/// Counts the bytes of what is made through it, until that is dropped, and refuses to pass a bound.
+/// Allocator that counts the bytes of everything made through it, and refuses to exceed a limit.
 ///
-/// Sizes, formats and usage are trusted to be such as the device takes, and buffers and images to be dropped, read and written
-/// by the CPU while no commands use them alone. So none is made outside of the crate; see `crate::testing`.
+/// The functions trust that sizes, formats and usage are valid for the device, and that buffers and images are
+/// dropped, read and written by the CPU only while no commands use them. Therefore none can be made outside of the
+/// crate; see `crate::testing`.
 #[derive(Clone)]
 pub struct Memory {
     gpu: Arc<Gpu>,
@@ -32,7 +33,7 @@ struct Account {
     limit: u64,
 }
 
-/// Memory of one buffer or image, freed and taken off the account when it is dropped.
+/// Memory of a buffer or image, which is freed and no longer counted once this is dropped.
 struct Block {
     gpu: Arc<Gpu>,
     account: Arc<Account>,
@@ -50,7 +51,7 @@ impl Drop for Block {
 }
 
 impl Memory {
-    /// An account of at most `limit` bytes.
+    /// Allocator of at most `limit` bytes.
     #[must_use]
     pub(crate) fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
         Self {
@@ -62,13 +63,13 @@ impl Memory {
         }
     }
 
-    /// The device.
+    /// Device of the memory.
     #[must_use]
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
     }
 
-    /// Bytes allocated through this account and not yet freed.
+    /// Bytes that are allocated at present.
     #[must_use]
     pub fn used(&self) -> u64 {
         self.account.used.load(Ordering::Relaxed)
@@ -110,7 +111,7 @@ impl Memory {
     /// Makes a buffer of at least `size` bytes, and at least 16.
     ///
     /// # Errors
-    /// [`VulkanError::OutOfMemory`] past the account's bound or the device's memory.
+    /// [`VulkanError::OutOfMemory`] if the limit or the device's memory is exceeded.
     pub fn buffer(
         &self,
         name: &str,
@@ -120,7 +121,7 @@ impl Memory {
     ) -> Result<Buffer, VulkanError> {
         let size = size.max(16);
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
-        // SAFETY: the device is alive as long as the Gpu; on failure below nothing but the handle is leaked to `Drop`.
+        // SAFETY: the device is alive as long as the Gpu. After a failure below, `Drop` destroys the handle.
         let raw = unsafe { self.gpu.device.create_buffer(&info, None) }
             .map_err(VulkanError::of("vkCreateBuffer"))?;
         self.gpu.name(raw, name);
@@ -146,10 +147,10 @@ impl Memory {
         Ok(buffer)
     }
 
-    /// A buffer that shaders read and write as a whole.
+    /// Makes a buffer that shaders access as a whole.
     ///
     /// # Errors
-    /// [`VulkanError::TooLarge`] past the device's `maxStorageBufferRange`, else as [`Memory::buffer`].
+    /// [`VulkanError::TooLarge`] above the device's `maxStorageBufferRange`, otherwise as [`Memory::buffer`].
     pub(crate) fn storage_buffer(
         &self,
         name: &str,
@@ -162,7 +163,7 @@ impl Memory {
         self.buffer(name, size, usage, location)
     }
 
-    /// A buffer that holds `bytes`, to be copied from by the device.
+    /// Makes a buffer with the contents `bytes`, as a source of copies.
     ///
     /// # Errors
     /// As [`Memory::buffer`]; also if the driver does not map the buffer.
@@ -170,7 +171,7 @@ impl Memory {
         self.filled(name, bytes, vk::BufferUsageFlags::TRANSFER_SRC)
     }
 
-    /// A buffer of the host's that holds `bytes`.
+    /// Makes a buffer in host memory with the contents `bytes`.
     ///
     /// # Errors
     /// As [`Memory::upload`].
@@ -191,10 +192,10 @@ impl Memory {
         Ok(buffer)
     }
 
-    /// A buffer of `elements` texels of `format` and its view.
+    /// Makes a buffer of `elements` texels of `format`, and its view.
     ///
     /// # Errors
-    /// [`VulkanError::TooLarge`] past the device's `maxTexelBufferElements`, else as [`Memory::buffer`].
+    /// [`VulkanError::TooLarge`] above the device's `maxTexelBufferElements`, otherwise as [`Memory::buffer`].
     pub fn texel_buffer(
         &self,
         name: &str,
@@ -221,7 +222,7 @@ impl Memory {
         Ok(BufferView { buffer, view })
     }
 
-    /// An image with one view of all its levels and layers; a cube where it may be one.
+    /// Makes an image with a view of all its levels and layers; a cube if the image is compatible with that.
     ///
     /// # Errors
     /// As [`Memory::buffer`].
@@ -231,7 +232,7 @@ impl Memory {
         info: &vk::ImageCreateInfo<'_>,
         aspect: vk::ImageAspectFlags,
     ) -> Result<Image, VulkanError> {
-        // SAFETY: `info` is valid for the device, whose limits callers have checked.
+        // SAFETY: `info` is valid for the device; callers have checked its limits.
         let raw = unsafe { self.gpu.device.create_image(info, None) }
             .map_err(VulkanError::of("vkCreateImage"))?;
         self.gpu.name(raw, name);
@@ -283,13 +284,13 @@ impl Memory {
 pub struct Buffer {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Buffer,
-    /// Freed after the handle is destroyed.
+    /// Memory of the buffer, freed after the handle is destroyed.
     block: Option<Block>,
     size: u64,
 }
 
 impl Buffer {
-    /// The handle.
+    /// Handle of the buffer.
     #[must_use]
     pub fn handle(&self) -> vk::Buffer {
         self.raw
@@ -301,7 +302,7 @@ impl Buffer {
         self.size
     }
 
-    /// The mapped bytes; empty for device memory that the host can't see, or not without flushing it.
+    /// Mapped bytes; empty for device memory that the host can't access, or only with flushing.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         self.block
@@ -311,10 +312,10 @@ impl Buffer {
             .unwrap_or(&[])
     }
 
-    /// The first `count` values of a read-back.
+    /// First `count` values of a read-back.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if the driver did not map the buffer, or it holds fewer.
+    /// [`VulkanError::Call`] if the driver did not map the buffer, or it holds fewer values.
     pub fn read<T: bytemuck::AnyBitPattern>(&self, count: usize) -> Result<&[T], VulkanError> {
         self.bytes()
             .get(..count * size_of::<T>())
@@ -325,7 +326,7 @@ impl Buffer {
             })
     }
 
-    /// The mapped bytes, to be written before the device reads them; empty as [`Buffer::bytes`].
+    /// Mapped bytes, to be written before the device reads them; empty in the same cases as [`Buffer::bytes`].
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         let size = self.size as usize;
         self.block
@@ -338,14 +339,14 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        // SAFETY: owners drop a buffer only after the frames that use it are done.
+        // SAFETY: owners drop a buffer only after the frames that use it have run.
         unsafe { self.gpu.device.destroy_buffer(self.raw, None) };
     }
 }
 
-/// A buffer seen as texels.
+/// A buffer with a view of its texels.
 pub struct BufferView {
-    /// The buffer.
+    /// The viewed buffer.
     pub buffer: Buffer,
     pub(crate) view: vk::BufferView,
 }
@@ -357,15 +358,17 @@ impl Drop for BufferView {
     }
 }
 
-/// Texels of a buffer that belongs to someone else.
+/// View of the texels of a buffer with another owner.
 pub(crate) struct TexelView {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::BufferView,
 }
 
 impl TexelView {
+    /// Makes a view of `buffer`.
+    ///
     /// # Safety
-    /// The buffer is alive, of the device, made for uniform texel access, and outlives the view.
+    /// The buffer is alive, belongs to the device, was created for uniform texel access, and outlives the view.
     pub unsafe fn new(
         gpu: &Arc<Gpu>,
         buffer: vk::Buffer,
@@ -378,7 +381,7 @@ impl TexelView {
             .format(format)
             .offset(offset)
             .range(bytes);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let raw = unsafe { gpu.device.create_buffer_view(&info, None) }
             .map_err(VulkanError::of("vkCreateBufferView"))?;
         Ok(Self {
@@ -390,7 +393,7 @@ impl TexelView {
 
 impl Drop for TexelView {
     fn drop(&mut self) {
-        // SAFETY: owners drop a view only after the frames that use it are done.
+        // SAFETY: owners drop a view only after the frames that use it have run.
         unsafe { self.gpu.device.destroy_buffer_view(self.raw, None) };
     }
 }
@@ -400,7 +403,7 @@ pub struct Image {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Image,
     pub(crate) view: vk::ImageView,
-    /// Freed after the handles are destroyed.
+    /// Memory of the image, freed after the handles are destroyed.
     _block: Option<Block>,
     /// Width and height of level 0.
     pub extent: vk::Extent2D,
@@ -411,19 +414,19 @@ pub struct Image {
 }
 
 impl Image {
-    /// The handle.
+    /// Handle of the image.
     #[must_use]
     pub fn handle(&self) -> vk::Image {
         self.raw
     }
 
-    /// The view of all of it.
+    /// View of all levels and layers.
     #[must_use]
     pub fn view(&self) -> vk::ImageView {
         self.view
     }
 
-    /// All of the image.
+    /// Subresource range of all levels and layers.
     pub fn range(&self) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             aspect_mask: self.aspect,
@@ -437,7 +440,7 @@ impl Image {
 
 impl Drop for Image {
     fn drop(&mut self) {
-        // SAFETY: owners drop an image only after the frames that use it are done.
+        // SAFETY: owners drop an image only after the frames that use it have run.
         unsafe {
             self.gpu.device.destroy_image_view(self.view, None);
             self.gpu.device.destroy_image(self.raw, None);

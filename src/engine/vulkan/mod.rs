@@ -1,6 +1,7 @@
-//! A thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
+//! Thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
 //!
-//! Hosts see devices alone. Memory, pipelines and commands are the crate's own: their functions trust what they are given.
+//! Only devices are visible to hosts. Memory, pipelines and commands are internal to the crate, because their
+//! functions trust their arguments.
 
 mod allocation;
 mod barriers;

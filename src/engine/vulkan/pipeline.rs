@@ -11,10 +11,10 @@ struct Shader {
 }
 
 impl Shader {
-    /// From SPIR-V bytes of the crate's own.
+    /// Makes a module from SPIR-V bytes of the crate.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if the bytes are no SPIR-V or the driver refuses them.
+    /// [`VulkanError::Call`] if the bytes are not SPIR-V or the driver refuses them.
     fn new(gpu: &Arc<Gpu>, spirv: &[u8]) -> Result<Self, VulkanError> {
         let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv)).map_err(|_| {
             VulkanError::Call {
@@ -40,14 +40,14 @@ impl Drop for Shader {
     }
 }
 
-/// Values of specialisation constants by ID; every one is 4 bytes.
+/// Values of specialisation constants by ID; every value has 4 bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Constants {
     entries: Vec<(u32, u32)>,
 }
 
 impl Constants {
-    /// No constants.
+    /// Makes an empty list of constants.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -66,7 +66,7 @@ impl Constants {
         self.with(id, u32::from(value))
     }
 
-    /// The layout and data that Vulkan takes.
+    /// Layout and data of the constants, as Vulkan takes them.
     pub(crate) fn packed(&self) -> (Vec<vk::SpecializationMapEntry>, Vec<u8>) {
         let map = self
             .entries
@@ -87,7 +87,7 @@ impl Constants {
     }
 }
 
-/// A pipeline.
+/// A compute or graphics pipeline.
 pub struct Pipeline {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Pipeline,
@@ -109,14 +109,14 @@ impl Pipeline {
         }
     }
 
-    /// The same, with what its shader says of itself; debuggers see the shader's name.
+    /// Sets the interface of the pipeline's shader, and names the pipeline like the shader for debuggers.
     pub(crate) fn of(mut self, interface: &'static Interface) -> Self {
         self.gpu.name(self.raw, interface.name);
         self.interface = Some(interface);
         self
     }
 
-    /// What its shader says of itself.
+    /// Interface of the shader, if it was set.
     pub(crate) fn interface(&self) -> Option<&'static Interface> {
         self.interface
     }
@@ -124,12 +124,13 @@ impl Pipeline {
 
 impl Drop for Pipeline {
     fn drop(&mut self) {
-        // SAFETY: owners drop a pipeline only after the frames that use it are done.
+        // SAFETY: owners drop a pipeline only after the frames that use it have run.
         unsafe { self.gpu.device.destroy_pipeline(self.raw, None) };
     }
 }
 
-/// A compute pipeline of a shader of the crate's own; `subgroup` fixes the size of its subgroups where the kernel counts on it.
+/// Makes a compute pipeline of a shader of the crate; `subgroup` fixes the size of its subgroups, for kernels that
+/// depend on it.
 ///
 /// # Errors
 /// [`VulkanError::Call`] if the driver refuses it.
@@ -158,7 +159,7 @@ pub(crate) fn compute_pipeline(
     let info = vk::ComputePipelineCreateInfo::default()
         .layout(layout)
         .stage(stage);
-    // SAFETY: the layout covers what the crate's shader binds; all structures live until after the call.
+    // SAFETY: the layout covers the bindings of the crate's shader; all structures live until after the call.
     let pipelines = unsafe {
         gpu.device
             .create_compute_pipelines(gpu.pipeline_cache, &[info], None)
@@ -168,23 +169,23 @@ pub(crate) fn compute_pipeline(
     Ok(Pipeline::from_raw(gpu, raw, vk::PipelineBindPoint::COMPUTE))
 }
 
-/// A graphics pipeline of triangles without vertex buffers, into one image and, if it has a format, a depth image in which
-/// larger is nearer. Viewport and scissor are dynamic.
+/// Graphics pipeline of triangles without vertex buffers, into one image and, if it has a format, a depth image in
+/// which larger values are nearer. Viewport and scissor are dynamic.
 pub(crate) struct GraphicsPipeline<'a> {
-    /// SPIR-V of both shaders.
+    /// SPIR-V of the vertex and the fragment shader.
     pub vertex: &'a [u8],
     pub fragment: &'a [u8],
-    /// Of both shaders; a shader takes those that it has.
+    /// Constants of both shaders; each shader takes those that it declares.
     pub constants: &'a Constants,
     pub samples: vk::SampleCountFlags,
     pub color: vk::Format,
     pub depth: Option<vk::Format>,
-    /// What is dynamic beside viewport and scissor.
+    /// Dynamic state besides viewport and scissor.
     pub dynamic: &'a [vk::DynamicState],
 }
 
 impl GraphicsPipeline<'_> {
-    /// Makes it.
+    /// Makes the pipeline.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the driver refuses it.

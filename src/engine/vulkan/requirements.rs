@@ -1,57 +1,57 @@
-//! What the renderer needs of a device, known before one is made.
+//! Requirements for a device, which can be checked before one is made.
 
 use super::VulkanError;
 use ash::vk;
 
-/// What a user does about a missing driver.
+/// Advice for a user without a suitable driver.
 pub const MISSING_DRIVER_HELP: &str = "Install a Vulkan 1.3 driver; without a GPU, Mesa's software driver serves (Debian: apt-get install libvulkan1 mesa-vulkan-drivers)";
 
-/// Something that a device lacks.
+/// A requirement that a device lacks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Missing {
-    /// The API version is too low.
+    /// API version that is too low.
     #[error("Vulkan 1.3 (it has {major}.{minor})")]
     Version {
-        /// Major version found.
+        /// Major version of the device.
         major: u32,
-        /// Minor version found.
+        /// Minor version of the device.
         minor: u32,
     },
-    /// A feature is absent.
+    /// Name of a missing feature.
     #[error("the feature {0}")]
     Feature(&'static str),
-    /// The instance was created for a version that has no queries of features; a device says nothing of its own through it.
+    /// Instance that was created for a version without queries of features, so that the device can't be checked.
     #[error("an instance created for Vulkan 1.3 (its VkApplicationInfo::apiVersion is 1.0)")]
     Instance,
-    /// No queue family does both graphics and compute.
+    /// Queue family with both graphics and compute.
     #[error("a queue family with graphics and compute")]
     Queue,
-    /// Subgroups of compute shaders lack an operation.
+    /// Name of a subgroup operation that compute shaders lack.
     #[error("subgroup {0} operations in compute shaders")]
     Subgroup(&'static str),
-    /// Subgroups are too small.
+    /// Subgroup size that is too small.
     #[error("subgroups of 4 invocations or more (it has {0})")]
     SubgroupSize(u32),
-    /// A format can't be used as needed.
+    /// Name of a format, and the use that it does not support.
     #[error("the format {0} as {1}")]
     Format(&'static str, &'static str),
-    /// A limit is too low.
+    /// Limit that is too low.
     #[error("{name} of at least {needed} (it has {found})")]
     Limit {
-        /// The limit's name in the specification.
+        /// Name of the limit in the specification.
         name: &'static str,
-        /// The least that will do.
+        /// Smallest value that suffices.
         needed: u64,
-        /// What the device has.
+        /// Value of the device.
         found: u64,
     },
 }
 
-/// The version and features that the renderer uses. It needs no extension.
+/// Version and features that the renderer needs. It needs no extension.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Requirements;
 
-/// Formats and what they must do in linear images or texel buffers.
+/// Formats, and the features that they need for linear images or texel buffers.
 const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
     (
         vk::Format::R32G32_UINT,
@@ -98,18 +98,18 @@ const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
 ];
 
 impl Requirements {
-    /// The API version to create the instance and device with.
+    /// API version for which to create instance and device.
     pub const API_VERSION: u32 = vk::API_VERSION_1_3;
-    /// Storage buffers that a pipeline's layout shows to a stage.
+    /// Number of storage buffers in a pipeline layout that are visible to one stage.
     pub(crate) const STORAGE_BUFFERS: u32 = 20;
-    /// Images and texel buffers that it shows to be read.
+    /// Number of sampled images and texel buffers that are visible to one stage.
     pub(crate) const SAMPLED_IMAGES: u32 = 47;
-    /// All that it shows, and an attachment.
+    /// Number of all resources that are visible to one stage, including an attachment.
     pub(crate) const RESOURCES: u32 = 74;
 
-    /// Features to enable at device creation, as they stand in Vulkan 1.3's structures:
-    /// `dynamicRendering`, `synchronization2`, `maintenance4`, `subgroupSizeControl` and
-    /// `shaderDemoteToHelperInvocation` (the compiler's form of `discard`).
+    /// Features to enable when creating a device, in Vulkan 1.3's structure: `dynamicRendering`, `synchronization2`,
+    /// `maintenance4`, `subgroupSizeControl` and `shaderDemoteToHelperInvocation` (to which the compiler translates
+    /// `discard`).
     pub fn features13() -> vk::PhysicalDeviceVulkan13Features<'static> {
         vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -119,8 +119,9 @@ impl Requirements {
             .shader_demote_to_helper_invocation(true)
     }
 
-    /// Whether the physical device has `VK_EXT_conditional_rendering` and its feature `conditionalRendering`. It is not needed. A
-    /// device with both enabled skips the rounds of a frame that have nothing to do; see [`Host::conditional_rendering`].
+    /// Whether the physical device has `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, which
+    /// are optional. A device with both enabled skips the rounds of a frame that have nothing to do; see
+    /// [`Host::conditional_rendering`].
     ///
     /// [`Host::conditional_rendering`]: super::Host::conditional_rendering
     ///
@@ -131,7 +132,7 @@ impl Requirements {
         instance: &ash::Instance,
         device: vk::PhysicalDevice,
     ) -> bool {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
         let name = ash::ext::conditional_rendering::NAME;
         if !extensions
@@ -143,15 +144,15 @@ impl Requirements {
         }
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
         let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut conditional);
-        // SAFETY: as above; the device knows the chained structure, which lives until after the call.
+        // SAFETY: guaranteed by the caller; the device knows the chained structure, which lives until after the call.
         unsafe { instance.get_physical_device_features2(device, &mut features) };
         conditional.conditional_rendering == vk::TRUE
     }
 
-    /// Refuses a device of an earlier version than Vulkan 1.3. Any instance will do.
+    /// Checks that the version of the device is at least Vulkan 1.3. The instance may have any version.
     ///
     /// # Errors
-    /// [`Missing::Version`].
+    /// [`Missing::Version`] for an earlier version.
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive.
@@ -159,7 +160,7 @@ impl Requirements {
         instance: &ash::Instance,
         device: vk::PhysicalDevice,
     ) -> Result<(), Missing> {
-        // SAFETY: passed on to the caller; a query of Vulkan 1.0.
+        // SAFETY: guaranteed by the caller; the function is of Vulkan 1.0.
         let version = unsafe { instance.get_physical_device_properties(device) }.api_version;
         if version < Self::API_VERSION {
             return Err(Missing::Version {
@@ -170,10 +171,11 @@ impl Requirements {
         Ok(())
     }
 
-    /// Refuses a device without functions of Vulkan 1.3, as one whose instance was created for an earlier version.
+    /// Checks that the device has functions of Vulkan 1.3; if its instance was created for an earlier version, it has
+    /// none.
     ///
     /// # Errors
-    /// [`VulkanError::NoFunction`].
+    /// [`VulkanError::NoFunction`] for a missing function.
     ///
     /// # Safety
     /// The device belongs to the instance; both are alive.
@@ -182,18 +184,18 @@ impl Requirements {
         device: vk::Device,
     ) -> Result<(), VulkanError> {
         for name in [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"] {
-            // SAFETY: passed on to the caller; the name ends with a zero.
+            // SAFETY: guaranteed by the caller; the name ends with a zero.
             let found = unsafe { instance.get_device_proc_addr(device, name.as_ptr()) };
             found.ok_or(VulkanError::NoFunction(name.to_str().unwrap_or_default()))?;
         }
         Ok(())
     }
 
-    /// Refuses an instance that was created for an earlier version than Vulkan 1.3. Loaders don't tell, so that a device is
-    /// made and destroyed again.
+    /// Checks that the instance was created for Vulkan 1.3 or later. A loader does not tell the version, so the
+    /// function creates a device, checks its functions and destroys it.
     ///
     /// # Errors
-    /// As [`Self::check_functions`]; [`VulkanError::Call`] if the driver makes no device.
+    /// [`VulkanError::NoFunction`] for an earlier version; [`VulkanError::Call`] if the driver creates no device.
     ///
     /// # Safety
     /// The physical device has the queue family and belongs to the instance, which is alive.
@@ -207,7 +209,7 @@ impl Requirements {
             .queue_family_index(queue_family)
             .queue_priorities(&[1.0])];
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
-        // SAFETY: passed on to the caller; nothing is made with the device.
+        // SAFETY: guaranteed by the caller; nothing is made with the device.
         unsafe {
             let made = instance
                 .create_device(device, &info, None)
@@ -218,7 +220,7 @@ impl Requirements {
         }
     }
 
-    /// Everything that the physical device lacks; empty if it will do.
+    /// Everything that the physical device lacks; empty if it is suitable.
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive and was created for [`Self::API_VERSION`] or later.
@@ -227,7 +229,7 @@ impl Requirements {
         let mut missing = Vec::new();
         let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
         let mut size_control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         if let Err(version) = unsafe { Self::check_version(instance, device) } {
             return vec![version];
         }
@@ -239,7 +241,7 @@ impl Requirements {
         // SAFETY: the device has Vulkan 1.3; the chained structures live until after the call.
         unsafe { instance.get_physical_device_properties2(device, &mut properties2) };
         let limits = properties2.properties.limits;
-        // Loaders answer the query themselves for instances of Vulkan 1.0, and leave what is chained to it alone.
+        // For instances of Vulkan 1.0, loaders answer the query themselves and ignore chained structures.
         if driver.driver_id.as_raw() == 0 {
             return vec![Missing::Instance];
         }
@@ -262,7 +264,7 @@ impl Requirements {
                 missing.push(Missing::Feature(name));
             }
         }
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         if unsafe { Self::queue_family(instance, device) }.is_none() {
             missing.push(Missing::Queue);
         }
@@ -314,7 +316,7 @@ impl Requirements {
         missing
     }
 
-    /// The first queue family with graphics and compute.
+    /// Index of the first queue family with graphics and compute.
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive.
@@ -323,7 +325,7 @@ impl Requirements {
         instance: &ash::Instance,
         device: vk::PhysicalDevice,
     ) -> Option<u32> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
         families
             .iter()
@@ -331,7 +333,7 @@ impl Requirements {
             .and_then(|i| u32::try_from(i).ok())
     }
 
-    /// Whether the device has that queue family, with graphics and compute.
+    /// Whether the device has a queue family with this index, with graphics and compute.
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive.
@@ -340,13 +342,13 @@ impl Requirements {
         device: vk::PhysicalDevice,
         family: u32,
     ) -> bool {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
         families.get(family as usize).is_some_and(is_fit)
     }
 }
 
-/// Whether queues of a family take all commands that the crate records.
+/// Whether queues of a family support all commands that the crate records.
 fn is_fit(family: &vk::QueueFamilyProperties) -> bool {
     let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
     family.queue_flags.contains(both)

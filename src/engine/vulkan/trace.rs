@@ -1,28 +1,28 @@
-//! What was recorded, for who asks.
+//! Trace of recorded dispatches, on request.
 
 use super::{Access, Gpu, Interface, Pipeline};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// How large a dispatch is.
+/// Size of a dispatch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dispatched {
-    /// The host knew the number of workgroups.
+    /// Number of workgroups, known to the host.
     Workgroups(u64),
-    /// The device reads it from this vector of the buffer of indirect dispatches.
+    /// Index of the vector in the buffer of indirect dispatches from which the device reads the size.
     Indirect(u32),
-    /// Triangles are drawn.
+    /// Draw of triangles.
     Drawn,
 }
 
-/// A dispatch, or draws of the same pipeline.
+/// A dispatch, or consecutive draws of the same pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Dispatch {
     pub interface: &'static Interface,
     pub size: Dispatched,
 }
 
-/// The dispatches recorded on a device while somebody asks for them.
+/// Dispatches that were recorded on a device while a trace is requested.
 #[derive(Default)]
 pub(crate) struct Trace {
     is_asked: AtomicBool,
@@ -30,7 +30,7 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// Whether dispatches are kept.
+    /// Whether a trace is requested.
     pub fn is_asked(&self) -> bool {
         self.is_asked.load(Ordering::Relaxed)
     }
@@ -47,7 +47,7 @@ impl Trace {
 }
 
 impl Gpu {
-    /// What is recorded on the device meanwhile, by whatever thread.
+    /// Calls `record`, and returns the dispatches that were recorded on the device in the meantime, by any thread.
     pub(crate) fn traced<T>(&self, record: impl FnOnce() -> T) -> (T, Vec<Dispatch>) {
         self.trace.is_asked.store(true, Ordering::Relaxed);
         let made = record();
@@ -65,8 +65,8 @@ impl Gpu {
 }
 
 impl Interface {
-    /// What is read, or written, in the order of bindings: data that is bound twice, as a texel buffer to be read and as a storage
-    /// buffer to be written, has one name.
+    /// Names of the data with this access, in the order of bindings. Data with two bindings, a texel buffer for
+    /// reading and a storage buffer for writing, has one name.
     pub(crate) fn data(&self, access: Access) -> Vec<&'static str> {
         let wanted = self
             .uses

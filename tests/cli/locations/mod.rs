@@ -1,5 +1,5 @@
-//! `gpc zoom`, `sample`, `panorama` and `project` of scenes: what they show, held against ordinary images, closed form
-//! and each other.
+//! `gpc zoom`, `sample`, `panorama` and `project` of scenes, compared with ordinary images, closed forms and each
+//! other.
 
 mod panorama;
 mod project;

@@ -1,4 +1,4 @@
-//! Panoramas, held against the directions that their pixels look in.
+//! Panoramas, compared with the directions in which their pixels look.
 
 use super::{linear, places};
 use crate::command::{asset, files, gpc};
@@ -7,7 +7,7 @@ use glam::DVec3;
 use gpc::camera::panorama::{Panorama, PanoramaProjection};
 use serde_json::json;
 
-/// A sphere of radius 5 around the origin, seen from inside, whose colour is its direction.
+/// A sphere of radius 5 around the origin, seen from inside, whose colour at each point is the direction of the point.
 fn sphere() -> Vec<u8> {
     const AROUND: u32 = 96;
     const DOWN: u32 = 48;
@@ -91,7 +91,7 @@ fn panoramas_show_every_direction_without_a_seam() {
                 continue;
             };
             let seen = DVec3::new(r, g, b) * 2.0 - DVec3::ONE;
-            // Pixels see several facets, each shaded once; a seam would be off by a pixel, a twentieth at the least.
+            // A pixel sees several facets, each shaded once. A seam would be wrong by a pixel, at least a twentieth.
             assert!(
                 seen.distance(expected) < 8e-3,
                 "{name} {place}: {seen} {expected}"

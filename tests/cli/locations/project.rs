@@ -1,4 +1,4 @@
-//! Frames of projectors, and how they add up on the wall.
+//! Frames of projectors, and their sum on the wall.
 
 use super::places;
 use crate::command::{asset, files, gpc};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 const FRAME: [u32; 2] = [150, 140];
 
-/// A keystone from a projector's pixels to the picture.
+/// Homography with keystone from a projector's pixels to the picture.
 fn keystone(x: f64, tilt: f64) -> DMat3 {
     DMat3::from_translation(DVec2::new(x, -3.0))
         * DMat3::from_cols_array(&[0.6, 0.02, tilt, -0.02, 0.72, 0.0, 0.0, 0.0, 1.0])
@@ -31,7 +31,7 @@ fn pairs(matrix: DMat3) -> Vec<Correspondence> {
     places.map(pair).collect()
 }
 
-/// The location of a projector with a bent lens.
+/// Location that a place on a projector with a bent lens lights.
 fn bent(place: DVec2) -> DVec2 {
     let way = place - DVec2::new(75.0, 70.0);
     let p =
@@ -39,7 +39,7 @@ fn bent(place: DVec2) -> DVec2 {
     p.truncate() / p.z
 }
 
-/// Light of several frames on the wall at a location of the picture.
+/// Light of several frames on the wall, at a location of the picture.
 fn landed(projectors: &[Projector], frames: &[Photograph], location: DVec2) -> Option<[f64; 3]> {
     let mut sum = [0.0; 3];
     let mut lit = false;
@@ -59,7 +59,7 @@ fn landed(projectors: &[Projector], frames: &[Photograph], location: DVec2) -> O
 fn projected_frames_add_up_to_the_picture_better_than_warped_ones() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("fence.glb");
-    // A planar projector with some noise and two outliers, and a bent one with a dense map.
+    // One projector is planar, with noise and two outliers; the other is bent, with a dense map.
     let mut csv = "x,y,u,v".to_owned();
     for (i, pair) in pairs(keystone(-4.0, 0.0005)).iter().enumerate() {
         let noise = 0.05 * (f64::from(i as u32) * 2.4).sin();
@@ -115,7 +115,7 @@ fn projected_frames_add_up_to_the_picture_better_than_warped_ones() {
     ];
     let frames = vec![read("f0.16.png"), read("f1.16.png")];
     assert_eq!(frames[0].size(), FRAME);
-    // The usual way: an ordinary image, warped.
+    // The usual method, for comparison, is to warp an ordinary image.
     let ordinary = read("picture.16.png");
     let warped: Vec<_> = truth
         .iter()

@@ -1,11 +1,11 @@
-//! Samples at locations of the user's own.
+//! Sampling at locations that the user gives.
 
 use super::{linear, places};
 use crate::command::{asset, files, gpc};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// Columns by name, and rows, of a CSV file.
+/// Names of the columns, and rows, of a CSV file.
 fn table(text: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
     let mut lines = text.lines();
     let names = lines.next().unwrap().split(',').collect();
@@ -39,7 +39,7 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
         let sample = ["sample", &scene, "--samples", "s.csv", "-o", out];
         gpc(folder.path(), &[&sample[..], &options].concat()).ok();
     }
-    // By row and column the samples are the image.
+    // Arranged by row and column, the samples form the image.
     let sample = [
         "sample",
         &scene,
@@ -76,7 +76,7 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
         assert!((normal - f64::from(u8::from(hit))).abs() < 1e-3);
     }
     assert!(rows.iter().filter(|row| row[8] == 1.0).count() > 2000);
-    // The rasterizer may put what is within 2^-7 pixel of an edge on the other side.
+    // The rasterizer may put places within 2^-7 pixel of an edge on the other side.
     assert!(different < 20, "{different}");
 
     let npy = std::fs::read(folder.path().join("a.npy")).unwrap();
@@ -94,7 +94,7 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
 fn antialiased_samples_are_means_of_their_surroundings() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("spheres.glb");
-    // A line across the picture, without rows and columns.
+    // Locations on a line across the picture, without rows and columns.
     let mut csv = "u,v".to_owned();
     for i in 0..200 {
         write!(csv, "\n{},24.3", f64::from(i) * 0.32).unwrap();

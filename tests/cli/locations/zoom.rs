@@ -1,4 +1,4 @@
-//! What zoomed images show of a region, and what is left of it when they are unzoomed.
+//! Zoomed images of a scene, and the images that unzooming them restores.
 
 use crate::command::{asset, gpc};
 use glam::DVec2;
@@ -35,16 +35,16 @@ fn a_zoomed_region_is_the_ordinary_image_of_what_it_shows() {
         let at =
             |image: &Photograph, x: u32, y: u32| image.pixels()[(y * image.size()[0] + x) as usize];
         let differs = |a: [f32; 4], b: [f32; 4]| {
-            // An EXR holds light that is not tone-mapped, so that only what is dark can be compared with a PNG.
+            // An EXR holds light that is not tone-mapped, so that only dark pixels can be compared with a PNG.
             let dark = |color: [f32; 4]| color.iter().take(3).all(|v| *v < 0.5);
             dark(a) && dark(b) && a.iter().zip(b).any(|(a, b)| (a - b).abs() > 0.01)
         };
-        // Within the border, where detection has the same neighbours.
+        // Inside of the border, detection has the same neighbours in both images.
         let inside = (1..29).flat_map(|y| (1..39).map(move |x| (x, y)));
         let wrong = inside
             .clone()
             .filter(|(x, y)| differs(at(&zoomed, 40 + x, 30 + y), at(&direct, *x, *y)));
-        // Locations agree but for rounding, which may move a sample over an edge.
+        // Locations agree except for rounding, which may move a sample across an edge.
         let wrong = wrong.count();
         assert!(wrong <= 3, "{aa}: {wrong}");
         let moved = inside
@@ -91,7 +91,7 @@ fn unzooming_comes_close_to_a_direct_render() {
             .unwrap()
     };
     let region = rmse("z.png", "z.direct.png", &[]);
-    // The same view of the ordinary image, enlarged, is what the zoom is better than.
+    // The zoom must be better than an enlargement of the ordinary image in the same view.
     let record = output::find_text(
         &std::fs::read(folder.path().join("z.png")).unwrap(),
         "gpc zoom",

@@ -1,4 +1,4 @@
-//! The camera family's model. Nothing here needs a device.
+//! Cameras, sampling sets and zooms. No test here needs a device.
 
 mod panorama;
 mod pinhole;

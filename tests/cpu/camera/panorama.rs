@@ -1,4 +1,4 @@
-//! Panoramas: directions against closed form, every pixel sampled once where it looks, and what can't be.
+//! Panoramas: directions in closed form, each pixel sampled once where it looks, and refused requests.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use gpc::camera::panorama::{Panorama, PanoramaError, PanoramaProjection};
@@ -36,7 +36,7 @@ fn directions_are_those_of_closed_form() {
         [1.0, 2.0_f64.sqrt(), -1.0],
     );
     let cylinder = panorama(Cylindrical, 180.0, [314, 200]);
-    // As high as it is away: a radian is 314 / pi pixels.
+    // The height equals the distance, so that a radian is 314 / pi pixels.
     let radian = 314.0 / std::f64::consts::PI;
     near(
         cylinder.look(DVec2::new(157.0, 100.0 - radian)),

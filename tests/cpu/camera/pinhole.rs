@@ -1,11 +1,11 @@
-//! The pinhole: against the renderer's camera, against itself, and what it refuses.
+//! The pinhole: compared with the renderer's camera and with itself, and refused requests.
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 use gpc::camera::{Camera, Pinhole, PinholeError, Projection};
 
 const SIZE: [u32; 2] = [320, 200];
 
-/// Perspective with and without a far plane, and orthographic, off the origin, turned and shifted.
+/// Perspective cameras with and without a far plane, and an orthographic one; moved, turned and shifted.
 fn cameras() -> Vec<Camera> {
     let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.7, -0.3, 0.2);
     let perspective = |far| Projection::Perspective {

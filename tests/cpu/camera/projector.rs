@@ -1,4 +1,4 @@
-//! Projectors: homographies with noise and outliers, dense maps, blend weights, and the loop through a simulated rig.
+//! Projectors: homographies with noise and outliers, dense maps, blend weights, and a simulated rig.
 
 use glam::{DMat3, DVec2};
 use gpc::camera::LocationMap;
@@ -8,7 +8,7 @@ use gpc::camera::projector::{
 
 const SIZE: [u32; 2] = [96, 64];
 
-/// Deterministic numbers from -1 to 1.
+/// Deterministic pseudo-random numbers from -1 to 1.
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
@@ -19,7 +19,7 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A projector at the place of the picture where `x` begins, with keystone.
+/// Homography of a projector with keystone, whose part of the picture starts at `x`.
 fn keystone(x: f64, tilt: f64) -> DMat3 {
     DMat3::from_translation(DVec2::new(x, 4.0))
         * DMat3::from_cols_array(&[1.1, 0.04, tilt, -0.05, 1.2, tilt * 0.5, 0.0, 0.0, 1.0])
@@ -37,7 +37,7 @@ fn pair(matrix: DMat3, place: DVec2) -> Correspondence {
     }
 }
 
-/// A grid of correspondences over the projector.
+/// Correspondences on a grid over the projector.
 fn grid(matrix: DMat3) -> Vec<Correspondence> {
     let places = (0..8).flat_map(|y| (0..8).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
     places
@@ -45,7 +45,7 @@ fn grid(matrix: DMat3) -> Vec<Correspondence> {
         .collect()
 }
 
-/// Largest distance over the projector.
+/// Largest distance between the two maps over the projector.
 fn error(homography: &Homography, matrix: DMat3) -> f64 {
     let places = grid(matrix).into_iter().map(|pair| DVec2::from(pair.place));
     let errors = places.map(|place| homography.location(place).distance(map(matrix, place)));
@@ -97,13 +97,13 @@ fn noise_is_averaged_and_outliers_are_left_out() {
             .all(|(_, agrees)| *agrees)
     );
     assert!(agree.iter().step_by(3).filter(|agrees| **agrees).count() < 3);
-    // The same seed gives the same result; the fit to all pairs is no match.
+    // The same seed gives the same result; the plain fit to all pairs is much worse.
     assert_eq!(
         Homography::fit_robust(&pairs, 1.5, 1).unwrap(),
         (fitted, agree)
     );
     assert!(error(&Homography::fit(&pairs).unwrap(), matrix) > 2.0);
-    // Where most are wrong there is no agreement.
+    // If most pairs are wrong, there is no agreement.
     for pair in &mut pairs {
         pair.location = [200.0 * random(), 200.0 * random()];
     }
@@ -121,7 +121,7 @@ fn what_determines_no_homography_is_refused() {
     let collinear: Vec<_> = (0..20).map(|t| line(f64::from(t))).collect();
     let refused = Homography::fit(&collinear);
     assert_eq!(refused, Err(ProjectorError::Collinear("projector")));
-    // All but one on a line.
+    // All points but one are on a line.
     let mut nearly = collinear.clone();
     nearly.push(pair(matrix, DVec2::new(0.0, 90.0)));
     assert!(matches!(
@@ -146,7 +146,7 @@ fn what_determines_no_homography_is_refused() {
     let mut broken = grid(matrix);
     broken[7].location[1] = f64::NAN;
     assert_eq!(Homography::fit(&broken), Err(ProjectorError::NotFinite(7)));
-    // A horizon at x = 50.
+    // This homography has its horizon at x = 50.
     let horizon = DMat3::from_cols_array(&[1.0, 0.0, -0.02, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     let places = [(1.0, 1.0), (30.0, 2.0), (2.0, 40.0), (33.0, 35.0)];
     let fitted = Homography::fit(&places.map(|place| pair(horizon, place.into()))).unwrap();
@@ -156,7 +156,7 @@ fn what_determines_no_homography_is_refused() {
     );
 }
 
-/// A lens that bends straight lines, in front of a homography.
+/// Map through a lens that bends straight lines, followed by a homography.
 fn distorted(matrix: DMat3, place: DVec2) -> DVec2 {
     let middle = DVec2::new(48.0, 32.0);
     let way = place - middle;
@@ -188,7 +188,7 @@ fn a_dense_map_is_inverted_where_it_is_lit() {
         None
     );
     assert_eq!(projector.place(DVec2::new(1e5, -1e5)), None);
-    // Dark pixels are left out of the set, and nothing is found there.
+    // Dark pixels are left out of the set, and no place is found for their locations.
     let mut locations: Vec<_> = (0..SIZE[0] * SIZE[1])
         .map(|i| {
             projector
@@ -213,14 +213,14 @@ fn a_dense_map_is_inverted_where_it_is_lit() {
     ));
 }
 
-/// What the wall should show, as a function of the location.
+/// Light that the wall should show at a location.
 fn ideal(location: DVec2) -> f64 {
     0.5 + 0.3 * (location.x * 0.11).sin() * (location.y * 0.07).cos()
 }
 
 #[test]
 fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
-    // Two planar ones calibrated from noisy pairs with outliers, and one with a bent lens.
+    // Two projectors are planar, calibrated from noisy pairs with outliers; one has a bent lens.
     let matrices = [
         keystone(0.0, 0.001),
         keystone(70.0, -0.001),
@@ -249,7 +249,7 @@ fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
             .flatten()
             .all(|weight| (0.0..=1.0).contains(weight))
     );
-    // Each shows the picture where it believes to shine.
+    // Each frame shows the picture at the locations that the calibration claims.
     let frames: Vec<Vec<f64>> = projectors
         .iter()
         .zip(&weights)
@@ -261,7 +261,7 @@ fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
             pixels.collect()
         })
         .collect();
-    // What really lands: bilinear light of each projector through its true map.
+    // The light on the wall is interpolated through each projector's true map.
     let truth = [
         Projector::planar(SIZE, Homography::fit(&grid(matrices[0])).unwrap()).unwrap(),
         Projector::planar(SIZE, Homography::fit(&grid(matrices[1])).unwrap()).unwrap(),
@@ -302,6 +302,6 @@ fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
         }
     }
     assert!(counts[1] > 3000 && counts[2] > 1000, "{counts:?}");
-    // A fifteenth of the picture's contrast, where noise moved an edge of an overlap.
+    // The bound is a fifteenth of the picture's contrast, at the edge of an overlap that noise has moved.
     assert!(worst < 0.04, "{worst}");
 }

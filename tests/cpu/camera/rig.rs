@@ -1,4 +1,4 @@
-//! Rigs: every direction in exactly one pinhole, and what is no rig.
+//! Rigs: every direction belongs to exactly one pinhole; refused requests.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use gpc::camera::{Pinhole, Rig, RigError};
@@ -13,7 +13,7 @@ fn every_direction_is_in_one_face_of_a_cube_and_inside_of_it() {
     let rig = cube(64);
     let mut counts = [0; 6];
     for i in 0..20_000 {
-        // A spiral over the sphere.
+        // The directions form a spiral over the sphere.
         let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 20_000.0;
         let around = DVec2::from_angle(2.399963 * f64::from(i)) * (1.0 - z * z).sqrt();
         let direction = DVec3::new(around.x, z, around.y);
@@ -34,7 +34,7 @@ fn the_corner_of_three_faces_belongs_to_the_first() {
     let rig = Rig::cube(DVec3::ZERO, DMat3::IDENTITY, 16, 0.1).unwrap();
     assert_eq!(rig.locate(DVec3::ONE).unwrap().0, 0);
     assert_eq!(rig.locate(DVec3::new(-1.0, 1.0, 1.0)).unwrap().0, 1);
-    // Front, upright: a little to the right and up is right of and above the middle.
+    // A direction a little to the right of and above the front is to the right of and above the middle.
     let (face, uv) = rig.locate(DVec3::new(0.5, 0.25, -1.0)).unwrap();
     assert_eq!((face, uv), (5, DVec2::new(12.0, 6.0)));
 }
@@ -53,7 +53,7 @@ fn each_pixel_is_sampled_once_and_jacobians_do_not_see_seams() {
     for set in sets.iter().flatten() {
         for location in set.locations() {
             seen[location.output as usize] += 1;
-            // A pixel is 4 degrees, about 2.2 to 5 pixels of a face; narrow at the poles.
+            // A pixel is 4 degrees, about 2.2 to 5 pixels of a face; near the poles it is narrow.
             let [x, y] = location.jacobian.map(|column| DVec2::from(column).length());
             assert!(x < 9.0 && (1.5..9.0).contains(&y), "{location:?}");
         }
@@ -80,7 +80,7 @@ fn what_is_no_rig_is_refused() {
     );
     assert!(Rig::cube(DVec3::ZERO, DMat3::IDENTITY, 0, 0.1).is_err());
     assert!(Rig::cube(DVec3::NAN, DMat3::IDENTITY, 4, 0.1).is_err());
-    // One plane alone does not see what is beside or behind it.
+    // A single plane sees neither the sides nor the back.
     let alone = Rig::new(vec![first]).unwrap();
     assert!(alone.locate(DVec3::NEG_Z).is_some());
     assert!(alone.locate(DVec3::X).is_none() && alone.locate(DVec3::Z).is_none());

@@ -1,11 +1,11 @@
-//! Sampling sets: every sample in exactly one cell, the cells as promised, Jacobians, statistics and what is refused.
+//! Sampling sets: every sample is in exactly one cell; layouts, Jacobians, statistics and refused requests.
 
 use glam::{DMat2, DVec2};
 use gpc::camera::LocationMap;
 use gpc::camera::set::{Layout, Sample, SamplingSet, SetError};
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 
-/// Deterministic numbers from 0 to 1.
+/// Deterministic pseudo-random numbers from 0 to 1.
 fn random() -> impl FnMut() -> f64 {
     let mut state = 7_u64;
     move || {
@@ -25,14 +25,14 @@ fn scattered(count: u32, mut place: impl FnMut() -> [f64; 2]) -> Vec<Sample> {
     (0..count).map(sample).collect()
 }
 
-/// Asserts that each sample is in one cell.
+/// Asserts that each sample is in exactly one cell.
 fn assert_partition(set: &SamplingSet) {
     let mut members: Vec<_> = set.cells().flatten().copied().collect();
     members.sort_unstable();
     assert!(members.into_iter().eq(0..set.samples().len() as u32));
 }
 
-/// A bilinear map that is nearly the identity, or a fold.
+/// A linear map that is close to the identity, or folds.
 struct Sheared(DMat2);
 
 impl LocationMap for Sheared {
@@ -67,7 +67,7 @@ fn a_planar_set_is_the_offset_set_without_offsets() {
 #[test]
 fn an_offset_grid_parts_all_samples_and_its_offsets_lead_back() {
     let mut random = random();
-    // A regular grid in disorder.
+    // The samples are a regular grid in random order.
     let mut index = 0.0;
     let samples = scattered(400, || {
         index += 1.0;
@@ -166,7 +166,7 @@ fn leaves_tile_the_window_and_hold_no_more_than_asked() {
                 .all(|i| leaf.contains(samples[*i as usize].uv))
         );
     }
-    // What is right of the window has a cell after the leaves.
+    // Samples to the right of the window are in a cell after the leaves.
     let outside = samples
         .iter()
         .filter(|sample| sample.uv[0] >= 200.0)
@@ -181,7 +181,7 @@ fn a_million_samples_in_one_spot_are_one_leaf() {
     let samples = scattered(1_000_000, || [3.5, 3.5]);
     let set = SamplingSet::no_pattern([1_000_000, 1], samples, None, 32).unwrap();
     assert_eq!(set.cells().count(), 1);
-    // With one more sample elsewhere and one that the depth limit does not part.
+    // One more sample is elsewhere, and one is too close to be separated by the limit of depth.
     let mut places = [[0.0, 0.0], [3.5 + 1e-12, 3.5]].into_iter();
     let samples = scattered(100_000, || places.next().unwrap_or([3.5, 3.5]));
     let set = SamplingSet::no_pattern([100_000, 1], samples, None, 1).unwrap();
@@ -201,7 +201,7 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
             assert!((found.x_axis - matrix.x_axis).length() < 1e-12);
         }
     }
-    // A lone row has a square footprint, a lone sample that of a pixel.
+    // A single row has a square footprint, a single sample that of a pixel.
     let mut place = 0.0;
     let row = scattered(3, || {
         place += 3.0;
@@ -215,7 +215,7 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
 
 #[test]
 fn cells_far_apart_cost_no_memory() {
-    // The corners of an output of a quarter of a billion cells, and a neighbour of the last.
+    // The samples are at the corners of an output with a quarter of a billion cells, and beside the last one.
     let (last, far) = ((1 << 14) - 1, [0.5, 0.5]);
     let at = |row, col, uv| Sample { uv, row, col };
     let samples = vec![
@@ -247,7 +247,7 @@ fn statistics_know_the_rates_of_a_zoom_and_see_folds() {
     let statistics = SamplingSet::mapped([80, 80], &zoom).unwrap().statistics();
     assert_eq!(statistics.folds, 0);
     assert!((statistics.highest_rate.unwrap() - 4.0).abs() < 1e-9);
-    // The outer end of the transition looks at 2 - m^2 pixels in each of its pixels.
+    // At the outer end of the transition, each pixel covers 2 - m^2 pixels of the plane in length.
     let lowest = statistics.lowest_rate.unwrap();
     assert!(lowest > 1.0 / 1.75 && lowest < 1.0 / 1.65, "{lowest}");
 

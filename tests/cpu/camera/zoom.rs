@@ -1,4 +1,4 @@
-//! The zoom map: the formulas as the authors state them, no folds, its inverse, its derivative and its rates.
+//! The zoom map: its formulas as published, absence of folds, inverse, derivative and rates.
 
 use glam::{DMat2, DVec2};
 use gpc::camera::LocationMap;
@@ -14,7 +14,7 @@ const REGION: ZoomRegion = ZoomRegion {
 
 const MULTIPLICITIES: [f64; 5] = [0.02, 0.25, 0.5, 0.9, 1.0];
 
-/// Circles and rectangles of both transitions and several multiplicities.
+/// Circles and rectangles with both transitions and several multiplicities.
 fn regions() -> Vec<ZoomRegion> {
     let mut all = Vec::new();
     for multiplicity in MULTIPLICITIES {
@@ -40,22 +40,22 @@ fn map(region: ZoomRegion) -> ZoomMap {
     ZoomMap::new(vec![region]).unwrap()
 }
 
-/// Places around the centre, in and out of every part.
+/// Places around the centre, inside and outside of every part.
 fn places() -> impl Iterator<Item = DVec2> {
     (0..2000).map(|i| {
         let i = f64::from(i);
-        // Two irrational steps leave no direction out.
+        // Two irrational steps cover all directions.
         let angle = 2.4 * i;
         DVec2::from(REGION.center) + 0.05 * i * DVec2::from_angle(angle)
     })
 }
 
-/// The formula for linear transitions, word by word.
+/// Location by the published formula for linear transitions.
 fn stated(region: &ZoomRegion, p: DVec2) -> DVec2 {
     let (c, m) = (DVec2::from(region.center), region.multiplicity);
     let [rx, ry] = region.radius;
     let way = p - c;
-    // For a rectangle in units of its radii, so that r is 1.
+    // A rectangle is measured in units of its radii, so that r is 1.
     let (rho, r) = match region.shape {
         Shape::Circle => (way.length(), rx),
         Shape::Rectangle => ((way.x.abs() / rx).max(way.y.abs() / ry), 1.0),
@@ -138,7 +138,7 @@ fn jacobians_are_the_differences_of_locations() {
             let columns = [DVec2::X * h, DVec2::Y * h].map(difference);
             let error = map.jacobian(p) - DMat2::from_cols(columns[0], columns[1]);
             let size = error.x_axis.length().max(error.y_axis.length());
-            // On a border or on a rectangle's diagonal the two sides differ.
+            // On a border or a rectangle's diagonal, the one-sided derivatives differ.
             let kinked = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y]
                 .into_iter()
                 .any(|step| {
@@ -150,7 +150,7 @@ fn jacobians_are_the_differences_of_locations() {
     }
 }
 
-/// Areas that pixels look at just inside and outside of a region's two borders, along x.
+/// Areas that pixels cover just inside and outside of a region's two borders, along x.
 fn areas(region: ZoomRegion) -> [f64; 4] {
     let map = map(region);
     let e = 1e-9;
@@ -165,7 +165,7 @@ fn rates_at_the_borders_are_as_derived() {
     for region in regions() {
         let m = region.multiplicity;
         let expected = match region.transition {
-            // s' jumps; the other factor is m at the inner border and 1 at the outer one.
+            // s' jumps; the other factor of the area is m at the inner border and 1 at the outer one.
             Transition::Linear => [m * m, m * m * (2.0 - m), 2.0 - m * m, 1.0],
             Transition::Smooth => [m * m, m * m, 1.0, 1.0],
         };
@@ -195,7 +195,7 @@ fn a_smooth_transition_has_a_continuous_rate_along_rays() {
         if region.multiplicity < 0.95 && region.multiplicity > 0.1 {
             let (coarse, fine) = (steepest(0.02), steepest(0.002));
             match region.transition {
-                // Ten times finer steps of a continuous rate are about ten times smaller; a jump stays.
+                // Steps that are ten times finer change a continuous rate about ten times less; a jump stays.
                 Transition::Smooth => assert!(fine < 0.2 * coarse, "{region:?}: {coarse} {fine}"),
                 Transition::Linear => assert!(fine > 0.8 * coarse, "{region:?}: {coarse} {fine}"),
             }

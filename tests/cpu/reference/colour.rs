@@ -8,7 +8,7 @@ fn srgb_is_the_standard_s() {
     assert_eq!((encode(0.0), encode(-3.0)), (0.0, 0.0));
     assert!((encode(1.0) - 1.0).abs() < 1e-15);
     assert_eq!(encode(7.0), encode(1.0));
-    // Middle grey of 18 %, and the ends of the straight part.
+    // The values are middle grey of 18 %, and the ends of the linear part.
     assert_eq!(encode_u8(0.18), 118);
     assert!((encode(0.003_130_8) - 0.040_45).abs() < 1e-5);
     assert!((encode(0.003_130_9) - encode(0.003_130_7)).abs() < 1e-5);
@@ -38,7 +38,7 @@ fn tone_mapping_keeps_dim_colours_less_the_reflection() {
 
 #[test]
 fn tone_mapping_compresses_below_one_without_a_step() {
-    // 1 - 0.24^2 / (0.96 + 0.24 - 0.76), by the published formula.
+    // The expected value is 1 - 0.24^2 / (0.96 + 0.24 - 0.76), by the published formula.
     assert!((neutral([1.0; 3])[0] - (1.0 - 0.0576 / 0.44)).abs() < 1e-15);
     let mut previous = 0.0;
     for step in 1..4000 {

@@ -5,16 +5,16 @@ use gpc::sampling::Pattern;
 
 use super::meshes::{Mesh, Random, ground, tilings};
 
-/// Half of the side of the region that is sampled, in pixels.
+/// Half of the side of the sampled region, in pixels.
 const HALF: f64 = 6.0;
 
-/// A vertex's position and w.
+/// X, Y and w of each vertex.
 fn planar(corners: [[f32; 4]; 3]) -> [[f32; 3]; 3] {
     corners.map(|[x, y, _, w]| [x, y, w])
 }
 
-/// Asserts that one triangle, and one only, covers each sample at `offsets` of each pixel of the region whose y is above
-/// `top`. Each triangle's vertices come in an order of their own.
+/// Asserts that exactly one triangle covers each sample at `offsets` of each pixel of the region whose y is above
+/// `top`. The order of the vertices differs from triangle to triangle. Returns the number of samples.
 fn assert_owned_once(mesh: &Mesh, offsets: &[[f32; 2]], top: f64) -> u64 {
     let triangles: Vec<EdgeFunctions> = (0..mesh.triangles.len())
         .filter_map(|triangle| EdgeFunctions::new(planar(mesh.corners(triangle, triangle)), true))
@@ -63,7 +63,7 @@ fn every_sample_of_a_tiling_has_one_owner() {
     }
 }
 
-/// The test above says something about the rule for ties: there are some.
+/// The test above covers the rule for ties, because some samples lie on edges.
 #[test]
 fn snapped_tilings_have_samples_on_edges() {
     let offsets = Pattern::Grid.offsets(64).unwrap();
@@ -114,14 +114,14 @@ fn nothing_behind_the_eye_is_covered() {
         let Some(edges) = EdgeFunctions::new(planar(mesh.corners(triangle, 0)), true) else {
             continue;
         };
-        // Above the horizon lines of sight meet the plane behind the eye only.
+        // Above the horizon, lines of sight meet the plane only behind the eye.
         for step in 1..200 {
             assert!(!edges.covers([f64::from(step % 20) - 10.0, -f64::from(step) / 16.0]));
         }
     }
 }
 
-/// The decision for integer vertices and samples in sixteenths, in 128-bit integers.
+/// The decision for integer vertices, and samples in sixteenths, computed with 128-bit integers.
 fn covers_in_integers(vertices: [[i64; 3]; 3], sample: [i64; 2]) -> bool {
     let cross = |a: [i64; 3], b: [i64; 3]| {
         let [a, b] = [a, b].map(|v| v.map(i128::from));
@@ -150,11 +150,11 @@ fn decisions_agree_with_integer_arithmetic() {
     for round in 0..60_000 {
         let mut coordinate = |bits: u64| (random.below(2 << bits) as i64) - (1 << bits);
         let (vertices, sample) = if round % 4 == 0 {
-            // Whole pixels nearby: ties are common.
+            // Whole numbers of pixels close to each other make ties frequent.
             let vertices = [0; 3].map(|_| [coordinate(2), coordinate(2), 1]);
             (vertices, [0; 2].map(|_| 16 * coordinate(1)))
         } else {
-            // Every magnitude; w of both signs and zero.
+            // The coordinates have every magnitude, and w has both signs and is also zero.
             let bits = 3 + round % 20;
             let vertices =
                 [0; 3].map(|_| [coordinate(bits), coordinate(bits), coordinate(2 + bits / 8)]);
@@ -176,7 +176,7 @@ fn decisions_agree_with_integer_arithmetic() {
 
 #[test]
 fn counter_clockwise_on_the_screen_is_the_front() {
-    // Top, bottom left, bottom right; y is down.
+    // The vertices are top, bottom left and bottom right; y points down.
     let front = [[0.0, -1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, 1.0, 1.0]];
     let back = [front[0], front[2], front[1]];
     assert_eq!(facing(front), Facing::Front);
@@ -208,7 +208,7 @@ fn degenerate_triangles_cover_nothing() {
     }
 }
 
-/// Neither tiny nor huge coordinates break the decision.
+/// Neither tiny nor huge coordinates change the decision.
 #[test]
 fn scale_does_not_matter() {
     let triangle = [[-3.0, -2.0, 1.0], [-1.0, 4.0, 1.0], [5.0, 1.0, 1.0]];
@@ -233,7 +233,7 @@ fn scale_does_not_matter() {
 fn margin_is_the_distance_from_the_edges() {
     let right_angled =
         EdgeFunctions::new([[0.0, 0.0, 1.0], [0.0, 6.0, 2.0], [8.0, 0.0, 2.0]], true).unwrap();
-    // Corners (0, 0), (0, 3) and (4, 0): the incircle's radius is 1.
+    // The corners are (0, 0), (0, 3) and (4, 0), so that the incircle's radius is 1.
     assert!((right_angled.margin([1.0, 1.0]) - 1.0).abs() < 1e-12);
     assert!((right_angled.margin([-0.5, 1.0]) + 0.5).abs() < 1e-12);
     assert_eq!(right_angled.margin([0.0, 2.0]), 0.0);

@@ -1,10 +1,10 @@
-//! Detection against its definition, pixel by pixel.
+//! Detection, compared with its definition pixel by pixel.
 
 use gpc::reference::detect::{Frame, Mode, PlaneError, superpixels};
 
 use super::meshes::Random;
 
-/// A small image with few surfaces and colours that lie close together.
+/// A small image with few surfaces and similar colours.
 struct Image {
     width: u32,
     height: u32,
@@ -18,7 +18,7 @@ impl Image {
         let mut plane = |value: &dyn Fn(&mut Random) -> u32| {
             (0..width * height).map(|_| value(random)).collect()
         };
-        // Mostly the same, so that all three answers of each test occur.
+        // Most values are equal, so that all outcomes of each comparison occur.
         Self {
             ids: plane(&|r| (r.below(5) == 0).into()),
             blend_ids: plane(&|r| if r.below(9) == 0 { 3 } else { 0 }),
@@ -46,7 +46,7 @@ impl Image {
         .unwrap()
     }
 
-    /// The definition.
+    /// Whether a pixel is a superpixel by definition.
     fn is_superpixel(&self, x: i64, y: i64, mode: Mode) -> bool {
         let at = |x: i64, y: i64| (y * i64::from(self.width) + x) as usize;
         let inside = |x: i64, y: i64| {
@@ -124,7 +124,7 @@ fn mask_is_the_definition() {
             }
         }
     }
-    // Each mode has said both yes and no, but for a contrast that nothing can have.
+    // Each mode has found superpixels and other pixels, except for a threshold that no contrast exceeds.
     for (mode, [no, yes]) in modes.into_iter().zip(found) {
         assert!(no > 0, "{mode:?}");
         assert_eq!(yes > 0, mode != Mode::Contrast(255), "{mode:?}");

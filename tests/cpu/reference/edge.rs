@@ -1,4 +1,4 @@
-//! Closed-form areas, against each other and against samples.
+//! Closed-form areas, compared with each other and with samples.
 
 use gpc::reference::coverage::EdgeFunctions;
 use gpc::reference::edge::{clipped_area, half_plane_area, triangle_area};
@@ -43,7 +43,7 @@ fn simple_areas_are_right() {
 fn both_forms_of_a_half_plane_agree() {
     let mut random = Random::new(1);
     for round in 0..20_000 {
-        // Among them edges within a hair of an axis.
+        // Some edges are almost parallel to an axis.
         let tilt = if round % 3 == 0 { 1e-12 } else { 1.0 };
         let (a, b) = (random.range(-1.0, 1.0), random.range(-1.0, 1.0) * tilt);
         let line = if round % 2 == 0 { [a, b] } else { [b, a] };
@@ -100,6 +100,6 @@ fn samples_measure_the_area_of_triangles() {
         assert!(error.abs() < 0.02, "{corners:?}: {area}, off by {error}");
         square += error * error / 400.0;
     }
-    // Up to three edges at .0017 each.
+    // There are up to three edges, with an error of 0.0017 each.
     assert!(square.sqrt() < 0.003, "{}", square.sqrt());
 }

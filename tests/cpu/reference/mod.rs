@@ -1,4 +1,4 @@
-//! The CPU twins against definitions, closed forms and each other.
+//! The CPU twins, compared with definitions, closed forms and each other.
 
 mod colour;
 mod coverage;

@@ -4,7 +4,7 @@ use gpc::reference::visibility::{Hit, Surface, nearest};
 
 use super::meshes::{Random, tilings};
 
-/// A front-facing triangle that covers the screen's middle, at one depth.
+/// A front-facing triangle with constant depth that covers the middle of the screen.
 fn wall(id: u32, depth: f32) -> Surface {
     let corners = [[0.0, -20.0], [-20.0, 20.0], [20.0, 20.0]];
     Surface::new(id, corners.map(|[x, y]| [x, y, depth, 1.0]), false).unwrap()
@@ -61,10 +61,11 @@ fn samples_near_an_edge_are_contested() {
     assert!(!nearest([&surface], [0.0, 20.0 - 1.0 / 512.0]).contested());
 }
 
-/// Depth over a plane that recedes to the horizon, and which the near plane cuts: near over the distance.
+/// On a plane that recedes to the horizon and is cut by the near plane, depth is near / distance.
 #[test]
 fn depth_is_that_of_the_plane_at_the_sample() {
-    // One unit below an eye with a focal length of 100 pixels; near plane at 1/2; from behind the eye to 1,000 ahead.
+    // The plane is one unit below an eye with a focal length of 100 pixels and a near plane at 1/2; it extends from
+    // behind the eye to 1,000 units ahead.
     let near = 0.5;
     let vertex = |x: f32, distance: f32| [100.0 * x, 100.0, near, distance];
     let plane = Surface::new(
@@ -94,7 +95,7 @@ fn depth_is_that_of_the_plane_at_the_sample() {
     assert_eq!(nearest([&plane], [3.0, -1.0]).nearest, None);
 }
 
-/// Coincident triangles tie to the bit, whatever their vertices' order; so the ID decides.
+/// Coincident triangles have bit-identical depths, whatever the order of their vertices, so that the ID decides.
 #[test]
 fn coincident_triangles_tie_in_any_vertex_order() {
     let mut random = Random::new(2);

@@ -1,11 +1,11 @@
-//! What of a picture the host draws itself, and what is drawn for it.
+//! Frames of hosts that draw only some of their images; the library draws the others.
 
 use super::machine::{Base, Machine};
 use super::world::{PLACED, World};
 use crate::stage::on_gpu;
 use gpc::host::Options;
 
-/// Pixels whose colours differ by more than rounding, and the root of the mean square difference.
+/// Number of pixels whose colours differ by more than rounding, and the root mean squared difference.
 fn difference(a: &[[f32; 4]], b: &[[f32; 4]]) -> (usize, f64) {
     let mut square = 0.0;
     let mut pixels = 0;
@@ -17,8 +17,8 @@ fn difference(a: &[[f32; 4]], b: &[[f32; 4]]) -> (usize, f64) {
     (pixels, (square / (3 * a.len()) as f64).sqrt())
 }
 
-/// The device's rasterizer rounds vertices to a fraction of a pixel, which the host's renderer, the exact twin, does not: few
-/// centres of pixels may see another triangle, and be found to alias or not for that.
+/// The library draws what the host would draw. The host's renderer is the exact twin, whereas the device rounds
+/// vertices to a fraction of a pixel; so a few pixel centres may see another triangle, and be found to alias or not.
 #[test]
 fn what_is_drawn_for_the_host_is_what_it_would_draw() {
     on_gpu(|gpu| {
@@ -39,7 +39,7 @@ fn what_is_drawn_for_the_host_is_what_it_would_draw() {
     });
 }
 
-/// Where not all pixels find room at once, they are shaded in bands.
+/// If not all pixels fit into memory at once, they are shaded in bands.
 #[test]
 fn bands_of_centres_make_the_same_picture() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! What a host has drawn behind the triangles that it lends.
+//! Colours that a host has drawn behind its triangles.
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, PLACED, SIZE, Way, World};
@@ -9,8 +9,8 @@ use gpc::reference::behind::behind;
 use gpc::render::Detection;
 use rayon::prelude::*;
 
-/// A sky that changes from pixel to pixel, over a floor of waves: what the host draws where no triangle is, in linear light that
-/// is multiplied by its alpha.
+/// Linear premultiplied colour that the host draws where no triangle is: a sky that changes from pixel to pixel, above
+/// a floor with waves.
 fn backdrop([x, y]: [f64; 2]) -> [f32; 4] {
     let [u, v] = [x / f64::from(SIZE[0]), y / f64::from(SIZE[1])];
     let wave = 0.5 + 0.5 * (0.35 * x).sin() * (0.27 * y).cos();
@@ -21,7 +21,7 @@ fn backdrop([x, y]: [f64; 2]) -> [f32; 4] {
     [r, g, b, alpha as f32]
 }
 
-/// What the host draws of a world before its backdrop.
+/// Image that the host draws of the world in front of the backdrop.
 fn drawn(world: &World) -> Drawn {
     let mut drawn = world.drawn();
     for (pixel, (color, id)) in drawn.colors.iter_mut().zip(&drawn.ids).enumerate() {
@@ -37,7 +37,7 @@ fn centre(pixel: usize) -> [f64; 2] {
     [pixel % width, pixel / width].map(|at| at as f64 + 0.5)
 }
 
-/// Pictures over black and over white tell how much of a pixel no triangle covers.
+/// Renders over black and over white; the difference shows how much of a pixel no triangle covers.
 #[test]
 fn samples_that_see_no_triangle_show_the_twins_colour() {
     on_gpu(|gpu| {
@@ -93,7 +93,7 @@ fn samples_that_see_no_triangle_show_the_twins_colour() {
     });
 }
 
-/// The colours of sides x sides places of each pixel, averaged.
+/// Mean colour of sides x sides places in each pixel.
 fn brute_force(world: &World, side: u32) -> Vec<[f32; 4]> {
     let surfaces = world.surfaces();
     let pixels = (SIZE[0] * SIZE[1]) as usize;
@@ -116,7 +116,7 @@ fn brute_force(world: &World, side: u32) -> Vec<[f32; 4]> {
     (0..pixels).into_par_iter().map(mean).collect()
 }
 
-/// What the host draws after the library: an interface that lets half of the picture through.
+/// Adds what the host draws after the library: a half-transparent interface.
 fn with_overlay(mut colors: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
     let rows = colors.len() / SIZE[0] as usize;
     for color in &mut colors[..rows / 8 * SIZE[0] as usize] {

@@ -1,4 +1,4 @@
-//! A host's blended draws, against scenes of files that have the same.
+//! Blended draws of a host, compared with scenes of files that have the same triangles.
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, Mesh, PLACED, Part, SIZE, Way, World};
@@ -8,7 +8,7 @@ use gpc::host::Options;
 use gpc::render::{Shading, SuperpixelOptions};
 use gpc::scene::AlphaMode;
 
-/// A wall, and panes that cross it and each other: their corners' places and distances, and how they look.
+/// A wall, and panes that intersect it and each other: places and distances of their corners, and their colours.
 const QUADS: [([[f64; 3]; 4], [f32; 4]); 4] = [
     (
         [

@@ -1,4 +1,4 @@
-//! Recordings that are discarded, and those that are asked about before they are done.
+//! Recordings that are discarded, and queries before a recording has been executed.
 
 use super::list::pixels;
 use super::machine::{Base, Machine, is_not_done};
@@ -8,7 +8,7 @@ use crate::stage::on_gpu;
 use gpc::host::Options;
 use gpc::scene::Sampler;
 
-/// What a frame or list uploads with its first recording is uploaded by the next one where that one was discarded.
+/// Uploads of a first recording that was discarded are repeated by the next recording.
 #[test]
 fn a_discarded_recording_changes_nothing() {
     on_gpu(|gpu| {
@@ -26,7 +26,7 @@ fn a_discarded_recording_changes_nothing() {
     });
 }
 
-/// It is neither waited for commands that still run, nor read what they write.
+/// Results of commands that still run are neither waited for nor read.
 #[test]
 fn what_still_runs_is_not_read() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Buffers that are lent as they are.
+//! Ways in which a host can lend its buffers.
 
 use super::machine::{AROUND, Base, Machine, Seen};
 use super::world::{PLACED, SIZE, Way, World};
@@ -16,7 +16,7 @@ fn corners(world: &World) -> Vec<[u32; 4]> {
 }
 
 const WAYS: [Way; 5] = [
-    // Not where a descriptor may begin.
+    // The offset is not aligned for descriptors.
     Way {
         positions_offset: 20,
         ..PLACED
@@ -47,7 +47,7 @@ const WAYS: [Way; 5] = [
     },
 ];
 
-/// The picture has antialiasing in it, and the host's attributes; whatever way it is lent, all its bits are the same.
+/// The picture is antialiased and uses the host's attributes; its bytes are the same for every way of lending.
 #[test]
 fn every_way_to_lend_gives_the_same_picture() {
     on_gpu(|gpu| {
@@ -83,7 +83,7 @@ fn positions_are_the_twins() {
     });
 }
 
-/// Of a draw where positions are in object space, of all otherwise.
+/// An index out of range refers to the last vertex: of its draw if positions are in object space, otherwise of all.
 #[test]
 fn indices_out_of_range_are_the_last_vertex() {
     on_gpu(|gpu| {
@@ -93,7 +93,7 @@ fn indices_out_of_range_are_the_last_vertex() {
         for way in &WAYS {
             let mut lent = world.lent(way);
             let size = if way.short_indices { 2 } else { 4 };
-            // The second corner of the first triangle.
+            // This is the second corner of the first triangle.
             let place = way.indices_offset as usize + size;
             lent.indices[place..place + size].fill(0xf0);
             let corners = |draw: usize, vertex: usize| {
@@ -117,7 +117,7 @@ fn indices_out_of_range_are_the_last_vertex() {
     });
 }
 
-/// What lies around the picture is neither read nor written.
+/// Pixels around the picture in a larger image are neither read nor written.
 #[test]
 fn a_part_of_the_images_is_the_same_picture() {
     on_gpu(|gpu| {
@@ -131,7 +131,7 @@ fn a_part_of_the_images_is_the_same_picture() {
             let expected = way.framed(&whole.colors, SIZE, AROUND);
             assert!(bits(&part.colors) == bits(&expected));
         }
-        // Colours of all pixels are the library's, and those around them nobody's.
+        // The library writes the colours of all pixels of the picture, and nobody those around them.
         let whole = machine.see(&PLACED, Base::Ids(&drawn));
         let part = machine.see(&way, Base::Ids(&drawn));
         let width = way.around(SIZE)[0] as usize;

@@ -1,4 +1,4 @@
-//! Lists of locations that are lent, in the place of an image's pixels.
+//! Lists of locations that a host lends, instead of an image's pixels.
 
 use super::machine::{Base, Machine};
 use super::world::{PLACED, SIZE, SKY, Way, World};
@@ -8,10 +8,10 @@ use gpc::host::{Location, Options};
 use gpc::render::{Detection, Shading};
 use gpc::sampling::Pattern;
 
-/// Samples of a superpixel.
+/// Number of samples of a superpixel.
 const SAMPLES: u32 = 16;
 
-/// The pixels of the picture, as locations.
+/// Locations of the pixels of the picture.
 pub fn pixels() -> Vec<Location> {
     let rows = 0..SIZE[1] as i32;
     let pixels = rows.flat_map(|row| (0..SIZE[0] as i32).map(move |column| [column, row]));
@@ -37,7 +37,8 @@ fn farthest(some: &[[f32; 4]], others: &[[f32; 4]]) -> f32 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// The same as a picture of the library's all of whose pixels are superpixels; parts of these are told in another way.
+/// A list of all pixels equals a picture of the library in which all pixels are superpixels. Shading in parts is left
+/// out, because it is decided differently.
 #[test]
 fn a_list_of_all_pixels_is_the_picture() {
     on_gpu(|gpu| {
@@ -46,7 +47,7 @@ fn a_list_of_all_pixels_is_the_picture() {
         let lent = world.lent(&PLACED);
         let (once, _) = machine.see_list(&PLACED, &pixels(), options(1));
         for (shading, most) in [(Shading::Sample, 1e-5), (Shading::Part, 3e-2)] {
-            // Lists have points, which frames have where they are asked for.
+            // Lists use points, so that the frame must too.
             let options = Options {
                 shading,
                 pattern: Pattern::Sobol,
@@ -63,7 +64,7 @@ fn a_list_of_all_pixels_is_the_picture() {
     });
 }
 
-/// Points see what the centres of pixels do.
+/// Points show the same as the centres of pixels.
 #[test]
 fn a_list_of_points_is_the_picture_of_one_sample() {
     on_gpu(|gpu| {
@@ -73,7 +74,7 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
         let (seen, outcome) = machine.see_list(&PLACED, &pixels(), options(1));
         assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
         let once = Options {
-            // No two codes differ by more.
+            // No two codes differ by more than this threshold.
             contrast: Some(u8::MAX),
             thin: false,
             ..Options::new(SIZE[0], SIZE[1])
@@ -81,13 +82,13 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
         let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, once);
         let differs =
             (seen.iter().zip(&picture.colors)).filter(|(a, b)| farthest(&[**a], &[**b]) > 1e-5);
-        // Rasterizers round vertices to a fraction of a pixel, samples do not.
+        // Rasterizers round vertices to a fraction of a pixel, which sampling does not.
         let differs = differs.count();
         assert!(differs * 500 < seen.len(), "{differs} of {}", seen.len());
     });
 }
 
-/// Whatever the order of the list, and however positions are lent.
+/// The result does not depend on the order of the list, nor on the way in which positions are lent.
 #[test]
 fn every_order_of_a_list_sees_the_same() {
     on_gpu(|gpu| {
@@ -133,7 +134,7 @@ fn every_order_of_a_list_sees_the_same() {
     });
 }
 
-/// What can't be sampled is counted, shows the background, and harms no other location.
+/// Locations that can't be sampled are counted, get the background colour, and do not affect other locations.
 #[test]
 fn locations_off_the_image_and_no_numbers_are_left_out() {
     on_gpu(|gpu| {

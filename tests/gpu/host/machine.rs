@@ -1,4 +1,4 @@
-//! The host's Vulkan objects: what it makes, lends and reads back.
+//! Vulkan objects of the tests' host: what it makes, lends and reads back.
 
 use super::world::{Drawn, Lent, Map, SIZE, SKY, Way, World};
 use crate::submit::{discard, submit, submit_and};
@@ -16,28 +16,28 @@ use gpc::vulkan::VulkanError;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-/// What images hold around the picture: more than any colour, and no triangle's ID.
+/// Contents of images around the picture: larger than any colour, and no triangle's ID.
 pub const AROUND: [f32; 4] = [9.0; 4];
 
-/// What a frame came to.
+/// Results of a frame.
 pub struct Seen {
-    /// Of the whole image.
+    /// Colours of the whole image.
     pub colors: Vec<[f32; 4]>,
-    /// Corners of all triangles in clip space, as the library has them.
+    /// Corners of all triangles in clip space, as the library computes them.
     pub corners: Vec<[f32; 4]>,
     pub outcome: Outcome,
-    /// Workgroups that shading was dispatched with, call by call.
+    /// Numbers of workgroups of the shading dispatches, call by call.
     pub dispatched: Vec<u32>,
 }
 
-/// Most calls of a host's shading that are kept.
+/// Largest number of shading calls that are recorded.
 const CALLS: u64 = 1024;
 
-/// Shades, and keeps the corners of triangles, and how much it is called for.
+/// Host shading that also records the corners of triangles and the sizes of its dispatches.
 struct Shading<'a> {
     dispatched: &'a Buffer,
     calls: Cell<u64>,
-    /// Functions to skip what is not needed, if the host does so.
+    /// Functions of conditional rendering, if the host uses them.
     skips: Option<&'a ash::ext::conditional_rendering::Device>,
     device: &'a ash::Device,
     layout: vk::PipelineLayout,
@@ -58,7 +58,8 @@ impl ShadeSamples for Shading<'_> {
             .dst_offset(4 * call.min(CALLS - 1))
             .size(4)];
         let skipping = self.skips.zip(found.condition());
-        // SAFETY: the commands are being recorded; all handles outlive their execution. What is begun is ended.
+        // SAFETY: the commands are being recorded; all handles outlive their execution. Conditional rendering that is
+        // begun is ended.
         unsafe {
             device.cmd_copy_buffer(commands, arguments, self.dispatched.handle(), &kept);
             if let Some((functions, word)) = skipping {
@@ -84,7 +85,7 @@ impl ShadeSamples for Shading<'_> {
     }
 }
 
-/// Shades when the CPU sets an event.
+/// Shading that waits until the CPU sets an event.
 struct Gated<'a> {
     inner: &'a Shading<'a>,
     gate: vk::Event,
@@ -105,7 +106,7 @@ impl ShadeSamples for Gated<'_> {
     }
 }
 
-/// Whether nothing was recorded yet.
+/// Whether an error says that nothing was recorded.
 pub fn is_not_recorded(error: Option<HostError>) -> bool {
     matches!(
         error,
@@ -115,7 +116,7 @@ pub fn is_not_recorded(error: Option<HostError>) -> bool {
     )
 }
 
-/// Whether what was recorded is not done.
+/// Whether an error says that the commands have not been executed.
 pub fn is_not_done(error: Option<HostError>) -> bool {
     matches!(
         error,
@@ -123,14 +124,14 @@ pub fn is_not_done(error: Option<HostError>) -> bool {
     )
 }
 
-/// What a host has drawn before it calls the library.
+/// Images that a host has drawn before it calls the library.
 #[derive(Clone, Copy)]
 pub enum Base<'a> {
     /// IDs, depth and colours.
     All(&'a Drawn),
-    /// Colours.
+    /// Colours only.
     Colors(&'a Drawn),
-    /// IDs and depth.
+    /// IDs and depth only.
     Ids(&'a Drawn),
     Nothing,
 }
@@ -151,7 +152,7 @@ impl Base<'_> {
     }
 }
 
-/// A host of a world.
+/// A host that shows a world.
 pub struct Machine<'a> {
     gpu: Arc<Gpu>,
     memory: Memory,
@@ -161,13 +162,13 @@ pub struct Machine<'a> {
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
     pipelines: [vk::Pipeline; 2],
-    /// Whether it first records everything into commands that it never submits.
+    /// Whether the host first makes recordings that it never submits.
     pub discards: bool,
-    /// Whether its shading is skipped in rounds that have nothing to do, where the device can skip it.
+    /// Whether its shading is skipped in rounds that have nothing to do, if the device supports that.
     pub skips: bool,
 }
 
-/// Buffers and maps on the device, and how they are lent.
+/// Buffers and maps on the device, and the structures that lend them.
 struct Lending<'a> {
     _positions: Buffer,
     _indices: Buffer,
@@ -312,7 +313,7 @@ impl<'a> Machine<'a> {
             };
             let pipelines = [pipeline(spirv!("samples")), pipeline(spirv!("corners"))];
             Self {
-                // Tests wait for the commands that use what is made with it.
+                // Tests wait for the commands that use objects made from this.
                 memory: memory(&gpu, None),
                 antialiaser,
                 world,
@@ -327,7 +328,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// The picture of the world, lent in some way, over what the host has drawn of it.
+    /// Result of a frame over the images that the host has drawn, with buffers lent as `way` says.
     pub fn see(&self, way: &Way, base: Base<'_>) -> Seen {
         let options = Options {
             flat_background: true,
@@ -336,7 +337,7 @@ impl<'a> Machine<'a> {
         self.see_lent(way, &self.world.lent(way), base, options)
     }
 
-    /// The same of buffers of the caller's.
+    /// Result of a frame as [`Self::see`] gives it, with the caller's buffers.
     pub fn see_lent(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options) -> Seen {
         let size = way.around(options.size);
         let lending = Lending::new(self, way, lent);
@@ -383,7 +384,7 @@ impl<'a> Machine<'a> {
             shade_all: base.colors().is_none(),
             ..options
         };
-        // SAFETY: what is lent is as it says, and outlives the frame.
+        // SAFETY: lent objects have the stated contents, and outlive the frame.
         let mut frame = unsafe {
             self.antialiaser
                 .prepare(&lending.geometry, &images, &options)
@@ -402,7 +403,7 @@ impl<'a> Machine<'a> {
                 unsafe { frame.record(commands, &scenery, &shading) }.unwrap();
             });
             assert!(is_not_done(frame.outcome().err()));
-            // SAFETY: what is lent outlives all frames.
+            // SAFETY: lent objects outlive all frames.
             assert!(is_not_done(unsafe { frame.grow() }.err()));
             shading.calls.set(0);
         }
@@ -426,7 +427,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// What a list of locations sees of the world, and what sampling it came to.
+    /// Result of sampling a list of locations of the world.
     pub fn see_list(
         &self,
         way: &Way,
@@ -450,7 +451,7 @@ impl<'a> Machine<'a> {
             ..options
         };
         let prepared = |geometry: &Geometry| {
-            // SAFETY: what is lent is as it says, and outlives the list.
+            // SAFETY: lent objects have the stated contents, and outlive the list.
             unsafe { self.antialiaser.prepare_list(geometry, &list, &options) }.unwrap()
         };
         let mut list = prepared(&lending.geometry);
@@ -464,7 +465,7 @@ impl<'a> Machine<'a> {
                 unsafe { list.record(commands, &lent.draws, count, &shading) }.unwrap();
             });
             assert!(is_not_done(list.outcome().err()));
-            // SAFETY: what is lent outlives all lists.
+            // SAFETY: lent objects outlive all lists.
             assert!(is_not_done(unsafe { list.grow() }.err()));
         }
         submit(&self.gpu, |commands| {
@@ -497,7 +498,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Makes what commands before wrote visible to the host.
+    /// Records a barrier that makes earlier writes visible to the host.
     unsafe fn show_to_host(&self, commands: vk::CommandBuffer) {
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
@@ -509,7 +510,7 @@ impl<'a> Machine<'a> {
         unsafe { self.gpu.device().cmd_pipeline_barrier2(commands, &info) };
     }
 
-    /// An image of a map's levels, ready to be read.
+    /// An image with a map's levels, ready to be read.
     fn map_image(&self, map: &Map) -> Image {
         let format = vk::Format::R8G8B8A8_UNORM;
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
@@ -557,7 +558,8 @@ impl<'a> Machine<'a> {
         image
     }
 
-    /// What a list answers of its outcome while the device waits in the middle of its commands, and when they are done.
+    /// Answers of a list about its outcome: while the device waits in the middle of its commands, and after they have
+    /// run.
     pub fn asked_early(
         &self,
         way: &Way,
@@ -577,7 +579,7 @@ impl<'a> Machine<'a> {
             colors_offset: 0,
         };
         let device = self.gpu.device();
-        // SAFETY: what is lent is as it says, and outlives the list.
+        // SAFETY: lent objects have the stated contents, and outlive the list.
         let (list, gate) = unsafe {
             (
                 self.antialiaser
@@ -605,16 +607,16 @@ impl<'a> Machine<'a> {
             },
             || {
                 early = Some(list.borrow().outcome());
-                // SAFETY: the event is the device's.
+                // SAFETY: the event belongs to the device.
                 unsafe { device.set_event(gate) }.unwrap();
             },
         );
-        // SAFETY: the commands are done.
+        // SAFETY: the commands have run.
         unsafe { device.destroy_event(gate, None) };
         [early.unwrap(), list.borrow().outcome()]
     }
 
-    /// Fills images, has them antialiased, and copies one of them.
+    /// Fills images, has them antialiased, and copies one of them to the host.
     fn run(
         &self,
         size: [u32; 2],
@@ -652,11 +654,11 @@ impl<'a> Machine<'a> {
         });
     }
 
-    /// A set of the host's that shows these buffers; the one before goes.
+    /// A descriptor set of the host with these buffers; the previous one is freed.
     fn set(&self, buffers: [&Buffer; 3]) -> vk::DescriptorSet {
         let device = self.gpu.device();
         let layouts = [self.set_layout];
-        // SAFETY: the pool's sets are not in use; the buffers outlive that of the new one.
+        // SAFETY: the pool's sets are not in use; the buffers outlive the new set.
         unsafe {
             let flags = vk::DescriptorPoolResetFlags::empty();
             device
@@ -735,7 +737,7 @@ impl Map {
     }
 }
 
-/// A copy of a whole level of an image, tightly packed.
+/// Copy of a whole level of an image, tightly packed.
 fn copy(size: [u32; 2], aspect_mask: vk::ImageAspectFlags, mip_level: u32) -> vk::BufferImageCopy {
     vk::BufferImageCopy::default()
         .image_subresource(vk::ImageSubresourceLayers {
@@ -754,7 +756,7 @@ fn copy(size: [u32; 2], aspect_mask: vk::ImageAspectFlags, mip_level: u32) -> vk
 impl Drop for Machine<'_> {
     fn drop(&mut self) {
         let device = self.gpu.device();
-        // SAFETY: all commands are done.
+        // SAFETY: all commands have run.
         unsafe {
             for pipeline in self.pipelines {
                 device.destroy_pipeline(pipeline, None);

@@ -1,4 +1,4 @@
-//! A host's alpha maps, against scenes of files that have the same.
+//! Alpha maps of a host, compared with scenes of files that have the same maps.
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, Map, Mesh, PLACED, Part, SIZE, Way, World};
@@ -12,14 +12,14 @@ use gpc::scene::{AlphaMode, Filter, Image, Sampler, Wrap};
 const SIDE: u32 = 8;
 const CUTOFF: f32 = 0.5;
 
-/// White of an alpha that has no pattern.
+/// White texels with irregular alpha.
 fn texels() -> Vec<u8> {
     let alpha = |i: u32| (i * i * 37 + i * 11 + 90) as u8;
     let texel = |i: u32| [255, 255, 255, alpha(i)];
     (0..SIDE * SIDE).flat_map(texel).collect()
 }
 
-/// All levels of an image whose side is a power of two.
+/// All mipmap levels of an image whose side is a power of two.
 fn levels(image: Vec<u8>) -> Vec<Vec<u8>> {
     let mut levels = vec![image];
     let mut side = SIDE as usize;
@@ -39,7 +39,7 @@ fn levels(image: Vec<u8>) -> Vec<Vec<u8>> {
     levels
 }
 
-/// A wall, and leaves before it: one that lies aslant and shows its map from magnified to far away, and a small one.
+/// A wall with leaves in front: a slanted one, whose map is magnified near and small far away, and a small one.
 fn quads() -> [([[f32; 3]; 4], f32); 3] {
     let aslant = |x: f64, y: f64, distance: f64| seen_at([x * 0.9, y], distance, SIZE[1]);
     let square = |half: f64, distance: f64| {
@@ -138,7 +138,7 @@ pub fn world(sampler: &Sampler) -> World {
     World {
         meshes: quads().map(mesh).into(),
         parts: (0..3).map(part).collect(),
-        // The first is not used.
+        // The first map is not used.
         maps: vec![map(vec![vec![7; 4]], 1), map(levels(texels()), SIDE)],
         projection: camera,
     }
@@ -174,7 +174,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 once(SIZE).method(SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).thin(true));
             let stage = stage(sampler);
             let expected = stage.render(gpu, &settings);
-            // As a host draws them that discards fragments itself.
+            // A host that discards fragments itself draws these images.
             let own = Drawn {
                 ids: ids(&expected),
                 depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize],
@@ -202,7 +202,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 assert_eq!(superpixels, expected.statistics.superpixels);
                 let mixed = found.colors.iter().filter(|c| (0.1..0.9).contains(&c[0]));
                 assert!(mixed.count() > 100, "{superpixels} superpixels");
-                // Colours of the files' renderer come from a texture.
+                // The colours of the scene file come from a texture, which rounds them.
                 let worst = farthest(&found.colors, &expected.colors);
                 assert!(worst < 1e-6, "{sampler:?}, {way:?}: {worst}");
             }
@@ -210,7 +210,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
     });
 }
 
-/// The largest difference of any colour.
+/// Largest difference of any channel.
 fn farthest(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
     let channels = a.as_flattened().iter().zip(b.as_flattened());
     channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)

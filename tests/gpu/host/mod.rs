@@ -1,4 +1,5 @@
-//! A host that works in the library's device, and the pictures that it gets, whatever way it lends what it has.
+//! A host that works in the library's device: its pictures must not depend on the way in which it lends its buffers
+//! and images.
 
 mod base;
 mod behind;

@@ -1,4 +1,4 @@
-//! Rounds of a recording: as many as an image needs, or a bounded number.
+//! Rounds of a recording: as many as an image needs, or a limited number.
 
 use super::machine::{Base, Machine, Seen};
 use super::world::{PLACED, SIZE, World};
@@ -12,7 +12,7 @@ fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
     pixels.map(|color| color.map(f32::to_bits)).collect()
 }
 
-/// All pixels are superpixels, and reserve room for as many visibility samples as there are samples.
+/// Options with which all pixels are superpixels, with room for a visibility sample for each sample.
 fn options(size: [u32; 2]) -> Options {
     Options {
         detection: Detection::Every,
@@ -48,7 +48,7 @@ fn finishes_in_little_memory(gpu: &mut Headless) {
     assert!(bits(&roomy.colors) == bits(&tight.colors));
 }
 
-/// What does not fit in a round is done in another one of the same recording, with the same bytes.
+/// Work that does not fit into a round is done in a later round of the same recording, with the same bytes.
 #[test]
 fn a_recording_finishes_its_frame() {
     on_gpu(finishes_in_little_memory);
@@ -98,13 +98,13 @@ fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
         let left = bounded.outcome.left_over;
         let tiles = u64::from(SIZE[0] / 8 * (SIZE[1] / 4));
         assert!(left > tiles / 4 && left < tiles, "{left}");
-        // Samples of what is flat make the colour that was drawn.
+        // Samples of a flat surface give the colour that was drawn.
         let (kept, sampled) = part(&bounded);
         assert!(kept >= 32 * left, "{kept} of {left} tiles");
         assert!(sampled >= 32 * (tiles - left), "{sampled}");
         assert!(bits(&bounded.colors) != bits(&whole.colors));
     }
-    // More than enough changes nothing.
+    // A limit above the needed number changes nothing.
     assert!(bits(&see(Some(1000)).colors) == bits(&whole.colors));
 }
 
@@ -121,8 +121,8 @@ fn bounded_rounds_leave_pixels_as_they_were_drawn_without_conditional_rendering(
     );
 }
 
-/// Hosts that skip their shading and those that don't get the same; the dispatches of the latter find nothing in rounds that have
-/// nothing to do.
+/// Hosts that skip their shading get the same picture as others; dispatches of the others have no work in rounds that
+/// have nothing to do.
 fn dispatches_nothing_in_vain(gpu: &mut Headless) {
     let world = World::new();
     let mut machine = Machine::new(gpu, &world);
@@ -132,7 +132,7 @@ fn dispatches_nothing_in_vain(gpu: &mut Headless) {
         let options = Options::new(SIZE[0], SIZE[1]);
         let seen = machine.see_lent(&PLACED, &lent, Base::Nothing, options);
         let called = seen.dispatched.iter().filter(|groups| **groups > 0).count() as u64;
-        // Once for the centres.
+        // One call shades the centres.
         assert_eq!(called, 1 + seen.outcome.statistics.rounds);
         assert!(
             seen.dispatched.len() as u64 > 2 * called,

@@ -1,4 +1,4 @@
-//! What the tests' host shows, and what its own renderer would draw of it.
+//! The world that the tests' host shows, and the images that its own renderer draws of it.
 
 use ash::vk;
 use gpc::host::Draw;
@@ -6,13 +6,13 @@ use gpc::reference::transform::clip_position;
 use gpc::reference::visibility::{Surface, nearest};
 
 pub const SIZE: [u32; 2] = [64, 64];
-/// Linear light where nothing is.
+/// Linear colour of the background.
 pub const SKY: [f32; 3] = [0.1, 0.3, 0.7];
 
-/// In columns.
+/// Matrix, by columns.
 pub type Matrix = [[f32; 4]; 4];
 
-/// Vertices in a space of their own, how bright each is, texture coordinates where it has an alpha map, and triangles.
+/// Mesh: vertices in object space, the brightness of each, texture coordinates if it has an alpha map, and triangles.
 #[derive(Default)]
 pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
@@ -21,17 +21,17 @@ pub struct Mesh {
     pub indices: Vec<u32>,
 }
 
-/// One of what is shown.
+/// A mesh at a place in the world.
 pub struct Part {
     pub mesh: usize,
     pub to_clip: Matrix,
     pub color: [f32; 3],
-    /// Below 1 where it is seen through.
+    /// Opacity; below 1 for a blended part.
     pub opacity: f32,
     pub alpha_map: Option<u16>,
 }
 
-/// An image of colours whose alpha is tested, with all its levels.
+/// Texture with an alpha that is tested, and all its levels.
 pub struct Map {
     pub side: u32,
     pub levels: Vec<Vec<u8>>,
@@ -49,20 +49,20 @@ pub struct World {
     pub projection: Matrix,
 }
 
-/// How vertices, indices and images are lent.
+/// Way in which vertices, indices and images are lent.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
-    /// Whether positions are in object space; otherwise the host has placed them itself.
+    /// Whether positions are in object space; otherwise the host has transformed them to clip space.
     pub object_space: bool,
     pub positions_offset: u64,
     pub stride: u32,
     pub short_indices: bool,
     pub indices_offset: u64,
-    /// Where in the images the picture begins; as much lies behind its end.
+    /// Pixel of the images at which the picture begins; the margin at its end has the same size.
     pub corner: [u32; 2],
 }
 
-/// As a host that does all by itself lends it.
+/// The way of a host that transforms all vertices itself.
 pub const PLACED: Way = Way {
     object_space: false,
     positions_offset: 0,
@@ -73,12 +73,12 @@ pub const PLACED: Way = Way {
 };
 
 impl Way {
-    /// Width and height of the images that a picture of `size` is a part of.
+    /// Width and height of images that contain a picture of `size` with its margin.
     pub fn around(&self, size: [u32; 2]) -> [u32; 2] {
         [0, 1].map(|axis| size[axis] + 2 * self.corner[axis])
     }
 
-    /// Pixels of a picture as part of the images, with `around` around them.
+    /// Pixels of the images: a picture, surrounded by `around`.
     pub fn framed<T: Copy>(&self, picture: &[T], size: [u32; 2], around: T) -> Vec<T> {
         let [width, height] = self.around(size);
         let mut pixels = vec![around; (width * height) as usize];
@@ -90,11 +90,11 @@ impl Way {
     }
 }
 
-/// Buffers and draws of a world.
+/// Buffers and draws that lend a world.
 pub struct Lent {
     pub positions: Vec<u8>,
     pub vertex_count: u32,
-    /// Of each vertex.
+    /// Brightness of each vertex.
     pub paints: Vec<f32>,
     pub coordinates: Vec<[f32; 2]>,
     pub indices: Vec<u8>,
@@ -102,11 +102,11 @@ pub struct Lent {
     pub index_count: u32,
     pub draws: Vec<Draw>,
     pub triangle_count: u32,
-    /// Vertices of all draws.
+    /// Number of vertices over all draws.
     pub drawn_vertices: u32,
 }
 
-/// What the host's own renderer draws, a pixel each: its triangle's ID, depth and colour.
+/// Images of the host's own renderer: for each pixel the ID, depth and colour of its triangle.
 pub struct Drawn {
     pub ids: Vec<u32>,
     pub depths: Vec<f32>,
@@ -119,7 +119,7 @@ fn product(a: &Matrix, b: &Matrix) -> Matrix {
     })
 }
 
-/// A perspective, y down, depth from 1 near to 0 far away.
+/// Perspective projection, y down, with depth from 1 at the near plane to 0 at infinity.
 fn projection() -> Matrix {
     let mut matrix = [[0.0; 4]; 4];
     (matrix[0][0], matrix[1][1]) = (1.3, -1.3);
@@ -127,7 +127,7 @@ fn projection() -> Matrix {
     matrix
 }
 
-/// Turned around an axis through the eye's direction and the vertical one, and moved.
+/// Rotation about the view direction and the vertical axis, followed by a translation.
 fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
     let ((s, c), (t, d)) = (around.sin_cos(), turned.sin_cos());
     [
@@ -139,7 +139,7 @@ fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
 }
 
 impl World {
-    /// Blades, some thinner than a pixel, before sheets, each mesh shown several times.
+    /// A world of blades, some thinner than a pixel, in front of sheets; each mesh is shown several times.
     pub fn new() -> Self {
         let mut blades = Mesh {
             positions: vec![[0.0; 3]],
@@ -190,7 +190,7 @@ impl World {
         }
     }
 
-    /// The buffers of a way.
+    /// Buffers for a way of lending.
     pub fn lent(&self, way: &Way) -> Lent {
         let mut vertices: Vec<Vec<f32>> = Vec::new();
         let mut paints = Vec::new();
@@ -234,7 +234,7 @@ impl World {
                 ..Draw::default()
             });
         }
-        // What lies between is not read as anything finite.
+        // Bytes between the vertices are NaN when read as floats.
         let mut positions = vec![0xff; way.positions_offset as usize];
         for vertex in &vertices {
             let end = positions.len() + way.stride as usize;
@@ -268,7 +268,7 @@ impl World {
         }
     }
 
-    /// The corners of all triangles in clip space, in the order of the draws.
+    /// Corners of all triangles in clip space, in the order of the draws.
     pub fn corners(&self) -> Vec<[[f32; 4]; 3]> {
         let of_part = |part: &Part| {
             let mesh = &self.meshes[part.mesh];
@@ -281,7 +281,7 @@ impl World {
         self.parts.iter().flat_map(of_part).collect()
     }
 
-    /// Colour and paints of each triangle, in the same order.
+    /// Colour, and brightness of the corners, of each triangle in the same order.
     fn looks(&self) -> Vec<([f32; 3], [f32; 3])> {
         let of_part = |part: &Part| {
             let mesh = &self.meshes[part.mesh];
@@ -299,7 +299,7 @@ impl World {
         self.parts.iter().flat_map(of_part).collect()
     }
 
-    /// Its triangles, as the host's renderer has them.
+    /// Triangles of the world, as the host's renderer stores them.
     pub fn surfaces(&self) -> Surfaces {
         let half = SIZE.map(|side| 0.5 * side as f32);
         let in_pixels = |[x, y, z, w]: [f32; 4]| [x * half[0], y * half[1], z, w];
@@ -313,7 +313,7 @@ impl World {
         }
     }
 
-    /// What the centres of pixels see.
+    /// Images of the centres of pixels.
     pub fn drawn(&self) -> Drawn {
         let surfaces = self.surfaces();
         let mut drawn = Drawn {
@@ -333,7 +333,7 @@ impl World {
     }
 }
 
-/// The least and the greatest x and y of a triangle, which lies in front of the eye.
+/// Smallest and largest x and y of a triangle in the image. The triangle lies in front of the eye.
 fn bounds(corners: &[[f32; 4]; 3]) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| {
         let places = corners.map(|corner| f64::from(corner[axis]) / f64::from(corner[3]));
@@ -342,7 +342,7 @@ fn bounds(corners: &[[f32; 4]; 3]) -> [[f64; 2]; 2] {
     })
 }
 
-/// The triangles of a world, with their bounds, and how they look.
+/// Triangles of a world, with their bounds and appearance.
 pub struct Surfaces {
     surfaces: Vec<([[f64; 2]; 2], Surface)>,
     looks: Vec<([f32; 3], [f32; 3])>,
@@ -376,7 +376,7 @@ impl Mesh {
         self.positions.len()
     }
 
-    /// Its vertices in clip space.
+    /// Vertices in clip space.
     pub fn clip(&self, to_clip: &Matrix) -> impl Iterator<Item = [f32; 4]> {
         self.positions.iter().map(|p| clip_position(*to_clip, *p))
     }

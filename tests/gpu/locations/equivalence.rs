@@ -1,4 +1,4 @@
-//! Locations at the places that other paths sample see the same.
+//! Sampling at locations that other paths sample too: the results are the same.
 
 use gpc::render::{
     Coverage, EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics,
@@ -14,7 +14,7 @@ use crate::stage::{Stage, centre, everywhere, ids, on_gpu, once};
 use crate::twin::Twin;
 use crate::visibility::soup;
 
-/// Whole tiles, so that an image and its locations have the same middle.
+/// Size of the image in whole tiles, so that an image and its locations have the same middle.
 const SIZE: [u32; 2] = [64, 64];
 
 fn stages() -> [(&'static str, Stage); 4] {
@@ -26,7 +26,7 @@ fn stages() -> [(&'static str, Stage); 4] {
     ]
 }
 
-/// The device's rasterizer rounds vertices to 2^-8 pixel.
+/// The device's rasterizer rounds vertices to 2^-8 pixel, so that a few pixels may differ.
 #[test]
 fn a_planar_set_sees_what_raster_sees() {
     on_gpu(|gpu| {
@@ -52,7 +52,7 @@ fn a_planar_set_sees_what_raster_sees() {
     });
 }
 
-/// Opaque, MASK and BLEND surfaces: a superpixel of one sample at its centre is a point, to the bit.
+/// For opaque, MASK and BLEND surfaces, a superpixel with one sample at its centre is bit-identical to a point.
 #[test]
 fn points_are_superpixels_of_one_sample() {
     on_gpu(|gpu| {
@@ -66,7 +66,7 @@ fn points_are_superpixels_of_one_sample() {
             for (pixel, (image, point)) in image.colors.iter().zip(&points.values).enumerate() {
                 assert_eq!(image, &point.color, "{name}, pixel {pixel}");
             }
-            // And what the image without antialiasing shows, but for what raster rounds.
+            // Both also equal the image without antialiasing, except for the rasterizer's rounding.
             let once = once(SIZE).background(settings.background);
             let none = stage.render(gpu, &once);
             let far = |(a, b): &([f32; 4], [f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-4);
@@ -88,7 +88,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
         for (name, stage) in stages() {
             let prepared = stage.upload(gpu);
             use {Coverage as C, Shading as S};
-            // The defaults, with a first run of few samples and without, and what they have to be the same without.
+            // The cases are the defaults, with and without first trying few samples; some settings must differ for the
+            // results to be equal.
             let mut cases = vec![(C::Area, S::Part, 256), (C::Samples, S::Triangle, 17)];
             match name {
                 "soup" => cases.push((C::Samples, S::Triangle, 300)),
@@ -104,7 +105,7 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                     .unwrap();
                 let pairs = || image.colors.iter().zip(&locations.values);
                 if shading == S::Part {
-                    // Locations have no neighbours to tell what is alike, and are shaded in all parts.
+                    // Locations have no neighbours whose colours could be compared, and are shaded in all parts.
                     let sum = |value: &dyn Fn([f32; 4], [f32; 4]) -> f32| -> f32 {
                         pairs().map(|(a, b)| value(*a, *b)).sum()
                     };
@@ -122,7 +123,7 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
     });
 }
 
-/// What a call returns with the least memory that it accepts, which cuts its locations into runs.
+/// Result of a call with the smallest memory limit that it accepts, which divides its locations into runs.
 fn least<T: std::fmt::Debug>(
     prepared: &PreparedScene,
     settings: &Settings,
@@ -144,7 +145,7 @@ fn least<T: std::fmt::Debug>(
     panic!("no memory is enough");
 }
 
-/// The order of locations, their duplicates and the memory that cuts them into runs do not show.
+/// The results do not depend on the order of locations, on duplicates, or on memory that divides them into runs.
 #[test]
 fn the_order_of_locations_does_not_matter() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Sets that are empty, wrong, crowded or far apart.
+//! Sets of locations that are empty, invalid, crowded or far apart.
 
 use gpc::camera::SampleLocation;
 use gpc::render::{LocationError, Method, RenderError, Settings};
@@ -41,7 +41,7 @@ fn sets_that_cannot_be_sampled_are_named() {
                 LocationError::TooFar { index: 1, .. }
             ));
         }
-        // A point has no extent, a superpixel has.
+        // A point has no extent, but a superpixel has.
         let wide = [SampleLocation {
             jacobian: [[1.0, 0.0], [0.0, 4e6]],
             ..good
@@ -74,7 +74,7 @@ fn sets_that_cannot_be_sampled_are_named() {
     });
 }
 
-/// A tile with far more locations than pixels, many of them the same.
+/// In a tile with far more locations than pixels, many of them equal, each location shows what it would show alone.
 #[test]
 fn a_crowd_in_one_pixel_sees_what_each_would_alone() {
     on_gpu(|gpu| {
@@ -94,7 +94,7 @@ fn a_crowd_in_one_pixel_sees_what_each_would_alone() {
         for (index, value) in crowd.iter().enumerate() {
             assert_eq!(*value, crowd[index % 4096]);
         }
-        // Alone with those that keep the set's middle where it is.
+        // The other locations keep the middle of the set where it is.
         for chosen in [0, 1234, 4095] {
             let few = [locations[0], locations[4095], locations[4096 + chosen]];
             let alone = gpu
@@ -119,7 +119,7 @@ fn locations_a_million_pixels_apart_cost_no_area() {
             flat([1.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
             flat([0.0, 1.0, 0.0, 1.0], AlphaMode::Opaque),
         ]);
-        // Two walls at distance 1 that meet in a line through the image and reach beyond its sides by far.
+        // Two walls at distance 1 meet in a line through the image, and extend far beyond its sides.
         let end = 1.5e6;
         let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
         stage.add_quad(
@@ -159,7 +159,7 @@ fn locations_a_million_pixels_apart_cost_no_area() {
             .sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
             .unwrap();
         let red: Vec<f32> = seen.values.iter().map(|v| v[0]).collect();
-        // The line goes through the middle of both cells in the image.
+        // The line passes through the middle of both cells in the image.
         assert!(red[0] == 1.0 && red[3] == 0.0, "{red:?}");
         assert!(
             (red[1] - 0.75).abs() < 0.07 && (red[2] - 0.25).abs() < 0.07,

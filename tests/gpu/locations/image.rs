@@ -1,4 +1,4 @@
-//! Images whose pixels look where locations say.
+//! Images whose pixels are sampled at given locations.
 
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::render::{Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
@@ -16,10 +16,10 @@ fn differing(a: &Rendered, b: &Rendered) -> usize {
     a.colors.iter().zip(&b.colors).filter(far).count()
 }
 
-/// A square of 64 pixels a side, with stripes two texels wide of a texture of as many texels that is repeated so often.
+/// A square with sides of 64 pixels. Its texture has stripes two texels wide, and is repeated `repeats` times.
 fn striped(repeats: f32) -> Stage {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
-    // Stripes two texels wide, across u.
+    // Stripes are two texels wide, across u.
     let texel = |i: u32| {
         if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }
     };
@@ -51,8 +51,8 @@ fn striped(repeats: f32) -> Stage {
     stage
 }
 
-/// The antialiased image of a planar set is that of the camera, and a rig that shares the pixels out to two pinholes
-/// shows no seam.
+/// The antialiased image of a planar set equals the camera's, and a rig whose two pinholes share the pixels shows no
+/// seam.
 #[test]
 fn a_planar_image_is_the_cameras() {
     on_gpu(|gpu| {
@@ -62,11 +62,11 @@ fn a_planar_image_is_the_cameras() {
             .background(Some([0.2, 0.3, 0.4]))
             .method(
                 SuperpixelOptions::new(16)
-                    // Locations have no neighbours to tell how many parts are enough, and are shaded in all.
+                    // Locations have no neighbours to choose the number of parts, and are shaded in all of them.
                     .shading(Shading::Triangle)
-                    // Where more triangles meet than a subgroup has invocations, locations know no areas.
+                    // Where more triangles meet than a subgroup has invocations, locations have no exact areas.
                     .coverage(Coverage::Samples)
-                    // Locations have points.
+                    // Locations use points.
                     .pattern(Pattern::Sobol),
             );
         let image = stage.render(gpu, &settings);
@@ -95,10 +95,10 @@ fn a_planar_image_is_the_cameras() {
             .render_locations(&prepared, &rig, SIZE, &settings)
             .unwrap();
         assert!(shared.statistics.superpixels.abs_diff(superpixels) <= 2);
-        // The halves' positions are relative to middles of their own, and so rounded otherwise.
+        // Positions are relative to the middle of each half, so that they are rounded differently.
         assert!(differing(&whole, &shared) <= 6);
 
-        // Brute force is a grid of samples in every pixel.
+        // Supersampling uses a grid of samples in every pixel.
         let brute = settings.clone().method(Method::Ssaa {
             samples: Settings::DEFAULT_SAMPLES,
         });
@@ -115,14 +115,14 @@ fn a_planar_image_is_the_cameras() {
     });
 }
 
-/// A texture of black and white texels is sharp where cells are small and grey where they are large, along the
-/// direction that they are large in.
+/// A texture of black and white texels is sharp where cells are small, and grey where they are large in the direction
+/// of the change.
 #[test]
 fn the_jacobian_is_the_footprint_of_textures() {
     on_gpu(|gpu| {
         let stage = striped(1.0);
         let prepared = stage.upload(gpu);
-        // A texel is a pixel of the plane: stripes are white from 16 + 4 n to 18 + 4 n.
+        // A texel is as large as a pixel of the plane, and stripes are white from 16 + 4 n to 18 + 4 n.
         let at = |u: f64, side: f64| SampleLocation {
             jacobian: [[side, 0.0], [0.0, side]],
             ..location([u, 32.0], 0)
@@ -144,7 +144,8 @@ fn the_jacobian_is_the_footprint_of_textures() {
     });
 }
 
-/// Where stripes are finer than pixels, brute force sees them at each of its samples, and no mean of a whole pixel.
+/// Stripes that are finer than pixels are visible to each sample of supersampling, instead of their mean over a whole
+/// pixel.
 #[test]
 fn brute_force_reads_textures_at_its_samples() {
     on_gpu(|gpu| {
@@ -156,7 +157,7 @@ fn brute_force_reads_textures_at_its_samples() {
         let locations = gpu
             .render_locations(&prepared, &rig, SIZE, &settings)
             .unwrap();
-        // Pixels of the square, without its border.
+        // These are the pixels of the square without its border.
         let inside = (20..44).flat_map(|y| (20..76).map(move |x| y * SIZE[0] as usize + x));
         let reds =
             inside.map(|pixel| [&image, &locations].map(|seen| f64::from(seen.colors[pixel][0])));

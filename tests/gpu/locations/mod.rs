@@ -1,4 +1,4 @@
-//! Sampling at any locations: against the image path at the same places, and against the exact twin at others.
+//! Sampling at any locations: compared with images at the same places, and with the exact twin at others.
 
 mod equivalence;
 mod extremes;
@@ -12,7 +12,7 @@ use gpc::camera::{Pinhole, SampleLocation};
 
 use crate::stage::camera;
 
-/// The pinhole of all stages in an image of `size` pixels.
+/// Pinhole of all stages, for an image of `size` pixels.
 pub fn pinhole(size: [u32; 2]) -> Pinhole {
     Pinhole::from_camera(&camera(), size).unwrap()
 }
@@ -26,7 +26,7 @@ fn location(uv: [f64; 2], output: u32) -> SampleLocation {
     }
 }
 
-/// The centres of an image's pixels.
+/// Locations at the centres of an image's pixels.
 pub fn planar([width, height]: [u32; 2]) -> Vec<SampleLocation> {
     (0..width * height)
         .map(|pixel| {

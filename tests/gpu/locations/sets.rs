@@ -1,4 +1,4 @@
-//! Sampling sets through the engine: the variants that hold the same locations see the same.
+//! Sampling sets: different variants with the same locations give the same results.
 
 use gpc::camera::set::{Layout, SamplingSet};
 use gpc::render::{Coverage, Shading};

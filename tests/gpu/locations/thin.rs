@@ -1,4 +1,4 @@
-//! Triangles narrower than a cell, which no location sees.
+//! Triangles that are narrower than a cell and cover no location.
 
 use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
@@ -20,7 +20,7 @@ fn settings(detection: Detection, thin: bool) -> Settings {
         .map_superpixels(|options| options.detection(detection).thin(thin))
 }
 
-/// What locations of the stages' pinhole see.
+/// Colours at locations on the stages' pinhole.
 fn seen(
     gpu: &mut Headless,
     scene: &PreparedScene,
@@ -35,7 +35,7 @@ fn energy(rendered: &Rendered) -> f64 {
     rendered.colors.iter().map(|c| f64::from(c[0])).sum()
 }
 
-/// How much of the energy that superpixels everywhere see is found, with thin triangles looked for and without.
+/// Share of the energy of superpixels everywhere that is found: with and without the search for thin triangles.
 fn shares(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation]) -> [f64; 2] {
     let all = energy(&seen(
         gpu,
@@ -50,7 +50,7 @@ fn shares(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation
     })
 }
 
-/// The planar set stretched about the middle of the image.
+/// Planar set, scaled about the middle of the image.
 fn scaled([across, down]: [f64; 2]) -> Vec<SampleLocation> {
     let [width, height] = SIZE.map(f64::from);
     let stretch = |location: SampleLocation| SampleLocation {
@@ -67,10 +67,10 @@ fn scaled([across, down]: [f64; 2]) -> Vec<SampleLocation> {
 #[test]
 fn wires_of_a_planar_set_are_the_images() {
     on_gpu(|gpu| {
-        // Apart from the wall, and painted on it.
+        // The first distance separates the wires from the wall; the second paints them on it.
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
-            // Locations have points.
+            // Locations use points.
             let settings = settings(Detection::Contrast, true)
                 .map_superpixels(|options| options.pattern(Pattern::Sobol));
             let image = stage.render(gpu, &settings);
@@ -92,7 +92,7 @@ fn wires_of_a_planar_set_are_the_images() {
     });
 }
 
-/// Thin is what is narrower than a cell: cells a quarter and four times as wide as a pixel, and both.
+/// The search depends on the cell's size: cells are a quarter of a pixel wide, four times as wide, and both.
 #[test]
 fn wires_keep_their_energy_in_cells_of_any_size() {
     on_gpu(|gpu| {
@@ -105,7 +105,7 @@ fn wires_keep_their_energy_in_cells_of_any_size() {
     });
 }
 
-/// Wires overhead begin before the near plane and end behind the eye: what is seen of them is clipped.
+/// Wires overhead start in front of the near plane and end behind the eye, so that their visible part is clipped.
 #[test]
 fn wires_past_the_eye_keep_their_energy() {
     on_gpu(|gpu| {
@@ -130,7 +130,7 @@ fn wires_past_the_eye_keep_their_energy() {
     });
 }
 
-/// A hilly mesh of one colour with several triangles a pixel.
+/// A hilly mesh of one colour, with several triangles in each pixel.
 #[test]
 fn dense_meshes_make_no_superpixels() {
     on_gpu(|gpu| {
@@ -145,7 +145,7 @@ fn dense_meshes_make_no_superpixels() {
             })
             .collect();
         let at = |column: usize, row: usize| {
-            // No vertex lies on a location.
+            // The offsets keep vertices away from locations.
             let place = [column as f64 * 0.5 - 54.87, row as f64 * 0.5 - 39.91];
             seen_at(place, distances[row * columns + column], SIZE[1])
         };
@@ -177,7 +177,7 @@ fn dense_meshes_make_no_superpixels() {
     });
 }
 
-/// A wall, and slivers before it, on it, behind it and past the eye.
+/// A wall, with slivers in front of it, on it, behind it and past the eye.
 fn slivers(random: &mut Random) -> Stage {
     let mut material = flat([1.0; 4], AlphaMode::Opaque);
     material.double_sided = true;
@@ -207,7 +207,7 @@ fn slivers(random: &mut Random) -> Stage {
             place(random.range(-length, length), width, distance),
         ];
         if sliver % 8 == 7 {
-            // Behind the eye, which looks along -z.
+            // The corner is behind the eye, which looks along -z.
             corners[0] = [0.3 * corners[0][0], 0.3 * corners[0][1], 1.0];
         }
         stage.add(0, corners);
@@ -215,8 +215,8 @@ fn slivers(random: &mut Random) -> Stage {
     stage
 }
 
-/// Which cells an output of locations makes superpixels of, against the twin: what is thin, apart and painted, in cells of
-/// any shape, for lines of sight that meet and that do not.
+/// Cells of an output that become superpixels, compared with the twin: thin triangles in front of and on surfaces,
+/// cells of any shape, and perspective and parallel rays.
 #[test]
 fn cells_are_marked_as_the_twin_has_it() {
     on_gpu(|gpu| {
@@ -285,8 +285,8 @@ fn cells_are_marked_as_the_twin_has_it() {
     });
 }
 
-/// Whether a cell lies amid a triangle other than `id`: it and both its neighbours to the sides, or above and below, show the same
-/// one. Beyond the border everything is as it is there.
+/// Whether a cell lies in the middle of a triangle other than `id`: it and both of its horizontal neighbours, or both
+/// of its vertical ones, show that triangle. Beyond the border, cells repeat.
 fn amid(ids: &[u32], cell: u32, id: u32) -> bool {
     let [width, height] = SIZE;
     let [x, y] = [cell % width, cell / width];
@@ -297,7 +297,7 @@ fn amid(ids: &[u32], cell: u32, id: u32) -> bool {
     here != 0 && here != id && (beside || above)
 }
 
-/// An output of more cells than are looked at together, which shows the same again and again: it is cut in the midst of one.
+/// An output with more cells than a band holds, which repeats the same picture; the band ends in the middle of one.
 #[test]
 fn bands_of_an_output_find_what_the_whole_does() {
     on_gpu(|gpu| {
@@ -324,7 +324,7 @@ fn bands_of_an_output_find_what_the_whole_does() {
         };
         let mut marked = 0;
         for y in 2 * height..(times - 1) * height {
-            // Those at the ends have others for neighbours than the image's.
+            // Cells at the ends have other neighbours than in the image.
             if !(3..height - 3).contains(&(y % height)) {
                 continue;
             }

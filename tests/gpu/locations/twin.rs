@@ -1,4 +1,4 @@
-//! What locations see, against the exact twin.
+//! Results at locations, compared with the exact twin.
 
 use gpc::camera::SampleLocation;
 use gpc::sampling::Pattern;
@@ -11,7 +11,7 @@ use crate::visibility::soup;
 
 const SIZE: [u32; 2] = [64, 64];
 
-/// The pixel that a position relative to the image's centre lies in.
+/// Index of the pixel in which a position relative to the image's centre lies.
 fn pixel_of(at: [f64; 2]) -> usize {
     let [x, y] = [0, 1].map(|axis| (at[axis] + f64::from(SIZE[axis]) / 2.0).floor());
     y as usize * SIZE[0] as usize + x as usize
@@ -23,7 +23,8 @@ fn random_points_see_what_the_twin_sees() {
         let stage = soup(3, 80, true, [-1.0, 5.0]);
         let prepared = stage.upload(gpu);
         let mut random = Random::new(21);
-        // Places that 32 bits hold exactly, all over the image; its pixels' centres make the set's middle the image's.
+        // The places are exact in 32 bits and all over the image. The pixels' centres keep the set's middle at the
+        // image's.
         let mut place = || random.below(64 << 16) as f64 / 65536.0;
         let count = 1_000_000_u32;
         let mut locations = planar(SIZE);
@@ -51,7 +52,7 @@ fn random_points_see_what_the_twin_sees() {
     });
 }
 
-/// Cells that are turned, sheared, mirrored, wider and narrower than a pixel: sub-samples lie where the Jacobian says.
+/// Cells are rotated, sheared, mirrored, wider and narrower than a pixel; samples lie where the Jacobian puts them.
 #[test]
 fn jacobians_place_sub_samples() {
     on_gpu(|gpu| {
@@ -63,7 +64,7 @@ fn jacobians_place_sub_samples() {
         let mut locations = planar(SIZE);
         for index in 0..2000 {
             let reach = [0.01, 0.5, 2.0, 6.0][index % 4];
-            // Multiples of 2^-10, so that places are exact.
+            // Multiples of 2^-10 make places exact.
             let mut number =
                 |low: f64, high: f64| (random.range(low, high) * 1024.0).round() / 1024.0;
             locations.push(SampleLocation {

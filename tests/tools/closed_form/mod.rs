@@ -1,7 +1,7 @@
-//! Textures whose every pixel is known: a plane to the horizon, integrated over each pixel by quadrature in f64.
+//! Textures for which every pixel is known: a plane to the horizon, integrated over each pixel by quadrature in f64.
 //!
-//! The expected image owes nothing to the renderer: neither its mipmaps nor its choice of levels, nor where it samples.
-//! All is in linear light. `cargo test --release --test tools closed_form -- --nocapture` prints the errors.
+//! The expected image is independent of the renderer: of its mipmaps, its choice of levels and its samples. All values
+//! are in linear light. `cargo test --release --test tools closed_form -- --nocapture` prints the errors.
 
 mod plane;
 mod texture;
@@ -11,19 +11,19 @@ use gpc::scene::{Filter, Sampler, TextureTransform, Wrap};
 use plane::{Plane, reference, render, rmse, settings};
 use texture::Texture;
 
-/// Most that the truth may err: root of the mean squared difference from the integral, of values of 0 to 1.
+/// Largest error of the reference image: root mean squared difference from the integral, for values of 0 to 1.
 const TRUTH: f64 = 0.004;
-/// The same without the row of pixels right below the horizon, where a pixel sees the plane from afar to infinity, and a
+/// Largest error without the row of pixels just below the horizon, where a pixel sees the plane up to infinity, and a
 /// texture is read with the same sharpness across as along.
 const TRUTH_BELOW: f64 = 0.002;
-/// Numbers of samples, and most that superpixels may err there beside supersampling of as many samples.
+/// Numbers of samples, and the largest allowed ratio of superpixel error / supersampling error at each.
 const BESIDE_SSAA: [(u32, f64); 2] = [(64, 1.5), (256, 1.25)];
 
 fn headless() -> Headless {
     Headless::new(&HeadlessOptions::default()).unwrap()
 }
 
-/// Squares, and waves along, across and aslant.
+/// Planes with squares, and with waves along, across and diagonal.
 fn patterns() -> [(&'static str, Plane); 4] {
     let grating = |waves| Plane::new(Texture::grating(Sampler::default(), waves));
     [
@@ -37,7 +37,7 @@ fn patterns() -> [(&'static str, Plane); 4] {
     ]
 }
 
-/// A mosaic under sampler modes and transforms of its coordinates.
+/// Planes with a mosaic under all sampler modes and transforms of coordinates.
 fn modes() -> Vec<(&'static str, Plane)> {
     use Filter::{Linear, Nearest};
     use Wrap::{ClampToEdge, MirroredRepeat, Repeat};
@@ -79,7 +79,8 @@ fn modes() -> Vec<(&'static str, Plane)> {
     .into()
 }
 
-/// The truth is the integral, and superpixels come as near to it as is said beside supersampling.
+/// Asserts that the reference equals the integral, and that the errors of superpixels and supersampling have the
+/// allowed ratio.
 fn check(headless: &mut Headless, name: &str, plane: &Plane) {
     let expected = plane.expected();
     let scene = plane.upload(headless);
@@ -117,7 +118,7 @@ fn every_sampler_mode_and_transform_comes_to_its_integral() {
     }
 }
 
-/// Brute force that reads textures for a whole pixel comes to another image.
+/// Supersampling that reads textures over a whole pixel gives another image.
 #[test]
 fn textures_read_for_pixels_miss_the_integral() {
     let mut headless = headless();

@@ -1,4 +1,4 @@
-//! A textured plane to the horizon, rendered, and integrated over each pixel.
+//! A textured plane to the horizon: rendered, and integrated over each pixel.
 
 use super::texture::Texture;
 use gpc::bench::brute_force;
@@ -9,28 +9,28 @@ use gpc::render::{
 use gpc::scene::{AlphaMode, Filter, TextureTransform, TextureUse};
 use rayon::prelude::*;
 
-/// Width and height of the image in pixels. The upper half is sky: the horizon lies between two rows.
+/// Width and height of the image in pixels. The upper half is sky; the horizon lies between two rows.
 pub const SIZE: [u32; 2] = [64, 48];
-/// Linear light of the sky.
+/// Linear colour of the sky.
 const SKY: f64 = 0.3;
-/// Distance of the plane's far edge, in heights of the eye above it: a twentieth of a pixel below the horizon.
+/// Distance of the plane's far edge / height of the eye above the plane: a twentieth of a pixel below the horizon.
 const FAR: f64 = 480.0;
-/// Pixels below the horizon down to which the plane is integrated point by point: lines are too long there.
+/// Number of pixels below the horizon within which the plane is integrated point by point, because lines are too long
+/// there.
 const NEAR_HORIZON: f64 = 0.5;
-/// Points of a pixel for that.
+/// Number of points of a pixel for that.
 const POINTS: u32 = 1 << 18;
 
-/// The plane, one below the eye, and how a texture lies on it.
+/// The plane, one unit below the eye, and the mapping of its texture.
 pub struct Plane {
     pub texture: Texture,
-    /// From the place to the right of the eye and the distance in front of it to texture coordinates, before
-    /// `transform`: so many times the texture a unit.
+    /// Texture coordinates per unit of the plane, before `transform`; u is to the right, v is ahead.
     pub scale: f64,
     pub transform: TextureTransform,
 }
 
 impl Plane {
-    /// Four units of the plane a texture, as it is.
+    /// A plane on which the texture covers four units, without a transform.
     pub fn new(texture: Texture) -> Self {
         Self {
             texture,
@@ -39,7 +39,7 @@ impl Plane {
         }
     }
 
-    /// The plane on a device.
+    /// Uploads the plane to a device.
     pub fn upload(&self, headless: &mut Headless) -> PreparedScene {
         let mut material = textured(AlphaMode::Opaque);
         material.base_color_texture = Some(TextureUse {
@@ -49,7 +49,7 @@ impl Plane {
         });
         let mut stage = Stage::new(vec![material]);
         stage.texture = Some((self.texture.image.clone(), self.texture.sampler));
-        // In front of the near plane's foot, and wide enough for the image's corners.
+        // The plane starts in front of the near plane's lower edge, and is wide enough for the image's corners.
         let (near, far, side) = (0.5_f32, FAR as f32, 2.0 * FAR as f32);
         stage.add_quad(
             0,
@@ -68,14 +68,14 @@ impl Plane {
         headless.upload(SceneRequest::new(&scene, &pose)).unwrap()
     }
 
-    /// Texture coordinates at a place on the plane.
+    /// Texture coordinates of a place on the plane.
     fn coordinates(&self, right: f64, ahead: f64) -> [f64; 2] {
         self.transform.0.map(|[a, b, c]| {
             f64::from(a) * self.scale * right + f64::from(b) * self.scale * ahead + f64::from(c)
         })
     }
 
-    /// The mean over a row's part of a pixel: `x` is the pixel's left edge from the image's middle, `y` how far the row is
+    /// Mean over a row of a pixel: `x` is the pixel's left edge from the image's middle, `y` the distance of the row
     /// below the horizon, in pixels.
     fn row(&self, x: f64, y: f64) -> f64 {
         let focal = f64::from(SIZE[1]) / 2.0;
@@ -83,8 +83,8 @@ impl Plane {
         self.texture.mean_along(place(x), place(x + 1.0))
     }
 
-    /// The integral over a pixel's width, from one distance below the horizon to another: Gauss's rule of four points
-    /// over steps of parts of a texel, along the reciprocal of the distance, in which the texture is even.
+    /// Integral over a pixel's width, between two distances below the horizon. It uses Gauss's four-point rule over
+    /// steps of fractions of a texel along the reciprocal of the distance, in which the texture is uniform.
     fn integral(&self, x: f64, from: f64, to: f64) -> f64 {
         const NODES: [[f64; 2]; 4] = [
             [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
@@ -99,7 +99,7 @@ impl Plane {
         let length = (far[0] - near[0]).abs().max((far[1] - near[1]).abs()) * texels;
         let texel = match self.texture.sampler.mag {
             Filter::Linear => 2.0,
-            // It steps from texel to texel.
+            // The texture is constant within texels, and jumps between them.
             Filter::Nearest => 8.0,
         };
         let steps = (texel * length).ceil().max(1.0);
@@ -115,8 +115,8 @@ impl Plane {
         (0..steps as u32).map(step).sum()
     }
 
-    /// The same right below the horizon, where lines are thousands of texels long: the mean of points that a pair of
-    /// irrational numbers spreads (M. Roberts' generalised golden ratio).
+    /// Integral just below the horizon, where lines are thousands of texels long: the mean of quasi-random points (M.
+    /// Roberts' generalised golden ratio).
     fn integral_of_points(&self, x: f64, from: f64, to: f64) -> f64 {
         let point = |index: u32| {
             let fraction = |step: f64| (0.5 + f64::from(index) * step).fract();
@@ -128,7 +128,7 @@ impl Plane {
         (to - from) * (0..POINTS).map(point).sum::<f64>() / f64::from(POINTS)
     }
 
-    /// What each pixel's mean is, in linear light, rows from the top.
+    /// Mean of each pixel in linear light, rows from the top.
     pub fn expected(&self) -> Vec<f64> {
         let [width, height] = SIZE.map(f64::from);
         let edge = height / 2.0 / FAR;
@@ -149,7 +149,7 @@ impl Plane {
     }
 }
 
-/// Settings under which pixels are means of linear light.
+/// Settings with which pixels are means of linear light.
 pub fn settings(method: MethodKind, samples: u32) -> Settings {
     Settings::new(SIZE[0], SIZE[1])
         .background(Some([SKY as f32; 3]))
@@ -158,7 +158,7 @@ pub fn settings(method: MethodKind, samples: u32) -> Settings {
         .method(method.with_samples(samples))
 }
 
-/// The image of a method.
+/// Image of a method.
 pub fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<f64> {
     let mut frame = headless.prepare(scene, settings).unwrap();
     let rendered = headless.render(&mut frame, &camera()).unwrap();
@@ -169,14 +169,14 @@ pub fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Setting
         .collect()
 }
 
-/// Brute force at 4,096 samples a pixel: the truth, or a reference that reads textures for a whole pixel.
+/// Reference with 4,096 samples a pixel; `footprint` says over which area it reads textures.
 pub fn reference(headless: &mut Headless, scene: &PreparedScene, footprint: Footprint) -> Vec<f64> {
     let settings = settings(MethodKind::None, 1).footprint(footprint);
     let colors = brute_force(headless, scene, &camera(), &settings, 4096, || {}).unwrap();
     colors.iter().map(|color| f64::from(color[0])).collect()
 }
 
-/// Root of the mean squared difference over the plane's half of the image but for so many rows below the horizon.
+/// Root mean squared difference over the lower half of the image without the first `without` rows below the horizon.
 pub fn rmse(image: &[f64], expected: &[f64], without: u32) -> f64 {
     assert_eq!(image.len(), expected.len());
     let first = ((SIZE[1] / 2 + without) * SIZE[0]) as usize;

@@ -1,21 +1,21 @@
-//! A texture as it is: its texels in linear light, seen through the filter of magnification and the modes of its wrapping.
+//! A texture in closed form: its texels in linear light, with the magnification filter and the wrap modes.
 
 use gpc::color::srgb;
 use gpc::scene::{Filter, Image, Sampler, Wrap};
 
-/// Texels of each side.
+/// Number of texels along each side.
 pub const SIDE: u32 = 64;
 
 /// A grey texture.
 pub struct Texture {
     pub image: Image,
     pub sampler: Sampler,
-    /// Rows of what the image's bytes stand for.
+    /// Linear values of the image's texels, row by row.
     linear: Vec<f64>,
 }
 
 impl Texture {
-    /// The texture whose texel (x, y) is the 8-bit sRGB code nearest to `value(x, y)` in linear light.
+    /// Texture whose texel (x, y) is the 8-bit sRGB code nearest to `value(x, y)`, which is in linear light.
     pub fn new(sampler: Sampler, value: impl Fn(u32, u32) -> f64) -> Self {
         let places = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
         let codes: Vec<u8> = places.map(|(x, y)| srgb::encode_u8(value(x, y))).collect();
@@ -36,13 +36,13 @@ impl Texture {
         }
     }
 
-    /// Squares of `size` texels, light and dark by turns.
+    /// Squares of `size` texels, alternately light and dark.
     pub fn checker(sampler: Sampler, size: u32) -> Self {
         let light = |x: u32, y: u32| (x / size + y / size).is_multiple_of(2);
         Self::new(sampler, |x, y| if light(x, y) { 0.9 } else { 0.05 })
     }
 
-    /// A sine grating of whole numbers of waves along both sides.
+    /// A sine grating with whole numbers of waves along both sides.
     pub fn grating(sampler: Sampler, waves: [u32; 2]) -> Self {
         Self::new(sampler, |x, y| {
             let phase = f64::from(waves[0] * x + waves[1] * y) / f64::from(SIDE);
@@ -50,7 +50,7 @@ impl Texture {
         })
     }
 
-    /// Texels of many greys, none of which tells its neighbours: a mistake in wrapping shows.
+    /// Blocks of texels with irregular greys, so that a mistake in wrapping is visible.
     pub fn mosaic(sampler: Sampler) -> Self {
         Self::new(sampler, |x, y| {
             let [x, y] = [x / 8, y / 8];
@@ -64,7 +64,7 @@ impl Texture {
         self.linear[y * SIDE as usize + x]
     }
 
-    /// Its value at texture coordinates, magnified.
+    /// Value at texture coordinates, magnified.
     pub fn at(&self, [u, v]: [f64; 2]) -> f64 {
         let side = f64::from(SIDE);
         if self.sampler.mag == Filter::Nearest {
@@ -81,8 +81,8 @@ impl Texture {
         a + down * (b - a)
     }
 
-    /// Its mean along the straight line from one place to another: exact up to rounding, by Simpson's rule between the
-    /// lines of texels, between which it is a quadratic function.
+    /// Mean along the straight line between two places. It is exact up to rounding, by Simpson's rule between the
+    /// lines of texels, where the value is a quadratic function.
     pub fn mean_along(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let mut cuts = vec![0.0, 1.0];
         for axis in 0..2 {
@@ -92,14 +92,15 @@ impl Texture {
         let place = |t: f64| [0, 1].map(|axis| from[axis] + t * (to[axis] - from[axis]));
         let piece = |ends: &[f64]| {
             let (length, middle) = (ends[1] - ends[0], 0.5 * (ends[0] + ends[1]));
-            // Within the piece, so that steps at its ends don't count.
+            // The points lie inside of the piece, so that steps at its ends don't matter.
             let near = |t: f64| self.at(place(middle + (t - middle) * (1.0 - 1e-9)));
             length * (near(ends[0]) + 4.0 * near(middle) + near(ends[1])) / 6.0
         };
         cuts.windows(2).map(piece).sum()
     }
 
-    /// Adds where a coordinate that runs from one value to another crosses a line at which the texture's formula changes.
+    /// Adds the parameters at which a coordinate between two values crosses a line where the texture's formula
+    /// changes.
     fn cut(&self, cuts: &mut Vec<f64>, from: f64, to: f64) {
         let shift = if self.sampler.mag == Filter::Nearest {
             0.0
@@ -119,7 +120,7 @@ impl Texture {
     }
 }
 
-/// The texel that a wrap mode puts at an index.
+/// Index of the texel that a wrap mode gives for an index.
 fn wrapped(index: i64, wrap: Wrap) -> usize {
     let side = i64::from(SIDE);
     let texel = match wrap {

@@ -1,4 +1,4 @@
-//! How dense the pixels of a display are, as desktops say it: XSETTINGS, version 0.5.
+//! Density of a display's pixels, as desktops announce it: XSETTINGS, version 0.5.
 
 use super::display::Display;
 use x11rb::connection::Connection;
@@ -13,7 +13,7 @@ x11rb::atom_manager! {
     }
 }
 
-/// A program that manages the settings of a display, until it is dropped.
+/// Manager of a display's settings, until it is dropped.
 pub struct Density {
     connection: RustConnection,
     window: u32,
@@ -21,7 +21,7 @@ pub struct Density {
 }
 
 impl Density {
-    /// Begins with that many dots per inch; 96 are ordinary.
+    /// Announces `dots` dots per inch; 96 is normal.
     pub fn new(display: &Display, dots: u32) -> Self {
         let (connection, screen) = RustConnection::connect(Some(&display.name)).unwrap();
         let atoms = Atoms::new(&connection).unwrap().reply().unwrap();
@@ -57,9 +57,10 @@ impl Density {
         density
     }
 
-    /// Changes it.
+    /// Changes the number of dots per inch.
     pub fn set(&self, dots: u32) {
-        // Little-endian words: serial and number of settings; of the one, its kind, an integer, and the length of its name.
+        // The data are little-endian words: serial number and number of settings; then the kind of the setting, an
+        // integer, and the length of its name.
         let mut bytes = vec![0, 0, 0, 0];
         bytes.extend([dots, 1].map(u32::to_le_bytes).as_flattened());
         bytes.extend([0, 0, 7, 0]);

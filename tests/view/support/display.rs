@@ -1,4 +1,4 @@
-//! A display without a screen: Xvfb, and input by xdotool. Fails without them.
+//! Displays without a screen: Xvfb, with input by xdotool. Fails without them.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -45,7 +45,7 @@ impl Display {
         }
     }
 
-    /// Sends input.
+    /// Sends input with xdotool.
     pub fn input(&self, arguments: &[&str]) {
         let status = Command::new("xdotool")
             .args(arguments)
@@ -68,9 +68,9 @@ impl Display {
         number.parse().unwrap()
     }
 
-    /// Colours of the screen's upper left part.
+    /// Colours of the upper left part of the screen.
     pub fn pixels(&self, [width, height]: [usize; 2]) -> Vec<[u8; 3]> {
-        // An XWD file: a header of big-endian words, a colour map, and rows of BGRX.
+        // The file is in XWD format: a header of big-endian words, a colour map, and rows of BGRX.
         let bytes = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
         let word = |index: usize| {
             let word = bytes[4 * index..4 * index + 4].try_into().unwrap();

@@ -1,11 +1,11 @@
-//! Devices that are lost: a Vulkan layer, compiled from C, that fails submissions.
+//! Simulated loss of devices: a Vulkan layer, compiled from C, that makes submissions fail.
 
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// The layer in a folder of its own.
+/// The layer, in a folder of its own.
 pub struct Loss {
     folder: TempDir,
     cue: PathBuf,
@@ -41,7 +41,7 @@ impl Loss {
         Self { folder, cue }
     }
 
-    /// What the environment has to say for the layer to be used.
+    /// Environment variables that load the layer.
     pub fn variables(&self) -> [(&str, &Path); 3] {
         [
             ("VK_ADD_LAYER_PATH", self.folder.path()),
@@ -50,15 +50,15 @@ impl Loss {
         ]
     }
 
-    /// The device that submits next is lost.
+    /// Makes the next submission lose its device.
     pub fn once(&self) {
         std::fs::write(&self.cue, "").unwrap();
     }
 
-    /// All devices are lost as soon as they are used.
+    /// Makes all devices fail as soon as they are used.
     pub fn always(&self) {
         std::fs::create_dir(&self.cue).unwrap();
-        // A folder with something in it can't be removed.
+        // The layer can't remove a folder that is not empty.
         std::fs::write(self.cue.join("kept"), "").unwrap();
     }
 }

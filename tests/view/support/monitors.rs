@@ -1,4 +1,4 @@
-//! Two monitors of different density, on Wayland: sway without a screen, and grim. Fails without them.
+//! Two monitors of different density on Wayland: sway without a screen, and grim. Fails without them.
 
 use super::PATIENCE;
 use super::program::Program;
@@ -7,26 +7,26 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// What sway is to do: windows lie where they are put.
+/// Configuration of sway: two outputs, and windows that stay where they are put.
 const CONFIG: &str = "\
 output HEADLESS-1 mode 640x480 position 0 0 scale 1
 output HEADLESS-2 mode 1280x960 position 640 0 scale 2
 default_border none
 for_window [title=\".*\"] floating enable
 ";
-/// Who has no rights: sway refuses to run as root.
+/// User ID without rights: sway refuses to run as root.
 const NOBODY: u32 = 65534;
 
-/// A monitor of [`Monitors`].
+/// One of the two monitors.
 #[derive(Clone, Copy, Debug)]
 pub enum Monitor {
-    /// 640 x 480 pixels.
+    /// Left monitor, 640 x 480 pixels.
     Left,
-    /// 1280 x 960 pixels, and as large as the other.
+    /// Right monitor, 1280 x 960 pixels, with the same apparent size.
     Right,
 }
 
-/// Two monitors, side by side.
+/// Two monitors side by side.
 pub struct Monitors {
     server: Child,
     folder: TempDir,
@@ -75,12 +75,12 @@ impl Monitors {
         monitors
     }
 
-    /// Starts a program that opens its windows here.
+    /// Starts a program that opens its windows on these monitors.
     pub fn start(&self, command: &mut Command) -> Program {
         Program::start(self.on(command).env_remove("DISPLAY"))
     }
 
-    /// Has sway do something, once it can: a window may not be there yet.
+    /// Sends a command to sway until it succeeds, because a window may not exist yet.
     pub fn order(&self, order: &str) {
         let until = Instant::now() + PATIENCE;
         loop {
@@ -97,7 +97,7 @@ impl Monitors {
         }
     }
 
-    /// What a monitor shows.
+    /// Screenshot of a monitor.
     pub fn picture(&self, monitor: Monitor) -> image::RgbImage {
         let name = match monitor {
             Monitor::Left => "HEADLESS-1",

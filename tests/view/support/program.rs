@@ -1,4 +1,4 @@
-//! A program in a window, and what it says.
+//! A program with a window, and its messages.
 
 use super::PATIENCE;
 use std::io::{BufRead, BufReader};
@@ -7,16 +7,16 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// A program that is killed when it is dropped.
+/// A program that is killed when this is dropped.
 pub struct Program {
     process: Child,
     lines: Receiver<String>,
-    /// Lines of standard error that were taken.
+    /// Lines of standard error that have been read.
     pub said: Vec<String>,
 }
 
 impl Program {
-    /// `gpc view`, that says all that it does and is validated.
+    /// Command `gpc view` with all log messages, under the validation layer.
     pub fn viewer(folder: &Path, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_gpc"));
         command
@@ -49,7 +49,7 @@ impl Program {
         }
     }
 
-    /// The next line that holds a text.
+    /// Waits for the next line that contains a text, and returns it.
     pub fn wait_for(&mut self, text: &str) -> String {
         let until = Instant::now() + PATIENCE;
         self.wait_until(text, until)
@@ -74,17 +74,17 @@ impl Program {
         }
     }
 
-    /// Takes all that it has said and was not waited for, once it has ended.
+    /// Reads all remaining lines, once the program has ended.
     pub fn read_to_end(&mut self) {
         self.said.extend(self.lines.iter());
     }
 
-    /// Takes what it has said since.
+    /// Reads the lines that have arrived.
     pub fn read(&mut self) {
         self.said.extend(self.lines.try_iter());
     }
 
-    /// Main memory that it uses.
+    /// Number of bytes of main memory that the program uses.
     pub fn memory_bytes(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.process.id()));
         let status = status.expect("the program has ended");
@@ -93,7 +93,7 @@ impl Program {
         1024 * number.unwrap().parse::<u64>().unwrap()
     }
 
-    /// Waits until it ends.
+    /// Waits until the program ends.
     pub fn ended(&mut self) -> ExitStatus {
         let until = Instant::now() + PATIENCE;
         loop {
@@ -105,7 +105,7 @@ impl Program {
         }
     }
 
-    /// Waits until it ends, and checks that nothing was complained of.
+    /// Waits until the program ends, and asserts that it succeeded without error messages.
     pub fn ended_well(&mut self) {
         let status = self.ended();
         self.read_to_end();

@@ -8,19 +8,19 @@ use std::path::Path;
 use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
-/// The viewer, and what it says.
+/// The viewer, and its messages.
 pub struct Viewer<'a> {
     display: &'a Display,
     program: Program,
 }
 
 impl<'a> Viewer<'a> {
-    /// Opens scenes in a window, and waits for that.
+    /// Opens scenes in a window, and waits until they are shown.
     pub fn open(display: &'a Display, folder: &Path, arguments: &[&str]) -> Self {
         Self::open_with(display, folder, arguments, &[])
     }
 
-    /// The same with variables of the environment.
+    /// Opens scenes as [`Self::open`] does, with variables of the environment.
     pub fn open_with(
         display: &'a Display,
         folder: &Path,
@@ -37,7 +37,7 @@ impl<'a> Viewer<'a> {
         Self { display, program }
     }
 
-    /// Says something that has an effect, again and again until a line holds a text: a window may not be ready for it.
+    /// Repeats an action until a line contains a text, because a window may not be ready for it.
     pub fn repeat_until(&mut self, text: &str, mut act: impl FnMut(&Display)) -> String {
         let until = Instant::now() + PATIENCE;
         loop {
@@ -58,7 +58,7 @@ impl<'a> Viewer<'a> {
         self.display.input(&["key", key]);
     }
 
-    /// Drags with a button from the window's middle.
+    /// Drags with a button, starting in the window's middle.
     pub fn drag(&self, button: &str, to: [&str; 2]) {
         self.display.input(&[
             "mousemove",
@@ -77,7 +77,7 @@ impl<'a> Viewer<'a> {
         ]);
     }
 
-    /// Waits until the window has the focus, and takes keys: then it answers when asked for a command.
+    /// Waits until the window has the focus and reacts to keys: until it answers when asked for a command.
     pub fn focus(&mut self, answer: &str) {
         self.repeat_until(answer, |display| display.input(&["key", "ctrl+c"]));
     }
@@ -88,7 +88,7 @@ impl<'a> Viewer<'a> {
         self.key("p");
     }
 
-    /// The `gpc render` command that makes the picture, by its arguments.
+    /// Arguments of the `gpc render` command that makes the picture.
     pub fn command(&mut self) -> Vec<String> {
         // The window may not have the focus yet.
         let line = self.repeat_until("copied: gpc ", |display| display.input(&["key", "ctrl+c"]));
@@ -105,7 +105,7 @@ impl<'a> Viewer<'a> {
         self.ended()
     }
 
-    /// Closes the window, and checks that nothing was complained of.
+    /// Closes the window, and asserts that there were no error messages.
     pub fn close(mut self) {
         self.key("q");
         self.ended_well();

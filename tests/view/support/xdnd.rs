@@ -1,4 +1,4 @@
-//! Dropping files on a window as file managers do: the source's side of XDND, version 5.
+//! Dropping of files on a window, as file managers do it: the source's side of XDND, version 5.
 
 use super::PATIENCE;
 use super::display::Display;
@@ -21,7 +21,7 @@ x11rb::atom_manager! {
     }
 }
 
-/// A program that drags.
+/// A program that drags files.
 struct Source {
     connection: RustConnection,
     window: u32,
@@ -29,7 +29,7 @@ struct Source {
     uris: String,
 }
 
-/// Drops a file or folder on a window by its number.
+/// Drops a file or folder on the window with this number.
 pub fn drop_file(display: &Display, target: u32, path: &Path) {
     let (connection, screen) = RustConnection::connect(Some(&display.name)).unwrap();
     let atoms = Atoms::new(&connection).unwrap().reply().unwrap();
@@ -79,7 +79,7 @@ impl Source {
         self.connection.flush().unwrap();
     }
 
-    /// Hands the paths over, until the window sends a message of a kind.
+    /// Answers requests for the paths until the window sends a message of this kind.
     fn serve_until(&self, kind: Atom) {
         let until = Instant::now() + PATIENCE;
         loop {

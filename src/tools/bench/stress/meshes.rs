@@ -16,8 +16,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Corners of a triangle in one of their six orders, three of which flip its facing; `permutation` is taken modulo
-    /// 6.
+    /// Corners of a triangle in one of their six orders, three of which flip its facing; `permutation` is taken
+    /// modulo 6.
     ///
     /// # Panics
     /// If there is no triangle with this index.

@@ -1,4 +1,4 @@
-//! What casts shadows, and what can not be shadowed.
+//! Casters of shadows, and surfaces without shadows.
 
 use glam::DVec3;
 use gpc::camera::SampleLocation;
@@ -9,8 +9,8 @@ use super::{FLOOR, SIZE, ask, exact, floor, light, lit, location, pinhole, sun};
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, textured};
 
-/// A MASK quadrilateral casts the shadow of what passes its alpha test; BLEND ones dim, and single-sided ones cast shadows
-/// from behind.
+/// A MASK quadrilateral casts a shadow where it passes its alpha test; BLEND ones dim the light, and single-sided ones
+/// also cast shadows when lit from behind.
 #[test]
 fn what_casts_shadows_is_what_stands_in_the_way() {
     on_gpu(|gpu| {
@@ -40,7 +40,7 @@ fn what_casts_shadows_is_what_stands_in_the_way() {
                 ..Sampler::default()
             },
         ));
-        // Squares at the height 1 whose middles cast their shadows abreast, under light from straight above.
+        // The squares are at height 1, and light from straight above casts the shadows of their middles side by side.
         let square = |x: f32| {
             [
                 [x, 1.0, -4.0],
@@ -50,7 +50,7 @@ fn what_casts_shadows_is_what_stands_in_the_way() {
             ]
         };
         let [a, b, c, d] = square(-2.5);
-        // Single-sided triangles come first; these show the floor their backs, and light their backs too.
+        // Single-sided triangles come first; their backs face the floor, and later the light.
         let mut order = Stage::new(stage.materials.clone());
         order.texture = stage.texture.clone();
         order.add_quad(1, [d, c, b, a]);
@@ -114,7 +114,7 @@ fn what_can_not_be_shadowed_is_refused() {
             matches!(many, Err(RenderError::ShadowLights { found: 33 })),
             "{many:?}"
         );
-        // 32 lights, of which the last has the highest bit.
+        // With 32 lights, the last one has the highest bit.
         pose.lights.truncate(32);
         let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
         let prepared = gpu.upload(request).unwrap();

@@ -1,4 +1,4 @@
-//! Where the shadows of a triangle end on a floor.
+//! Borders of triangles' shadows on a floor.
 
 use glam::DVec2;
 use gpc::scene::{AlphaMode, Light, LightKind};
@@ -48,7 +48,7 @@ fn edges_of_shadows_lie_where_light_casts_them() {
     });
 }
 
-/// What is outside a cone or out of reach is not asked, and lies in no shadow.
+/// Places outside of a light's cone or range are not tested, and count as lit.
 #[test]
 fn light_that_does_not_reach_casts_no_shadow() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Meshes and their own shadows.
+//! Shadows of meshes on themselves.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,8 +10,8 @@ use super::{FLOOR, ask, light, lit, location, places};
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu};
 
-/// Of a convex mesh, facets that face the light are lit all over, up to a degree from grazing it; those that face away
-/// lie in the shadow of the others.
+/// Facets of a convex mesh that face the light are lit everywhere, up to a degree from grazing incidence; facets that
+/// face away lie in the shadow of the others.
 #[test]
 fn a_ball_shadows_its_far_side_alone() {
     const RINGS: usize = 40;
@@ -74,7 +74,7 @@ fn a_ball_shadows_its_far_side_alone() {
                     grazing += 1;
                     continue;
                 }
-                // Just behind an edge, what lies before a facet that faces away is as near as itself.
+                // Just behind an edge, the facet in front of one that faces away is at the same distance.
                 assert!(
                     !shadowed || cosine < 0.0,
                     "{seen:?}: {cosine} towards light {bit}"
@@ -92,7 +92,7 @@ fn a_ball_shadows_its_far_side_alone() {
     });
 }
 
-/// A plane of many triangles does not shadow itself, however long their shadows would be.
+/// A plane of many triangles does not shadow itself, however long shadows would be.
 #[test]
 fn a_plane_that_light_grazes_is_lit() {
     on_gpu(|gpu| {

@@ -1,4 +1,4 @@
-//! Exact shadows against their closed form: light over a floor, and what stands in its way.
+//! Exact shadows, compared with their closed form: light above a floor, and objects that block it.
 
 mod casters;
 mod edges;
@@ -22,9 +22,9 @@ use crate::meshes::Random;
 use crate::stage::{Stage, camera, flat, once};
 
 const SIZE: [u32; 2] = [1280, 720];
-/// Height of the floor, which is the first two triangles of a stage.
+/// Height of the floor, which consists of the first two triangles of a stage.
 const FLOOR: f64 = -1.0;
-/// A triangle over the floor.
+/// A triangle above the floor.
 const OVER: [[f32; 3]; 3] = [[-0.9, 0.3, -2.7], [1.1, 0.5, -3.4], [0.2, 0.9, -2.2]];
 
 fn lit(alpha_mode: AlphaMode) -> Material {
@@ -35,7 +35,7 @@ fn lit(alpha_mode: AlphaMode) -> Material {
     }
 }
 
-/// A floor, of the stage's first material.
+/// A stage with a floor of its first material.
 fn floor(materials: Vec<Material>) -> Stage {
     let mut stage = Stage::new(materials);
     let corner = |x: f32, z: f32| [x, FLOOR as f32, z];
@@ -64,7 +64,7 @@ fn sun() -> Light {
     light(LightKind::Directional, DVec3::ZERO, direction)
 }
 
-/// Lights from a point over the triangle, towards it.
+/// A light above the triangle that points towards it.
 fn lamp(kind: LightKind) -> Light {
     let position = DVec3::new(-0.4, 2.9, -2.1);
     light(kind, position, DVec3::new(0.2, -1.0, -0.3))
@@ -104,7 +104,7 @@ fn ask(
     seen.unwrap().values
 }
 
-/// Where a light casts a point's shadow on the floor, as the camera sees it.
+/// Place in the image of the shadow that a light casts of a point onto the floor.
 fn cast(light: &Light, corner: [f32; 3], pinhole: &Pinhole) -> DVec2 {
     let corner = DVec3::from_array(corner.map(f64::from));
     let along = match light.kind {
@@ -115,7 +115,7 @@ fn cast(light: &Light, corner: [f32; 3], pinhole: &Pinhole) -> DVec2 {
     pinhole.project(on_floor).unwrap()
 }
 
-/// Whether a place lies in a triangle, and how far from the lines of its sides.
+/// Whether a place lies in a triangle, and its distance from the nearest line through a side.
 fn within(place: DVec2, corners: [DVec2; 3]) -> (bool, f64) {
     let sides = [0, 1, 2].map(|i| {
         let (from, to) = (corners[i], corners[(i + 1) % 3]);
@@ -128,7 +128,7 @@ fn within(place: DVec2, corners: [DVec2; 3]) -> (bool, f64) {
     )
 }
 
-/// Places all over the lower half of the image, and as many along the sides of a triangle.
+/// Locations all over the lower half of the image, and the same number along the sides of a triangle.
 fn places(corners: [DVec2; 3]) -> Vec<SampleLocation> {
     let mut random = Random::new(77);
     let mut fraction = || random.below(1 << 20) as f64 / f64::from(1 << 20);

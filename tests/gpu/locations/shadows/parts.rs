@@ -1,4 +1,4 @@
-//! Images with shadows that are made in parts.
+//! Images with shadows, rendered in parts.
 
 use gpc::render::{PixelRect, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Material};
@@ -8,7 +8,7 @@ use crate::stage::on_gpu;
 
 const SIZE: [u32; 2] = [640, 400];
 
-/// The planes of lights are those of the whole image, and so are the shadows: to the bit.
+/// The planes of lights are computed for the whole image, so that its parts have bit-identical shadows.
 #[test]
 fn parts_of_an_image_have_the_shadows_of_the_whole() {
     on_gpu(|gpu| {

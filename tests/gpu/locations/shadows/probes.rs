@@ -1,4 +1,4 @@
-//! The places of a pixel that are asked for shadows besides its centre.
+//! The places of a pixel that are probed for shadows besides its centre.
 
 use glam::DVec2;
 use gpc::reference::shadow::PROBES;
@@ -11,13 +11,13 @@ use super::{FLOOR, floor, lit, pinhole, render, sun, upload, within};
 use crate::stage::{everywhere, on_gpu};
 
 const SIZE: [u32; 2] = [256, 192];
-/// Radius of a dot of shadow, in pixels.
+/// Radius of a shadow's dot, in pixels.
 const RADIUS: f64 = 1.0 / 40.0;
-/// Pixels from one with a dot to the next, so that no dot has to do with another's pixel.
+/// Distance in pixels between pixels with dots, so that no dot affects another dot's pixel.
 const APART: usize = 4;
 
-/// Where dots lie, from their pixel's centre: on every probe and all around it, and on a grid over the pixel without its
-/// centre, which is asked for the pixel's own colour.
+/// Places of dots relative to their pixel's centre: on and around every probe, and on a grid over the pixel. The
+/// centre is left out, because it determines the pixel's own colour.
 fn dots() -> Vec<DVec2> {
     let steps = |from: i32| (from..=-from).flat_map(move |y| (from..=-from).map(move |x| (x, y)));
     let place = |(x, y): (i32, i32)| DVec2::new(f64::from(x), f64::from(y)) / 16.0;
@@ -26,14 +26,14 @@ fn dots() -> Vec<DVec2> {
     PROBES.into_iter().flat_map(around).chain(grid).collect()
 }
 
-/// Dots of shadow that are smaller than the gaps between them: a pixel is a superpixel where one covers a probe as the twin
-/// has them, and only there.
+/// Dots of shadow are smaller than the gaps between them. A pixel is a superpixel if and only if its dot covers a
+/// probe of the twin.
 #[test]
 fn pixels_are_probed_where_the_twin_has_it() {
     on_gpu(|gpu| {
         let mut stage = floor(vec![lit(AlphaMode::Opaque)]);
         let pinhole = pinhole(SIZE);
-        // Casters high above the camera, out of sight.
+        // The casters are high above the camera, out of view.
         let above = |uv: DVec2| {
             let ray = pinhole.ray(uv);
             let to_floor = (FLOOR - ray.start.y) / ray.direction.y;

@@ -1,4 +1,4 @@
-//! Shadows against rays, among triangles anywhere.
+//! Shadows among random triangles, compared with rays.
 
 use glam::{DVec2, DVec3};
 use gpc::reference::shadow::{Receiver, Shining, is_in_shadow};
@@ -8,7 +8,7 @@ use super::{SIZE, ask, light, lit, location, pinhole, spot};
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu};
 
-/// What a light is to rays.
+/// A light in the form that the twin takes.
 fn shining(light: &Light, corners: &[[DVec3; 3]]) -> Shining {
     let cosine = match light.kind {
         LightKind::Directional => {

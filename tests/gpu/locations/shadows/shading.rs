@@ -1,4 +1,4 @@
-//! How bright points are that lights do not reach.
+//! Brightness of points that some lights do not reach.
 
 use glam::DVec2;
 use gpc::camera::SampleLocation;
@@ -8,7 +8,7 @@ use gpc::scene::{AlphaMode, Light, LightKind, Material};
 use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun, upload, within};
 use crate::stage::{Stage, on_gpu, once};
 
-/// Each light has shadows of its own, and a point is as bright as the lights make it that it does not lie in the shadow of.
+/// Each light has its own shadows, and a point is lit by exactly the lights in whose shadow it does not lie.
 #[test]
 fn shading_leaves_out_the_lights_that_are_hidden() {
     on_gpu(|gpu| {
@@ -46,7 +46,7 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
     });
 }
 
-/// BLEND triangles take as much of the light as their opacities say, one after the other, and none where they lie behind.
+/// BLEND triangles reduce the light by their opacities, one after the other, unless they lie behind the receiver.
 #[test]
 fn blend_lets_pass_what_its_opacity_leaves() {
     on_gpu(|gpu| {
@@ -55,7 +55,7 @@ fn blend_lets_pass_what_its_opacity_leaves() {
             ..lit(AlphaMode::Blend)
         };
         let mut stage = floor(vec![lit(AlphaMode::Opaque), blend(0.25), blend(0.6)]);
-        // Both in the way of the first light; the second one lies behind the floor.
+        // Both triangles block the first light; for the second light one lies behind the floor.
         let above = |height: f32| OVER.map(|[x, y, z]| [x + 0.2 * height, y + height, z]);
         stage.add(1, OVER);
         stage.add(2, above(0.3));
@@ -67,7 +67,7 @@ fn blend_lets_pass_what_its_opacity_leaves() {
         };
         let locations = places(cast_by(0)[0]);
         let seen = ask(gpu, &stage, &lights, &locations);
-        // What each light gives by itself, where nothing is in its way.
+        // This is the contribution of each light on its own, without casters.
         let dark = |light: &Light| Light {
             color: [0.0; 3],
             ..*light
@@ -119,7 +119,8 @@ fn blend_lets_pass_what_its_opacity_leaves() {
     });
 }
 
-/// Layers lie in the shadows that an opaque surface in their place would lie in, whatever their opacity; so does what lies behind them.
+/// A translucent layer lies in the same shadows as an opaque surface in its place, whatever its opacity; so does the
+/// surface behind it.
 #[test]
 fn blend_receives_shadows() {
     on_gpu(|gpu| {

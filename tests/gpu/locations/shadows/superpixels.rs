@@ -11,8 +11,8 @@ use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload
 use crate::scenes::ball_over_checker;
 use crate::stage::{everywhere, on_gpu};
 
-/// The pixels that the border of a shadow crosses between their centre and a neighbour's, or a probe, are superpixels, although
-/// they show one triangle, and as dark as the part of their samples in shadow.
+/// Pixels in which the border of a shadow lies between their centre and a neighbour's, or a probe, are superpixels
+/// even on a single triangle, and their brightness is the share of their samples that are lit.
 #[test]
 fn borders_of_shadows_are_antialiased() {
     const SIZE: [u32; 2] = [128, 96];
@@ -52,7 +52,7 @@ fn borders_of_shadows_are_antialiased() {
                 }
                 let superpixel = image.attributes[index].superpixel == 1;
                 assert_eq!(superpixel, differs, "{x}, {y}");
-                // Two pixels to each side along the row, lit and in shadow, tell the share of the samples.
+                // Pixels two to each side in the row, one lit and one in shadow, give the range of values.
                 let ends = [value(x - 1, y), value(x + 1, y)];
                 if !superpixel || around(-1, 0) == around(1, 0) {
                     continue;
@@ -75,7 +75,7 @@ fn borders_of_shadows_are_antialiased() {
     });
 }
 
-/// Where no light is hidden, superpixels are those of the engine that shades every sample.
+/// If nothing casts a shadow, superpixels equal those of shading every sample.
 #[test]
 fn superpixels_without_shadows_stay_as_they_were() {
     on_gpu(|gpu| {

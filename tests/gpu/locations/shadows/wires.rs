@@ -12,14 +12,15 @@ use super::{FLOOR, floor, light, lit, render, upload};
 use crate::stage::{camera, on_gpu};
 
 const SIZE: [u32; 2] = [640, 360];
-/// Of a wire's shadow, in pixels.
+/// Width of a wire's shadow in pixels.
 const WIDTH: f64 = 0.2;
 const LENGTH: f64 = 50.0;
-/// Each wire has a part of the image for itself.
+/// Part of the image for each wire, in pixels.
 const PART: [u32; 2] = [160, 62];
 const FIRST_ROW: u32 = 234;
 
-/// Wires out of sight whose shadows are a fifth of a pixel wide, in all directions, take as much light as their area says.
+/// Wires out of view, whose shadows are a fifth of a pixel wide and have all directions, block as much light as the
+/// area of their shadows.
 #[test]
 fn the_shadow_of_a_thin_wire_keeps_its_energy() {
     on_gpu(|gpu| {
