@@ -1,13 +1,13 @@
-//! What the engine's passes know of a scene, whoever made it.
+//! Properties of a scene that the engine's passes need, whatever its source.
 
 use ash::vk;
 
-/// Triangles, and what passes read them from.
+/// A scene's triangles, as far as passes depend on them.
 pub trait Content: Sync {
-    /// Number of indices of triangles, or the most there can be; some may stand for none.
+    /// Number of indices of triangles, or an upper bound; some indices may belong to no triangle.
     fn index_count(&self) -> u32;
 
-    /// Whether some triangles are drawn several times.
+    /// Whether triangles are drawn by instances.
     fn is_instanced(&self) -> bool;
 
     /// Whether any triangle is alpha-tested.
@@ -16,18 +16,18 @@ pub trait Content: Sync {
     /// Whether any triangle is composited.
     fn has_blend(&self) -> bool;
 
-    /// Whether a triangle may ask for several shading places in a pixel.
+    /// Whether any triangle may need several shadings in a pixel.
     fn has_high_frequency(&self) -> bool;
 
-    /// Whether most triangles do.
+    /// Whether most triangles may need several shadings in a pixel.
     fn is_mostly_high_frequency(&self) -> bool;
 
-    /// Whether a triangle lets light through by other shares than its opacity.
+    /// Whether any triangle transmits another share of light than its opacity leaves.
     fn is_tinted(&self) -> bool;
 
     /// Number of shading keys, at least 1.
     fn bin_count(&self) -> u32;
 
-    /// The environment map; nothing where surfaces are not shaded by the engine.
+    /// Descriptor of the environment map; `None` if the engine does not shade the surfaces.
     fn environment_map(&self) -> Option<vk::DescriptorImageInfo>;
 }

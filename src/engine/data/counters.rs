@@ -1,17 +1,17 @@
-//! The indices of counters and of indirect dispatches, as `shaders/include/interface.glsl` numbers them.
+//! Indices of counters and of indirect dispatches: the same numbers as in `shaders/include/interface.glsl`.
 
 pub(crate) use crate::engine::passes::spirv::STRETCH;
 pub use crate::engine::passes::spirv::{Argument, Counter};
 
 impl Counter {
-    /// Length of the buffer of counters.
+    /// Number of counters.
     pub const COUNT: usize = size_of::<crate::engine::passes::spirv::Counters>() / 4;
-    /// Bytes of the buffer of counters.
+    /// Number of bytes of the buffer of counters.
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
-    /// Bytes of those that are cleared before each run.
+    /// Number of bytes of the counters that are cleared before each run.
     pub(crate) const CLEARED_BYTES: u64 = 4 * Self::Subgroups as u64;
 
-    /// Its value among all counters; 0 where these are fewer.
+    /// Value of this counter in `counters`; 0 if the slice is too short.
     pub(crate) fn of(self, counters: &[u32]) -> u32 {
         counters.get(self as usize).copied().unwrap_or(0)
     }

@@ -1,30 +1,30 @@
-//! A host's draws on the device.
+//! Draws of a host, on the device.
 
 use super::TriangleWord;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// A draw, as `shaders/include/draws.glsl` describes it.
+/// A draw, laid out as in `shaders/include/draws.glsl`.
 pub(crate) use crate::engine::passes::spirv::Draw as HostDraw;
 
 impl HostDraw {
-    /// Whether back faces show.
+    /// Whether back faces are visible.
     pub fn is_double_sided(&self) -> bool {
         self.word & TriangleWord::DOUBLE_SIDED != 0
     }
 }
 
-/// Draws, and a matrix for each where positions are in object space.
+/// Table of draws, and a matrix for each if positions are in object space.
 pub(crate) struct Draws {
     pub(crate) table: Buffer,
     pub(crate) matrices: Option<Buffer>,
 }
 
 impl Draws {
-    /// Memory for so many draws.
+    /// Allocates memory for `capacity` draws.
     ///
     /// # Errors
-    /// If memory runs out or the device's limits are passed.
+    /// If memory runs out or a limit of the device is exceeded.
     pub fn new(memory: &Memory, capacity: u32, has_matrices: bool) -> Result<Self, VulkanError> {
         let storage = |name, bytes| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
@@ -39,7 +39,7 @@ impl Draws {
         })
     }
 
-    /// Records their upload. They fit in what was asked for.
+    /// Records the upload of draws, which must not exceed the capacity.
     pub fn record_upload(
         &self,
         recorder: &Recorder<'_>,

@@ -1,4 +1,4 @@
-//! Sample locations of the caller's own on the device, in the place of pixels.
+//! Sampling locations on the device, which take the place of pixels.
 
 use super::{BoundTexels, Resources, SampleSet};
 use crate::engine::passes::spirv::distribute_set;
@@ -7,54 +7,55 @@ use crate::engine::pipelines::own_layout::{BoundBuffer, whole};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// What a cell is.
+/// Kind of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cells {
-    /// A pixel of the mask, with sub-samples.
+    /// A pixel of the mask with its samples.
     Pixels,
-    /// A location, with sub-samples that its Jacobian places.
+    /// A location with samples around it, placed by its Jacobian.
     Superpixels,
-    /// A few locations of a tile, each sampled once, where it is.
+    /// Several locations of a tile, each sampled once.
     Points,
-    /// The same, for surfaces that a light's pinhole sees: which triangle lies before theirs.
+    /// Several locations of a tile on a light's plane, each sampled once for triangles nearer to the light than the
+    /// location's own.
     Occluders,
 }
 
 impl Cells {
-    /// Whether its locations are sampled once each.
+    /// Whether locations are sampled once each.
     #[must_use]
     pub fn are_points(self) -> bool {
         matches!(self, Self::Points | Self::Occluders)
     }
 
-    /// Whether they are made of sample locations.
+    /// Whether cells consist of sampling locations.
     pub(crate) fn are_locations(self) -> bool {
         self != Self::Pixels
     }
 
-    /// Whether it is asked what lies before their locations.
+    /// Whether occluders of the locations are sought.
     pub(crate) fn are_occluders(self) -> bool {
         self == Self::Occluders
     }
 }
 
-/// How many locations, cells and groups of cells a run has at the most.
+/// Largest numbers of locations, cells and groups of cells in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocationSizes {
-    /// Locations.
+    /// Number of locations.
     pub locations: u32,
-    /// Cells.
+    /// Number of cells.
     pub cells: u32,
-    /// Places of the order: cells have room for as many locations.
+    /// Number of places in the order, in which cells have room for their locations.
     pub places: u32,
-    /// Groups of cells that a subgroup takes.
+    /// Number of groups of cells; a subgroup samples one.
     pub groups: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
 }
 
 impl LocationSizes {
-    /// Room for so many locations in a region of so many tiles.
+    /// Sizes for `locations` locations in a region of `tiles` tiles.
     #[must_use]
     pub fn new(locations: u32, tiles: u32, cells: &CellSizes) -> Self {
         let cell_count = cells.most_cells(locations, tiles);
@@ -67,7 +68,7 @@ impl LocationSizes {
         }
     }
 
-    /// Bytes of the buffers that locations need beside those of pixels, over `tiles` tiles.
+    /// Number of bytes of the buffers that locations need in addition to those of pixels, over `tiles` tiles.
     #[must_use]
     pub fn bytes(&self, tiles: u64) -> u64 {
         let [locations, cells, places, groups] =
@@ -77,34 +78,34 @@ impl LocationSizes {
     }
 }
 
-/// A sample location, as `shaders/include/locations.glsl` describes it.
+/// A sampling location, laid out as in `shaders/include/locations.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ListedLocation {
-    /// The pixel of the plane that it lies in.
+    /// Pixel of the plane in which it lies.
     pub pixel: [i32; 2],
-    /// Where it lies in the pixel, x and y from 0 to 1.
+    /// Place in the pixel, x and y from 0 to 1.
     pub within: [f32; 2],
-    /// Its Jacobian, by columns: change of x and y a column, and a row, of the output.
+    /// Columns of its Jacobian: changes of x and y per column and per row of the output.
     pub jacobian: [[f32; 2]; 2],
 }
 
-/// How locations share cells, and cells groups.
+/// Numbers of locations in a cell, and of cells in a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellSizes {
-    /// Most locations of a cell.
+    /// Largest number of locations of a cell.
     pub in_cell: u32,
-    /// Most cells of a group.
+    /// Largest number of cells of a group.
     pub in_group: u32,
-    /// Samples of a cell that is one location.
+    /// Number of samples of a cell that consists of one location.
     pub samples: u32,
 }
 
 impl CellSizes {
-    /// Locations of a cell that are sampled once each, at the least; a subgroup may hold more.
+    /// Smallest room of a cell for locations that are sampled once each; on large subgroups it is larger.
     const POINTS_IN_CELL: u32 = 16;
 
-    /// Those that suit a device, of whose subgroups so many invocations are used.
+    /// Sizes for a device that uses `lanes` invocations of a subgroup.
     #[must_use]
     pub fn new(lanes: u32, cells: Cells, samples: u32) -> Self {
         let in_cell = match cells {
@@ -118,35 +119,35 @@ impl CellSizes {
         }
     }
 
-    /// Most cells that so many locations make in a region of so many tiles.
+    /// Largest number of cells that `locations` locations make in a region of `tiles` tiles.
     pub(crate) fn most_cells(&self, locations: u32, tiles: u32) -> u32 {
         most_parts(locations, self.in_cell, tiles)
     }
 }
 
-/// Most parts of at most `size` that so many things make, where each tile has parts of its own.
+/// Largest number of parts, of at most `size` things each, that `count` things make if tiles don't share parts.
 fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
     count.min((count / size).saturating_add(tiles))
 }
 
-/// The buffers of a list, see `shaders/include/locations.glsl`.
+/// Buffers of a list: see `shaders/include/locations.glsl`.
 pub struct LocationBuffers {
-    /// The list, where no application lends it.
+    /// The list; `None` if an application lends it.
     pub locations: Option<BufferView>,
-    /// Indices of locations that are sampled once each, cell by cell.
+    /// Indices of the locations that are sampled once each, cell by cell.
     pub order: BufferView,
-    /// Two vectors a cell.
+    /// Two vectors for each cell.
     pub cells: BufferView,
-    /// A vector a group.
+    /// A vector for each group.
     pub groups: BufferView,
-    /// Cells and samples of each tile.
+    /// Numbers of cells and samples of each tile.
     pub tile_loads: Buffer,
-    /// What `distribute` knows of each tile, as `shaders/include/tile_locations.glsl` describes it.
+    /// Words of `distribute` for each tile: see `shaders/include/tile_locations.glsl`.
     pub(crate) loads: Buffer,
 }
 
 impl LocationBuffers {
-    /// Words of a tile in `loads`, see `shaders/include/tile_locations.glsl`.
+    /// Number of words of a tile in `loads`: see `shaders/include/tile_locations.glsl`.
     const LOAD: u64 = 35;
 
     pub(crate) fn new(
@@ -184,26 +185,26 @@ impl LocationBuffers {
 }
 
 impl Resources {
-    /// The first `count` locations of the list, to be written while the device is idle.
+    /// First `count` locations of the list, to be written while the device is idle.
     ///
     /// # Errors
-    /// If there is no room for so many, or the driver did not map the buffer.
+    /// If there is no room for them, or the driver did not map the buffer.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         let bytes = count * size_of::<ListedLocation>();
         let listed = self.locations.locations.as_mut().ok_or(UNMAPPED)?;
         Ok(bytemuck::cast_slice_mut(mapped(&mut listed.buffer, bytes)?))
     }
 
-    /// The whole list, where no application lends it.
+    /// View of the whole list.
     ///
     /// # Errors
-    /// If one does.
+    /// If an application lends the list.
     pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
         let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
         Ok(listed.view)
     }
 
-    /// All that `distribute` reads and writes.
+    /// Buffers that `distribute` reads and writes.
     pub(crate) fn location_buffers(
         &self,
         locations: vk::BufferView,
@@ -218,7 +219,7 @@ impl Resources {
         } = &self.locations;
         let buffers = [
             (distribute_set::LOADS, whole(loads)),
-            // Nothing is shaded yet.
+            // The buffer is free, because nothing has been shaded yet.
             (distribute_set::RANKS, whole(&self.shade_order)),
             (distribute_set::ORDER_OUT, whole(&order.buffer)),
             (distribute_set::CELLS_OUT, whole(&cells.buffer)),

@@ -1,27 +1,27 @@
-//! The last word of a triangle, as in `shaders/include/frame.glsl`.
+//! Last word of a triangle's record: the same layout as in `shaders/include/frame.glsl`.
 
-/// What it says.
+/// Fields of the last word of a triangle's record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TriangleWord {
-    /// 16 bits.
+    /// Index of the material, 16 bits.
     pub material: u32,
-    /// Or shading key, 14 bits.
+    /// Material bin or shading key, 14 bits.
     pub bin: u32,
-    /// Whether it may be shaded in several parts of a superpixel.
+    /// Whether it may need several shadings in a superpixel.
     pub high_frequency: bool,
-    /// Whether back faces show.
+    /// Whether back faces are visible.
     pub double_sided: bool,
 }
 
 const BIN_SHIFT: u32 = 16;
 
 impl TriangleWord {
-    /// The bit of those that may be shaded in several parts.
+    /// Bit of triangles that may need several shadings.
     pub const HIGH_FREQUENCY: u32 = 1 << 30;
-    /// The bit of those whose back faces show.
+    /// Bit of triangles whose back faces are visible.
     pub const DOUBLE_SIDED: u32 = 1 << 31;
 
-    /// Its bits.
+    /// The word.
     pub fn bits(self) -> u32 {
         let flag = |bit: u32, set: bool| if set { bit } else { 0 };
         self.material

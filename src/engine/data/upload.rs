@@ -1,10 +1,10 @@
-//! Filling device buffers from the host.
+//! Filling of device buffers from the host.
 
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use bytemuck::NoUninit;
 
-/// A copy that the device makes in the first frame: from a buffer of its own, to another, of so many bytes.
+/// Copy of bytes from a staging buffer to another buffer, which the device executes in the first frame.
 pub(crate) struct Upload {
     from: Buffer,
     to: vk::Buffer,
@@ -27,7 +27,7 @@ impl Upload {
 
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
         let region = [vk::BufferCopy::default().size(self.size)];
-        // SAFETY: the recorder's contract; both buffers hold `size` bytes.
+        // SAFETY: guaranteed by the recorder's caller; both buffers hold `size` bytes.
         unsafe {
             recorder
                 .device()
@@ -36,7 +36,7 @@ impl Upload {
     }
 }
 
-/// Fills device buffers: directly where the host sees them, else through an [`Upload`].
+/// Fills device buffers: directly if the host can write them, otherwise through an [`Upload`].
 pub(crate) struct Uploader<'a> {
     pub(crate) memory: &'a Memory,
     pub(crate) uploads: Vec<Upload>,
@@ -61,7 +61,7 @@ impl<'a> Uploader<'a> {
         Ok(())
     }
 
-    /// A texel buffer of the data, an element a texel.
+    /// Makes a texel buffer with these data; an element is a texel.
     pub(crate) fn texels<T: NoUninit>(
         &mut self,
         name: &str,
@@ -78,7 +78,7 @@ impl<'a> Uploader<'a> {
         Ok(view)
     }
 
-    /// A storage buffer of these bytes.
+    /// Makes a storage buffer with these bytes.
     pub(crate) fn storage(&mut self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST

@@ -1,4 +1,4 @@
-//! What a host's shaders see of a frame: the set of `shaders/include/gpc_visibility.glsl`.
+//! Data about a frame that a host's shaders can read: the set of `shaders/include/gpc_visibility.glsl`.
 
 use super::Resources;
 use super::draws::Draws;
@@ -8,31 +8,31 @@ use crate::vulkan::{Buffer, Gpu, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What hosts' shaders are told of a frame.
+/// Uniform block about a frame for hosts' shaders.
 pub(crate) use crate::engine::passes::spirv::GpcFrame as VisibilityUniform;
 
-/// The set's layout, which hosts make their pipelines with.
+/// Makes the layout of the set, with which hosts make their pipelines.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
     SetLayout::new(gpu, &gpc_visibility_set::ALL)
 }
 
-/// What a host's shaders see beside a frame's resources.
+/// Geometry that a host's shaders can read, besides a frame's resources.
 pub(crate) struct VisibleGeometry<'a> {
     pub triangles: &'a Buffer,
-    /// In clip space.
+    /// Positions in clip space.
     pub positions: vk::DescriptorBufferInfo,
     pub draws: &'a Draws,
-    /// The draw of each triangle.
+    /// Draw of each triangle.
     pub draw_of: &'a Buffer,
-    /// Where a list is sampled.
+    /// Locations, if a list is sampled.
     pub locations: Option<vk::DescriptorBufferInfo>,
 }
 
 impl Resources {
-    /// A set that shows these resources and a host's geometry.
+    /// Makes a set with these resources and a host's geometry.
     ///
     /// # Safety
-    /// Positions and locations that are the host's outlive the set's use.
+    /// Positions and locations that belong to the host outlive the use of the set.
     pub(crate) unsafe fn visibility_set(
         &self,
         layout: &SetLayout,
@@ -51,13 +51,13 @@ impl Resources {
             (gpc_visibility_set::GPC_SHADED, whole(&self.shaded.buffer)),
             (gpc_visibility_set::GPC_DRAWS, whole(&geometry.draws.table)),
             (gpc_visibility_set::GPC_DRAW_OF, draw_of),
-            // A frame's shaders read none.
+            // A frame's shaders read no locations.
             (
                 gpc_visibility_set::GPC_LOCATIONS,
                 geometry.locations.unwrap_or(draw_of),
             ),
         ];
-        // SAFETY: the set is new; of the host's buffers as the caller says, ours go with the frame.
+        // SAFETY: the set is new; the caller guarantees the host's buffers, and the others live as long as the frame.
         unsafe { set.write_buffers(&buffers) };
         Ok(set)
     }

@@ -1,4 +1,4 @@
-//! adopt: a host's triangles as the other passes read them.
+//! adopt: converts a host's triangles to the form that the other passes read.
 
 use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
@@ -8,10 +8,10 @@ use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// How much there is of what a frame adopts; indices begin in the buffer that the set shows at `first_index`, in indices.
+/// Numbers of triangles and draws that a frame adopts, and the first index of the host's buffer, counted in indices.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
-/// Expands indices into triangles.
+/// Makes triangles from indices.
 pub(crate) struct Adopt(LentKernel<spirv::Adopt, AdoptedCounts>);
 
 impl Adopt {
@@ -23,7 +23,7 @@ impl Adopt {
         Ok(Self(LentKernel::new(gpu, &adopt_set::ALL)?))
     }
 
-    /// The pipeline for indices of 32 bits or, `short`, 16.
+    /// Makes the pipeline for indices of 16 bits if `short`, otherwise of 32 bits.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -31,10 +31,10 @@ impl Adopt {
         self.0.pipeline(gpu, &spirv::Adopt { short })
     }
 
-    /// A set that shows draws, the host's indices, triangles and the draw of each.
+    /// Makes a set with the draws, the host's indices, the triangles, and the draw of each triangle.
     ///
     /// # Safety
-    /// The host's buffer outlives the set's use.
+    /// The host's buffer outlives the use of the set.
     pub unsafe fn set(
         &self,
         draws: &Draws,
@@ -48,11 +48,11 @@ impl Adopt {
             (adopt_set::TRIANGLES_OUT, whole(triangles)),
             (adopt_set::DRAW_OF_OUT, whole(draw_of)),
         ];
-        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }
     }
 
-    /// Records it, where there are triangles.
+    /// Records the pass, if there are triangles.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

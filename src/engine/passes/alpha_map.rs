@@ -1,4 +1,4 @@
-//! alpha_map: a host's alpha maps as the alpha test reads them.
+//! alpha_map: converts a host's alpha maps to the form that the alpha test reads.
 
 use super::spirv::{self, alpha_map_set};
 use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
@@ -8,19 +8,20 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// A level of an alpha map, of a size in texels, and its first word in the atlas. It repeats along u where `repeats` has 1, and along v
-/// where it has 2.
+/// Level of an alpha map: its size in texels, and its first word in the atlas. Bit 0 of `repeats` repeats it along u,
+/// bit 1 along v.
 pub(crate) use spirv::AlphaMapPush as AlphaLevel;
 
 impl AlphaLevel {
-    /// Places between 2 x 2 texels, the first of them half outside of the image: a word each.
+    /// Number of words of the level: one for each place between 2 x 2 texels; the first row and column reach half out
+    /// of the image.
     pub fn words(&self) -> u64 {
         let [width, height] = self.size.map(|side| u64::from(side) + 1);
         width * height
     }
 }
 
-/// Reads the levels of images.
+/// Reads the levels of a host's images.
 pub(crate) struct AlphaMaps {
     layout: PipelineLayout,
     set_layout: SetLayout,
@@ -45,13 +46,13 @@ impl AlphaMaps {
         })
     }
 
-    /// A set that shows a host's image and the atlas.
+    /// Makes a set with a host's image and the atlas.
     ///
     /// # Safety
-    /// The view outlives the set's use.
+    /// The view outlives the use of the set.
     pub unsafe fn set(&self, view: vk::ImageView, atlas: &Buffer) -> Result<OwnSet, VulkanError> {
         let set = self.set_layout.allocate()?;
-        // SAFETY: the set is new; of the view as the caller says, the atlas goes with the frame.
+        // SAFETY: the set is new; the caller guarantees the view, and the atlas lives as long as the frame.
         unsafe {
             set.write_image(alpha_map_set::MAP, view);
             set.write_buffers(&[(alpha_map_set::ATLAS, whole(atlas))]);
@@ -59,7 +60,7 @@ impl AlphaMaps {
         Ok(set)
     }
 
-    /// Records one level, with no barrier after it: each writes words of its own.
+    /// Records the pass for a level, without a barrier after it, because each level writes its own words.
     pub fn record(&self, recorder: &Recorder<'_>, set: &OwnSet, level: &AlphaLevel) {
         self.layout.bind(recorder, &[set.raw], level);
         recorder.dispatch_unordered(&self.pipeline, level.words().div_ceil(64));

@@ -1,4 +1,4 @@
-//! arguments: what passes counted, as the sizes of the dispatches that follow.
+//! arguments: turns what passes counted into the sizes of the dispatches that follow.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -6,7 +6,7 @@ use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What has counted.
+/// Pass whose counts are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum After {
@@ -21,12 +21,13 @@ pub(crate) enum After {
     Pairs = spirv::AFTER_PAIRS,
 }
 
-/// One kernel for all that counts: drivers take longer to compile one than to run it.
+/// Writes the sizes of dispatches. One kernel serves all passes that count, because drivers take longer to compile a
+/// kernel than to run it.
 pub(crate) struct Arguments {
     layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
-    /// What has counted, and the subgroups that [`Sample`](super::Sample) gives an entry of a list, in a first run and where it
-    /// takes all samples.
+    /// The pass that counted, and the number of subgroups that [`Sample`](super::Sample) uses for an entry of a list:
+    /// in the first run, and for all samples.
     pushed: spirv::ArgumentsPush,
 }
 
@@ -39,11 +40,11 @@ impl Arguments {
         Self::of_samples(layout, after, [1, 1])
     }
 
-    /// The same where entries of lists were counted, each of which takes so many subgroups: in a first run, and for all
-    /// samples.
+    /// Makes the pipeline for the entries of lists, each of which takes a number of subgroups: in the first run, and
+    /// for all samples.
     ///
     /// # Errors
-    /// As for [`Self::new`].
+    /// As [`Self::new`].
     pub fn of_samples(
         layout: &FrameLayout,
         after: After,
@@ -60,7 +61,7 @@ impl Arguments {
         })
     }
 
-    /// Records it.
+    /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>) {
         recorder.push(self.layout, &self.pushed);
         recorder.dispatch(&self.pipeline, 1);

@@ -1,4 +1,4 @@
-//! bin: triangles into pairs with the tiles they touch.
+//! bin: makes pairs of triangles and the tiles that they touch.
 
 use super::arguments::{After, Arguments};
 use super::spirv;
@@ -8,7 +8,7 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Lists the pairs and counts each tile's.
+/// Lists the pairs, and counts those of each tile.
 pub struct Bin {
     layout: vk::PipelineLayout,
     arguments: Arguments,
@@ -29,7 +29,7 @@ impl Bin {
         })
     }
 
-    /// Records it: for small triangles, then for large ones.
+    /// Records the pass: first for small triangles, then for large ones.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         self.arguments.record(recorder);
         for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {

@@ -1,4 +1,4 @@
-//! centres: the centres of pixels as visibility samples.
+//! centres: turns the centres of pixels into visibility samples.
 
 use super::spirv;
 use crate::engine::data::{ColorConstants, Resources};
@@ -7,7 +7,7 @@ use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Lists pixels to be shaded, and gathers their colours.
+/// Lists pixels that need shading, and gathers their colours.
 pub(crate) struct Centres {
     layout: Arc<FrameLayout>,
     list: Arc<Pipeline>,
@@ -15,7 +15,7 @@ pub(crate) struct Centres {
 }
 
 impl Centres {
-    /// Makes the pipelines; `output` are the colour constants of `shaders/include/color.glsl`.
+    /// Makes the pipelines; `output` holds the colour constants of `shaders/include/color.glsl`.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -35,8 +35,8 @@ impl Centres {
         })
     }
 
-    /// Records bands of an image of so many pixels, each as large as there is room for records; `shade` records how these
-    /// are sorted and shaded, and leaves the frame's set bound.
+    /// Records the pass for an image of `pixels` pixels, in bands that fit into the room for records. `shade` records
+    /// sorting and shading of each band, and leaves the frame's set bound.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -53,7 +53,7 @@ impl Centres {
         }
     }
 
-    /// How often an image of so many pixels is shaded in bands, where there is room for so many records.
+    /// Bands in which an image of `pixels` pixels is shaded, with room for `room` records.
     pub fn bands(pixels: u32, room: u32) -> impl ExactSizeIterator<Item = Range<u32>> {
         let room = room.max(1);
         (0..pixels.div_ceil(room)).map(move |n| n * room..pixels.min((n + 1).saturating_mul(room)))

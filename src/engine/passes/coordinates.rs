@@ -1,4 +1,4 @@
-//! coordinates: texture coordinates of a host's vertices, one for each position in clip space.
+//! coordinates: gathers texture coordinates of a host's vertices, one for each position in clip space.
 
 use super::VertexCounts;
 use super::spirv::{self, coordinates_set};
@@ -21,7 +21,7 @@ impl Coordinates {
         Ok(Self(LentKernel::new(gpu, &coordinates_set::ALL)?))
     }
 
-    /// The pipeline: each draw has positions of its own if it has a matrix.
+    /// Makes the pipeline. If draws have matrices, each draw has positions of its own.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -30,10 +30,10 @@ impl Coordinates {
         self.0.pipeline(gpu, &spirv::Coordinates { object })
     }
 
-    /// A set that shows draws, the host's vertices and coordinates.
+    /// Makes a set with the draws, the host's vertices and the coordinates.
     ///
     /// # Safety
-    /// The host's buffer outlives the set's use.
+    /// The host's buffer outlives the use of the set.
     pub unsafe fn set(
         &self,
         draws: &Draws,
@@ -45,11 +45,11 @@ impl Coordinates {
             (coordinates_set::VERTICES, vertices),
             (coordinates_set::COORDINATES_OUT, whole(coordinates)),
         ];
-        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }
     }
 
-    /// Records it, where there are draws.
+    /// Records the pass, if there are draws.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

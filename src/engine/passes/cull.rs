@@ -1,4 +1,4 @@
-//! cull: the triangles that can touch a superpixel.
+//! cull: finds the triangles that can touch a superpixel.
 
 use super::arguments::{After, Arguments};
 use super::spirv;
@@ -7,16 +7,16 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Which triangles are kept.
+/// Filter for the triangles that are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CullFilter {
-    /// All that may touch a cell.
+    /// Triangles that may touch a cell.
     Touching,
-    /// Of these, those that may be thin in some cell.
+    /// Of these, triangles that may be thin in some cell.
     Thin,
 }
 
-/// Compacts triangles; runs over none where nothing was detected.
+/// Lists triangles that pass the filter. If nothing was detected, no invocation runs.
 pub struct Cull {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
@@ -42,7 +42,7 @@ impl Cull {
         })
     }
 
-    /// Records it.
+    /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         self.arguments.record(recorder);
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);

@@ -1,11 +1,11 @@
-//! detect: which pixels are superpixels.
+//! detect: decides which pixels are superpixels.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// What makes a pixel a superpixel.
+/// Rule that makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DetectMode {
     /// A neighbour with a contrasting colour.
@@ -16,30 +16,30 @@ pub enum DetectMode {
     Exact,
     /// A BLEND triangle at its centre.
     Blended,
-    /// Every pixel is one.
+    /// Every pixel is a superpixel.
     Every,
 }
 
-/// What a [`Detect`] is made for.
+/// Options of [`Detect`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DetectOptions {
-    /// What makes a superpixel.
+    /// Rule that makes a pixel a superpixel.
     pub mode: DetectMode,
-    /// Whether the nearest BLEND triangles are compared too.
+    /// Whether IDs of the nearest BLEND triangles are compared too.
     pub blend_ids: bool,
-    /// Whether pixels that [`Thin`](super::Thin) marked are superpixels too.
+    /// Whether pixels that [`Thin`](super::Thin) marked become superpixels too.
     pub thin: bool,
     /// Whether alpha is compared too.
     pub transparent: bool,
-    /// Whether the IDs of a multisampled raster are read, for [`DetectMode::Blended`].
+    /// Whether to read the IDs of a multisampled raster, for [`DetectMode::Blended`].
     pub multisampled: bool,
-    /// Words of each place that say which lights reach it; these are compared as triangles are.
+    /// Number of words for each place that say which lights reach it; these are compared like triangles.
     pub shadow_words: u32,
-    /// Pixels around the region's own that become superpixels too, for [`Grow`](super::Grow).
+    /// Number of pixels around the region within which pixels become superpixels too, for [`Grow`](super::Grow).
     pub beyond: u32,
 }
 
-/// Writes the mask of superpixels.
+/// Writes the masks of superpixels.
 pub struct Detect {
     pipeline: Arc<Pipeline>,
 }
@@ -68,7 +68,7 @@ impl Detect {
         })
     }
 
-    /// Records it for a region of `tiles` tiles.
+    /// Records the pass for a region of `tiles` tiles.
     pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
         recorder.dispatch(&self.pipeline, u64::from(tiles.div_ceil(64)));
     }

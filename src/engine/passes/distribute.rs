@@ -1,4 +1,4 @@
-//! distribute: the sample locations of a list to tiles, cells and groups of cells.
+//! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells.
 
 use super::spirv::{self, distribute_set};
 use crate::engine::data::CellSizes;
@@ -9,27 +9,29 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Steps of the shader, in their order.
+/// Number of steps of the shader.
 const STEPS: u32 = 4;
-/// Those that go over tiles and cells; the others go over locations.
+/// Index of the step that goes over the tiles.
 const LAY_OUT: u32 = 1;
+/// Index of the step that goes over the cells; all others go over the locations.
 const ENCLOSE: u32 = 3;
 
-/// A list of sample locations, of which those count that lie in a region of the plane: on pixels from (0, 0) on.
+/// A list of sampling locations, and the region of the plane in which they count: pixels from (0, 0) on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ListRegion {
-    /// The region in tiles of 8 x 4 pixels.
+    /// Size of the region in tiles of 8 x 4 pixels.
     pub tiles: [u32; 2],
-    /// Locations in the list.
+    /// Number of locations in the list.
     pub count: u32,
 }
 
-/// How long a list is.
+/// Source of a list's length.
 #[derive(Clone, Copy)]
 pub enum ListLength<'a> {
-    /// As its region says.
+    /// The host knows the length: [`ListRegion::count`].
     Known,
-    /// That at the most: there are as many workgroups of locations as an indirect dispatch has.
+    /// The length is on the device, and at most [`ListRegion::count`]; an indirect dispatch has the number of
+    /// workgroups.
     Counted(&'a Buffer, Argument),
 }
 
@@ -43,13 +45,13 @@ pub struct Distribute {
 }
 
 impl Distribute {
-    /// Makes the pipelines, and a set that shows `locations` and what `resources` have for locations.
+    /// Makes the pipelines, and a set with `locations` and the buffers of `resources` for locations.
     ///
     /// # Errors
     /// If the driver refuses one.
     ///
     /// # Safety
-    /// The view of `locations` outlives this, and shows as many as the resources have room for.
+    /// The view `locations` outlives this, and has as many locations as the resources have room for.
     pub unsafe fn new(
         layout: &FrameLayout,
         cells: Cells,
@@ -71,7 +73,7 @@ impl Distribute {
         };
         let steps = (0..STEPS).map(step).collect::<Result<_, _>>()?;
         let set = set_layout.allocate()?;
-        // SAFETY: the set is new; of the list as the caller says, the rest goes with the resources.
+        // SAFETY: the set is new; the caller guarantees the list, and the other buffers live as long as the resources.
         unsafe {
             set.write_buffers(&buffers);
             set.write_texels(&texels);
@@ -85,7 +87,7 @@ impl Distribute {
         })
     }
 
-    /// Records it; afterwards the frame's set is no longer bound.
+    /// Records the pass. The frame's set is no longer bound afterwards.
     pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion, length: ListLength<'_>) {
         let push = spirv::DistributePush {
             tiles: region.tiles,

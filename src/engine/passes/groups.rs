@@ -1,4 +1,4 @@
-//! groups: the groups of cells of a round, where cells are locations.
+//! groups: lists the groups of cells of a round, for cells that are locations.
 
 use super::arguments::{After, Arguments};
 use super::{Sample, spirv};
@@ -7,14 +7,14 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Lists them by what their samples need, and sizes the dispatches over them.
+/// Lists groups by the kernel that their samples need, and computes the sizes of the dispatches over them.
 pub struct Groups {
     pipeline: Arc<Pipeline>,
     arguments: Arguments,
 }
 
 impl Groups {
-    /// Makes the pipelines for what `sample` takes.
+    /// Makes the pipelines for the lists of `sample`.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -33,7 +33,7 @@ impl Groups {
         })
     }
 
-    /// Records it.
+    /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Groups as u32);
         self.arguments.record(recorder);

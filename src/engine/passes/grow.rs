@@ -1,17 +1,17 @@
-//! grow: pixels that contrast with a superpixel beside them become superpixels.
+//! grow: makes pixels superpixels if they contrast with a superpixel beside them.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Puts the pixels that [`Resolve`](super::Resolve) marked in the place of the superpixels that it resolved.
+/// Replaces the resolved superpixels in the masks by the pixels that [`Resolve`](super::Resolve) marked.
 pub struct Grow {
     pipeline: Arc<Pipeline>,
 }
 
 impl Grow {
-    /// Makes the pipeline; so many pixels `beyond` the region's own grow too, for another growth.
+    /// Makes the pipeline. Pixels within `beyond` pixels around the region grow too, for a later growth.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -21,7 +21,7 @@ impl Grow {
         })
     }
 
-    /// Records it for a region of `tiles` tiles.
+    /// Records the pass for a region of `tiles` tiles.
     pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
         recorder.dispatch(&self.pipeline, u64::from(tiles.div_ceil(64)));
     }

@@ -1,16 +1,21 @@
-//! The passes of a frame, one file each, named like their shaders in `shaders/`; `tally` and `enlist` are in that of `schedule`.
+//! The passes of a frame: one file for each, with the name of its shader in `shaders/`. `tally` and `enlist` are in `schedule.rs`;
+//! passes that only the renderer needs are in `src/render/passes`.
 //!
 //! ```text
 //! pose ─▶ stroke ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ enlist ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
 //!                      └─ pixel centres ─┘                          ▲                        └───────── a round, as often as memory needs it ─────────┘│
 //!                                                                   └───────────────────────────────────── grow ◀──────────────────────────────────────┘
 //! ```
-//! `prefilter` runs once for a scene with an environment, before its first frame. Of lists of sample locations, `distribute` takes
-//! the place of what finds superpixels, from `raster` to `detect`, and `crossings` that of `thin`; `groups` follows `enlist`, and `points` may stand for `resolve`.
-//! Before `shade`, `receivers` makes such a list for each light that may be hidden, and `shadow` follows its `sample`.
+//! Some passes run only in some frames:
 //!
-//! Every pass records into a caller's command buffer and reads what the pass before left on the device. The memory that passes
-//! hand to each other is in [`super::data`], the layouts of descriptors and pipelines are in [`super::pipelines`].
+//! - `prefilter` runs once for a scene with an environment, before the scene's first frame.
+//! - If the frame samples a list of locations, `distribute` replaces the passes from `raster` to `detect`, and `crossings` replaces
+//!   `thin`. `groups` runs after `enlist`, and `points` may replace `resolve`.
+//! - For each light that may be hidden, `receivers` runs before `shade` and lists the locations that the light may illuminate. `shadow`
+//!   runs after the `sample` pass of that list.
+//!
+//! Every pass records commands into a caller's command buffer and reads the results of the pass before it from device memory. The memory
+//! for the results is in [`super::data`], the layouts of descriptors and pipelines in [`super::pipelines`].
 
 mod adopt;
 mod alpha_map;

@@ -1,4 +1,4 @@
-//! patch: the colours of superpixels, or of all pixels, drawn into a host's image.
+//! patch: draws the colours of superpixels, or of all pixels, into a host's image.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -6,14 +6,14 @@ use crate::vulkan::{Compiled, GraphicsPipeline, Pipeline, Recorder, Specialized,
 use ash::vk;
 use std::sync::Arc;
 
-/// Which pixels [`Patch`] draws; all others stay as they are.
+/// Pixels that [`Patch`] draws; all others stay unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Patched {
     /// Superpixels.
     Superpixels,
-    /// Superpixels, of which [`Grow`](super::Grow) has added some.
+    /// Superpixels, some of which [`Grow`](super::Grow) has added.
     Grown,
-    /// All.
+    /// All pixels.
     All,
 }
 
@@ -24,7 +24,8 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers.
+    /// Makes the pipeline for images of a format that hold linear light, or with `encoded` sRGB codes as plain
+    /// numbers.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -63,7 +64,7 @@ impl Patch {
         })
     }
 
-    /// Records it into a part of a view, which has the layout `COLOR_ATTACHMENT_OPTIMAL`.
+    /// Records the pass for a part of a view, whose image has the layout `COLOR_ATTACHMENT_OPTIMAL`.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -89,7 +90,8 @@ impl Patch {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        // SAFETY: the recorder's contract; the view is in the layout named, the set of the pipeline's layout.
+        // SAFETY: guaranteed by the recorder's caller; the view's image has the named layout, and the set the
+        // pipeline's.
         unsafe { device.cmd_begin_rendering(raw, &info) };
         recorder.bind(&self.pipeline);
         // SAFETY: as above.

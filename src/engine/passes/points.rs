@@ -1,4 +1,4 @@
-//! points: colour and attributes of locations that are sampled once.
+//! points: writes colour and attributes of locations that are sampled once.
 
 use super::spirv;
 use crate::engine::data::{Argument, ColorConstants, Content};
@@ -6,14 +6,14 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Writes a colour and, where asked, two vectors a location, see `shaders/points.comp`.
+/// Writes a colour and, on request, two vectors of attributes for each location: see `shaders/points.comp`.
 pub struct Points {
     pipeline: Arc<Pipeline>,
 }
 
 impl Points {
-    /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`,
-    /// `attributes` says whether these are written, and places have so many words of shadows.
+    /// Makes the pipeline. `output` holds the colour constants of `shaders/include/color.glsl`, `attributes` says
+    /// whether attributes are written, and places have `shadow_words` words of shadows.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -37,7 +37,7 @@ impl Points {
         })
     }
 
-    /// Records it over the records of the round.
+    /// Records the pass over the visibility samples of the round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Sort as u32);
     }

@@ -1,4 +1,4 @@
-//! raster: depth and triangle ID of every pixel, by the device's rasterizer.
+//! raster: draws depth and triangle ID of every pixel with the device's rasterizer.
 
 use super::spirv;
 use crate::engine::data::{Content, IdViews};
@@ -9,20 +9,21 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// Format of the depth attachment: reversed, larger is nearer.
+/// Format of the depth attachment; depth is reversed, so that larger values are nearer.
 const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 
-/// What `raster` draws into: IDs of the nearest opaque or MASK triangle and of the nearest BLEND triangle in front of it.
+/// Images that `raster` draws: depth, IDs of the nearest opaque or MASK triangle, and IDs of the nearest BLEND
+/// triangle in front of it.
 pub struct RasterTargets {
     pub(crate) depth: Image,
     pub(crate) ids: Image,
     pub(crate) blend_ids: Option<Image>,
-    /// Stands for the single-sampled IDs where these are multisampled.
+    /// Image bound instead of the single-sampled IDs if the IDs are multisampled.
     pub(crate) placeholder: Option<Image>,
 }
 
 impl RasterTargets {
-    /// Images of `width` x `height` pixels.
+    /// Makes images of `width` x `height` pixels.
     ///
     /// # Errors
     /// If memory runs out.
@@ -82,7 +83,7 @@ impl RasterTargets {
         })
     }
 
-    /// What passes see of them.
+    /// Views of the images for passes.
     #[must_use]
     pub fn views(&self) -> IdViews {
         IdViews {
@@ -93,7 +94,7 @@ impl RasterTargets {
         }
     }
 
-    /// Brings single-sampled images into the layout in which descriptor sets show them, where nothing is drawn.
+    /// Changes the layout of single-sampled images to that of the descriptor sets, for frames that draw nothing.
     pub fn record_unused(&self, recorder: &Recorder<'_>) {
         for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
             .into_iter()
@@ -108,7 +109,7 @@ impl RasterTargets {
     }
 }
 
-/// A multisampled attachment need not hold integers, but holds the four bytes of one.
+/// Format of IDs. A multisampled attachment need not support integers, but can hold their four bytes.
 fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
     if samples == vk::SampleCountFlags::TYPE_1 {
         vk::Format::R32_UINT
@@ -117,10 +118,10 @@ fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
     }
 }
 
-/// What leads to pixel-scaled clip space and, as `instance`, from an index to a triangle.
+/// Push constants: the matrix to pixel-scaled clip space and, as `instance`, words that map an index to a triangle.
 pub(crate) use spirv::RasterVertexPush as RasterPush;
 
-/// Neighbouring triangles that are drawn at once.
+/// Consecutive triangles that are drawn at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RasterRun {
     pub push: RasterPush,
@@ -128,7 +129,7 @@ pub(crate) struct RasterRun {
     pub triangle_count: u32,
     pub double_sided: bool,
     pub masked: bool,
-    /// Whether they are composited, and drawn behind all others.
+    /// Whether they are composited, and drawn after all others.
     pub blended: bool,
 }
 
@@ -179,8 +180,8 @@ impl Raster {
         })
     }
 
-    /// Records it for the upper left `size` pixels, of which those from `drawn[0]` to before `drawn[1]` are drawn, and
-    /// the others stay empty; afterwards the IDs can be read by shaders.
+    /// Records the pass for the upper left `size` pixels. Only the pixels from `drawn[0]` to before `drawn[1]` are
+    /// drawn; the others stay empty. Shaders can read the IDs afterwards.
     pub(crate) fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -269,7 +270,8 @@ impl Raster {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        // SAFETY: the recorder's contract; the images are in the layouts named, the sets match the pipelines' layout.
+        // SAFETY: guaranteed by the recorder's caller; the images are in the named layouts, and the sets match the
+        // pipelines' layout.
         unsafe {
             device.cmd_begin_rendering(raw, &info);
             device.cmd_set_viewport(raw, 0, &[viewport]);
@@ -296,7 +298,7 @@ impl Raster {
                 vk::CullModeFlags::BACK
             };
             recorder.push(self.layout.pipeline, &run.push);
-            // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
+            // SAFETY: as above; the shader reads 3 vertices for each triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);
                 device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_index, 0);
@@ -307,7 +309,7 @@ impl Raster {
     }
 }
 
-/// The pixels from `low` to before `high`.
+/// Rectangle of the pixels from `low` to before `high`.
 fn rectangle(low: [u32; 2], high: [u32; 2]) -> vk::Rect2D {
     vk::Rect2D {
         offset: vk::Offset2D {

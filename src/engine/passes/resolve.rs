@@ -1,4 +1,4 @@
-//! resolve: the colour of each superpixel.
+//! resolve: computes the colour of each superpixel.
 
 use super::host_image::HostImage;
 use super::{Sample, TileList, spirv};
@@ -7,28 +7,31 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// The pass that reads what [`Resolve`] wrote, beside the colours.
+/// Pass that reads further output of [`Resolve`] besides the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResolveTarget {
     /// None.
     Nothing,
     /// [`Detect`](super::Detect), which compares the resolved colours.
     Detect,
-    /// [`Grow`](super::Grow): neighbours that contrast are marked.
+    /// [`Grow`](super::Grow), for which neighbours that contrast are marked.
     Grow,
 }
 
-/// Averages what the sub-samples of a cell see.
+/// Averages the visibility samples of each cell.
 pub struct Resolve {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
-    /// What shows in samples that see no triangle; without it the background does.
+    /// Image of the host whose colours samples take that see no triangle; without it they take the background.
     behind: Option<Arc<HostImage>>,
 }
 
 impl Resolve {
-    /// Makes a pipeline for each list of `sample`; `target` is what a pass after it needs, `output` are the colour constants of
-    /// `shaders/include/color.glsl`. Samples that see no triangle show what the host has drawn in the image `behind`, or the
-    /// background; layers are composited over the background alone, so that there is no image where there may be some.
+    /// Makes a pipeline for each tile list of `sample`.
+    ///
+    /// `target` is the later pass that needs further output, and `output` holds the colour constants of
+    /// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
+    /// the background without an image. Layers are composited over the background alone, so `behind` is `None` for
+    /// scenes that may have layers.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -66,7 +69,7 @@ impl Resolve {
         })
     }
 
-    /// For records that `multisample` wrote: one header a cell.
+    /// Makes the pipeline for visibility samples of `multisample`, which have one header for each cell.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -123,7 +126,7 @@ impl Resolve {
         }
     }
 
-    /// Records it over the tiles of the round.
+    /// Records the pass over the tiles of the round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         if let Some(image) = &self.behind {
             image.bind(recorder);

@@ -1,4 +1,4 @@
-//! sample: the nearest triangle of every sub-sample.
+//! sample: finds the nearest triangle of every sample.
 
 use super::arguments::{After, Arguments};
 use super::spirv;
@@ -7,72 +7,73 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// The lists that `enlist` sorts tiles into, in the order of `shaders/include/load.glsl`.
+/// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileList {
-    /// Opaque triangles alone.
+    /// Tiles with opaque triangles only.
     Plain,
-    /// Alpha-tested triangles too.
+    /// Tiles that also have alpha-tested triangles.
     Masked,
-    /// BLEND triangles too.
+    /// Tiles that also have BLEND triangles.
     Blended,
-    /// A list that outgrows its buffer.
+    /// Tiles whose list of candidates outgrew its buffer.
     Unlisted,
 }
 
 impl TileList {
-    /// Whether its tiles have lists of candidates, and none of these is seen through.
+    /// Whether its tiles have lists of candidates, none of which is translucent.
     fn is_opaque(self) -> bool {
         matches!(self, Self::Plain | Self::Masked)
     }
 
-    /// The indirect dispatch over the list's entries.
+    /// Index of the indirect dispatch over the list's entries.
     #[must_use]
     pub fn argument(self) -> u32 {
         Argument::SamplePlain as u32 + self as u32
     }
 }
 
-/// What the kernels are made for.
+/// Options of the kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleOptions {
-    /// What a cell is.
+    /// Kind of the cells.
     pub cells: Cells,
-    /// Sub-samples of a cell, or points at the most.
+    /// Number of samples of a cell; for points, the largest number.
     pub samples: u32,
-    /// Whether these lie on lines, of cells that `sample_lines` can take.
+    /// Whether samples lie on lines, in cells that `sample_lines` can process.
     pub lines: bool,
-    /// How often records are written.
+    /// Rate of visibility samples.
     pub records: RecordRate,
-    /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
+    /// Whether triangles that nothing occludes get the exact area of their part of a cell.
     pub exact_areas: bool,
-    /// Whether few samples may settle a cell, so that a first run of few is worth while where there are many to take.
+    /// Whether a few samples may suffice for a cell, so that a first run with few samples is worthwhile if there are
+    /// many.
     pub can_settle: bool,
-    /// Whether a subgroup takes a block of one cell, for lists that are too long to take several.
+    /// Whether a subgroup samples a block of one cell, for lists that are too long to process several cells at a time.
     pub apart: bool,
-    /// Whether tiles whose list outgrew its buffer are sampled, by a kernel that tries every triangle. Without it they are
-    /// left, and counted.
+    /// Whether tiles whose list outgrew its buffer are sampled, by a kernel that tries every triangle. Otherwise they
+    /// are skipped and counted.
     pub unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
     pub has_blend: bool,
-    /// Whether cells are those that show a BLEND triangle, so that no list without one is sampled.
+    /// Whether all cells show a BLEND triangle, so that only lists with these are sampled.
     pub always_blends: bool,
 }
 
-/// How many records the samples of a block that see the same triangle make.
+/// Number of visibility samples that the samples of a block make if they see the same triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordRate {
-    /// One.
+    /// One visibility sample.
     Triangle,
-    /// One for each sixteenth of the samples of a cell, but at least 8 of them and at most those of a block.
+    /// One for each sixteenth of a cell's samples, which is at least 8 samples and at most a block.
     Part,
     /// One for each sample.
     Sample,
 }
 
-/// Which samples a kernel takes; the order is that of `RUN` in `shaders/sample.comp`.
+/// Samples that a kernel processes, in the order of `RUN` in `shaders/sample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Run {
     Whole,
@@ -80,7 +81,8 @@ enum Run {
     Rest,
 }
 
-/// The kernels, one a kind of tile that the scene can have; those of a second run, over cells that the first left, follow.
+/// Kernels: one for each kind of tile that the scene can have, followed by those of a second run over cells that the
+/// first run left.
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
@@ -90,7 +92,7 @@ pub struct Sample {
     subgroups: [u32; 2],
 }
 
-/// A kernel for each number of register rows that there is, least first.
+/// Variants of a kernel by their number of register rows, the smallest first.
 type Kernels = [(u32, &'static [u8]); 5];
 
 const KERNELS: Kernels = [
@@ -100,7 +102,7 @@ const KERNELS: Kernels = [
     (8, spirv::SAMPLE_8),
     (16, spirv::SAMPLE_16),
 ];
-/// Kernels that hold the samples of a cell as a mask, by how many these can be.
+/// Kernels that store the samples of a cell as a mask, by the largest number of samples.
 const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
@@ -124,10 +126,10 @@ const LAYERED_UNLISTED: Kernels = [
     (16, spirv::SAMPLE_LAYERED_UNLISTED_16),
 ];
 
-/// Blocks of several cells that a subgroup takes, as in `shaders/sample.comp`.
+/// Number of blocks of several cells that a subgroup processes, as in `shaders/sample.comp`.
 const BLOCKS_AT_ONCE: u32 = 4;
 
-/// The smallest kernel of at least as many rows, or else the largest.
+/// The smallest kernel with at least `rows` rows, or otherwise the largest.
 fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
     let largest = kernels[kernels.len() - 1];
     kernels
@@ -137,7 +139,7 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-/// The constants of kernels that hold masks, by those of the others.
+/// Constants of the kernels with masks, from those of the general kernel.
 fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
     spirv::SampleMasks {
         local_size: shader.local_size,
@@ -153,7 +155,8 @@ fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
     }
 }
 
-/// The constants of the kernel of lines, by those of the others: a header stands for `header` samples, and a cell has `lines` lines.
+/// Constants of the kernel with lines, from those of the general kernel: a header stands for `header` samples, and a
+/// cell has `lines` lines.
 fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLines {
     spirv::SampleLines {
         local_size: shader.local_size,
@@ -171,9 +174,9 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
 }
 
 impl Sample {
-    /// Samples of the first of two runs; their locations follow those of the cell.
+    /// Number of samples of the first of two runs; their offsets follow those of the cell.
     pub const PROBES: u32 = 64;
-    /// Samples that a block aims at: one has more only where as few as that leave invocations idle.
+    /// Preferred number of samples of a block; it is larger only where this would leave invocations idle.
     const BLOCK: u32 = 64;
 
     /// Makes the kernels.
@@ -246,7 +249,7 @@ impl Sample {
         if options.leaves_cells() {
             wanted.extend(listed(Run::Rest));
         }
-        // They take drivers the longest of all.
+        // These kernels take drivers longest to compile, so that threads compile them in parallel.
         let make = &make;
         let made: Result<Vec<_>, _> = std::thread::scope(|threads| {
             let making: Vec<_> = wanted
@@ -291,24 +294,24 @@ impl Sample {
         })
     }
 
-    /// What they were made for.
+    /// Options with which the kernels were made.
     #[must_use]
     pub fn options(&self) -> &SampleOptions {
         &self.options
     }
 
-    /// Samples of a block: a header stands for that many.
+    /// Number of samples of a block, for which a header stands.
     #[must_use]
     pub fn block(&self) -> u32 {
         self.block
     }
 
-    /// How many subgroups take an entry of a list: in a first run, and for all samples.
+    /// Number of subgroups for an entry of a list: in the first run, and for all samples.
     pub(crate) fn subgroups(&self) -> [u32; 2] {
         self.subgroups
     }
 
-    /// Most records that a block makes of a triangle, where a cell has all its samples.
+    /// Largest number of visibility samples of a triangle in a block, if a cell has all its samples.
     #[must_use]
     pub fn parts(&self) -> u32 {
         match self.options.records {
@@ -317,13 +320,13 @@ impl Sample {
         }
     }
 
-    /// The lists that are sampled.
+    /// Lists that are sampled.
     pub fn lists(&self) -> impl Iterator<Item = TileList> + '_ {
         self.kernels.iter().map(|(list, _)| *list)
     }
 
-    /// Records them over the tiles of the round. Where a run [leaves cells](SampleOptions::leaves_cells), none is marked
-    /// before the first round.
+    /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), none must
+    /// be marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         for (list, pipeline) in &self.kernels {
             recorder.dispatch_indirect(pipeline, arguments, list.argument());
@@ -343,7 +346,8 @@ impl Sample {
 }
 
 impl SampleOptions {
-    /// Most triangles that are tried in a cell, whose loops end after so many trips. Cells of longer lists are left, and counted.
+    /// Largest number of triangles that can be tried in a cell, because loops end after a number of iterations. Cells
+    /// with longer lists are skipped and counted.
     pub(crate) fn longest_list(&self) -> u32 {
         if self.apart {
             spirv::LONGEST_LIST_APART
@@ -352,8 +356,8 @@ impl SampleOptions {
         }
     }
 
-    /// Whether a run measures areas: where it takes all samples of a cell at once. What masks leave sees more triangles
-    /// than areas are held of.
+    /// Whether a run measures areas: only if it processes all samples of a cell at once. Cells that the kernels with
+    /// masks leave have more triangles than areas are stored for.
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
             Run::Whole => self.samples <= Sample::PROBES,
@@ -363,27 +367,29 @@ impl SampleOptions {
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
     }
 
-    /// Whether a run tells parts: not where a part holds a block. A probe leaves what is to be shaded by part.
+    /// Whether a run shades by parts: not if a part is at least a block. The first run leaves cells that have to be
+    /// shaded by parts to the second.
     fn by_part(&self, run: Run, block: u32) -> bool {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether cells of opaque and alpha-tested triangles may be taken by kernels of their own, which leave some of them.
+    /// Whether special kernels process cells of opaque and alpha-tested triangles, and may leave some of them.
     fn by_cell(&self) -> bool {
         self.cells == Cells::Pixels && !self.always_blends && self.records != RecordRate::Sample
     }
 
-    /// Whether these hold the samples of a cell as a mask.
+    /// Whether these kernels store the samples of a cell as a mask.
     fn by_masks(&self) -> bool {
         self.by_cell() && !self.by_lines() && !self.apart && (2..=64).contains(&self.samples)
     }
 
-    /// Whether these have samples on lines.
+    /// Whether these kernels have samples on lines.
     fn by_lines(&self) -> bool {
         self.by_cell() && self.lines && self.samples >= 16
     }
 
-    /// Lines of 64 samples, for subgroups of so many invocations: each of these has half a line at the least.
+    /// Number of lines of 64 samples of a cell, for subgroups with `lanes` invocations: an invocation processes at
+    /// least half a line.
     fn lines_of_cell(&self, lanes: u32) -> u32 {
         if self.samples <= 64 && lanes < 32 {
             8
@@ -392,12 +398,12 @@ impl SampleOptions {
         }
     }
 
-    /// Whether a cell has one header where it is not left to a second run.
+    /// Whether a cell has a single header if it is not left to a second run.
     pub(super) fn has_one_header(&self) -> bool {
         self.probes() || self.by_lines()
     }
 
-    /// Records that a cell makes beyond its number of samples, at the most.
+    /// Largest number of visibility samples of a cell beyond its number of samples.
     pub(super) fn more_records(&self) -> u32 {
         if self.by_lines() {
             spirv::MORE_RECORDS
@@ -412,13 +418,13 @@ impl SampleOptions {
         self.probes() || self.by_masks() || self.by_lines()
     }
 
-    /// Samples of a part: there are 16 parts of 16 samples, 32 of 64, 128 of 256 and 256 of 1,024.
+    /// Number of samples of a part: there are 16 parts for 16 samples, 32 for 64, 128 for 256 and 256 for 1,024.
     fn part_samples(&self) -> u32 {
         let few = if self.samples < 32 { 1 } else { 2 };
         (self.samples / 256).max(few).next_power_of_two()
     }
 
-    /// Whether there is a first run.
+    /// Whether there is a first run with few samples.
     #[must_use]
     pub fn probes(&self) -> bool {
         self.can_settle

@@ -1,4 +1,4 @@
-//! tally, schedule, enlist: which tiles are in a round, and where their lists are.
+//! tally, schedule, enlist: choose the tiles of a round, and place their lists.
 
 use super::{RecordRate, Sample, SampleOptions, spirv};
 use crate::engine::data::{Argument, ResourceSizes};
@@ -14,16 +14,16 @@ pub struct Schedule {
     schedule: Arc<Pipeline>,
     enlist: Arc<Pipeline>,
     options: SampleOptions,
-    /// As `shaders/include/load.glsl` takes them.
+    /// Push constants of the three shaders: see `shaders/include/load.glsl`.
     pushed: spirv::SchedulePush,
 }
 
-/// Trials of a triangle in a cell that a round takes where tiles have no list.
+/// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
 const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
 
 impl Schedule {
-    /// Makes the pipelines for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as
-    /// many lists a block, or more where these are shaded by part.
+    /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers a list
+    /// and twice as many lists a block, or more if these are shaded by parts.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -73,8 +73,9 @@ impl Schedule {
         })
     }
 
-    /// Rounds that take all tiles, whatever these show of a scene of at most so many triangles: as if each of their pixels were a
-    /// cell, or each of a list's locations lay in one tile, and each cell needed all the room that it may be given.
+    /// Number of rounds that suffice for all tiles of any image of a scene with at most `triangles` triangles. It
+    /// assumes that every pixel is a cell, or that all of a list's locations lie in one tile, and that each cell needs
+    /// all the room that it may get.
     #[must_use]
     pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
         let tiles = u64::from(sizes.tiles());
@@ -85,7 +86,7 @@ impl Schedule {
             sizes.record_capacity,
         ]
         .map(u64::from);
-        /// Pixels of a tile.
+        /// Number of pixels of a tile.
         const PIXELS: u64 = 32;
         let records_of_cell = samples + u64::from(self.pushed.more_records);
         let (cells, all_samples) = match sizes.locations {
@@ -113,7 +114,7 @@ impl Schedule {
             ),
             (headers(cells), records, headers(cells_of_tile)),
         ];
-        // No triangle is tried where there are too many.
+        // If there are too many triangles, none is tried.
         let tried = u64::from(triangles.clamp(1, self.pushed.longest_list));
         let unlisted = (cells, MOST_TRIALS / tried, cells_of_tile);
         let needs = listed.into_iter().chain([unlisted]);
@@ -123,7 +124,7 @@ impl Schedule {
         (1 + ended).min(tiles).max(1) as u32
     }
 
-    /// Records that blocks of so many headers and samples are admitted with, at the most.
+    /// Largest number of visibility samples with which blocks of `headers` headers and `samples` samples are admitted.
     fn most_records(&self, headers: u64, samples: u64) -> u64 {
         if !self.options.has_blend {
             return samples;
@@ -141,13 +142,13 @@ impl Schedule {
         samples.max(lists * (2 + layers))
     }
 
-    /// Records what is done once for all rounds, after `bin`.
+    /// Records the passes that run once before all rounds, after `bin`.
     pub fn record_tally(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.push(self.layout, &self.pushed);
         recorder.dispatch_indirect(&self.tally, arguments, Argument::Tally as u32);
     }
 
-    /// Records what begins a round.
+    /// Records the beginning of a round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.push(self.layout, &self.pushed);
         recorder.dispatch(&self.schedule, 1);
@@ -155,12 +156,12 @@ impl Schedule {
     }
 }
 
-/// How many rounds end at the most because the next tile finds no room in them, where all tiles need `all` together, and none
-/// more than `most`.
+/// Largest number of rounds that end because the next tile does not fit. All tiles together need `all`, and none more
+/// than `most`.
 fn rounds_ended(all: u64, room: u64, most: u64) -> u64 {
-    // A round and the tile after it need more than there is room for, and each tile is counted twice at the most.
+    // A round and the tile after it need more than the room, and each tile is counted at most twice.
     let of_pairs = 2 * all / room.max(1);
-    // Where each tile fits, what a round leaves is less than one needs.
+    // If each tile fits, the room that a round leaves is less than the need of one tile.
     let filled = (room + 1).saturating_sub(most);
     of_pairs.min(all.checked_div(filled).unwrap_or(of_pairs))
 }

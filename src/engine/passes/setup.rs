@@ -1,4 +1,4 @@
-//! setup: triangles as edge functions around the tiles they touch.
+//! setup: computes edge functions of triangles around the tiles that they touch.
 
 use super::spirv;
 use crate::engine::data::{Argument, Content};
@@ -6,7 +6,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Fills the lists that `enlist` has placed.
+/// Fills the lists of candidates that `enlist` has placed.
 pub struct Setup {
     pipeline: Arc<Pipeline>,
 }
@@ -23,7 +23,7 @@ impl Setup {
         })
     }
 
-    /// Records it over the pairs.
+    /// Records the pass over the pairs.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Setup as u32);
     }

@@ -1,4 +1,4 @@
-//! sort: visibility samples ordered by material bin.
+//! sort: sorts visibility samples by material bin.
 
 use super::arguments::{After, Arguments};
 use super::spirv;
@@ -8,11 +8,11 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// A counting sort over the records of a round.
+/// Counting sort of a round's visibility samples.
 pub struct Sort {
     layout: vk::PipelineLayout,
     before: Arguments,
-    /// Not needed for a single bin.
+    /// Passes of the sort; `None` for a single bin.
     passes: Option<Passes>,
 }
 
@@ -53,7 +53,7 @@ impl Sort {
         })
     }
 
-    /// Records it.
+    /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, arguments: &Buffer) {
         recorder.clear(bins);
         recorder.barrier();

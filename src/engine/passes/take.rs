@@ -1,4 +1,4 @@
-//! take: a host's image as what superpixels stand in.
+//! take: reads a host's image, in which superpixels will be replaced.
 
 use super::host_image::HostImage;
 use super::spirv;
@@ -7,7 +7,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Compiled, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Reads colours, and makes the codes that detection compares.
+/// Reads colours, and computes the codes that detection compares.
 pub(crate) struct Take {
     image: Arc<HostImage>,
     pipeline: Arc<Pipeline>,
@@ -34,7 +34,7 @@ impl Take {
         })
     }
 
-    /// Records it for a frame of so many pixels, whose set is bound.
+    /// Records the pass for a frame of `pixels` pixels. The frame's set is bound, and remains so.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
         self.image.bind(recorder);
         recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));

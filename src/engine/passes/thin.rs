@@ -1,4 +1,4 @@
-//! thin: pixels that a thin triangle crosses unseen.
+//! thin: finds pixels that a thin triangle crosses without covering the centre.
 
 use super::arguments::{After, Arguments};
 use super::spirv;
@@ -8,7 +8,7 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Marks pixels for `detect`.
+/// Marks pixels, which `detect` makes superpixels.
 pub struct Thin {
     layout: vk::PipelineLayout,
     select: Arc<Pipeline>,
@@ -17,8 +17,8 @@ pub struct Thin {
 }
 
 impl Thin {
-    /// Makes the pipelines; `blend_ids` looks for BLEND triangles among the nearest ones of these, `farther_is_larger` says how
-    /// the depth that was drawn runs.
+    /// Makes the pipelines. `blend_ids` looks for BLEND triangles among the nearest ones; `farther_is_larger` says
+    /// whether larger values of the drawn depth are farther away.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -45,7 +45,7 @@ impl Thin {
         })
     }
 
-    /// Records it for a scene of so many indices of triangles; `marks` is cleared first.
+    /// Records the pass for a scene with `index_count` indices of triangles; `marks` is cleared first.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

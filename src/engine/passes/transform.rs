@@ -1,4 +1,4 @@
-//! transform: positions of a host's vertices in clip space.
+//! transform: computes positions of a host's vertices in clip space.
 
 use super::spirv::{self, transform_set};
 use crate::engine::data::Draws;
@@ -8,8 +8,7 @@ use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Where something of a frame's vertices is in the buffer that the set shows, in words of 4 bytes, and how many positions there
-/// are.
+/// Offset of a vertex attribute in the host's buffer, in words of 4 bytes, and number of positions.
 pub(crate) use spirv::TransformPush as VertexCounts;
 
 /// Reads vertices, and multiplies them by the matrices of their draws.
@@ -24,7 +23,8 @@ impl Transform {
         Ok(Self(LentKernel::new(gpu, &transform_set::ALL)?))
     }
 
-    /// The pipeline for three floats in object space, if the draws have matrices, or else for four in clip space.
+    /// Makes the pipeline: for three floats in object space if the draws have matrices, otherwise for four in clip
+    /// space.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -33,17 +33,17 @@ impl Transform {
         self.0.pipeline(gpu, &spirv::Transform { object })
     }
 
-    /// A set that shows draws, the host's vertices, matrices and positions.
+    /// Makes a set with the draws, the host's vertices, the matrices and the positions.
     ///
     /// # Safety
-    /// The host's buffer outlives the set's use.
+    /// The host's buffer outlives the use of the set.
     pub unsafe fn set(
         &self,
         draws: &Draws,
         vertices: vk::DescriptorBufferInfo,
         positions: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        // Matrices that are not there are not read.
+        // Without matrices, the shader does not read this binding.
         let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
         let buffers = [
             (transform_set::DRAWS, whole(&draws.table)),
@@ -51,11 +51,11 @@ impl Transform {
             (transform_set::MATRICES, whole(matrices)),
             (transform_set::POSITIONS_OUT, whole(positions)),
         ];
-        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }
     }
 
-    /// Records it, where there are draws.
+    /// Records the pass, if there are draws.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

@@ -1,24 +1,24 @@
-//! The pipelines made so far: frames of other sizes, poses and scenes use them again.
+//! Cache of pipelines, which frames of other sizes, poses and scenes use again.
 
 use crate::vulkan::{Constants, Pipeline};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What tells one pipeline from another: where its shader's code lies, its constants, and a variant of its fixed state.
+/// Key of a pipeline: address of its shader's code, its constants, and a variant of its fixed state.
 pub(crate) type PipelineKey = (usize, Constants, u32);
 
-/// Pipelines by what tells them apart. `P` is a [`Pipeline`].
+/// Pipelines by key. `P` is a [`Pipeline`], except in tests.
 pub(crate) struct Pipelines<P = Pipeline> {
     known: HashMap<PipelineKey, Known<P>>,
-    /// Counts the times that one was asked for.
+    /// Number of requests so far.
     turn: u64,
-    /// Pipelines that no frame uses are kept up to this number.
+    /// Largest number of pipelines that are kept although no frame uses them.
     most_unused: usize,
 }
 
 struct Known<P> {
     pipeline: Arc<P>,
-    /// The turn in which it was last asked for.
+    /// Number of the request at which the pipeline was last used.
     asked: u64,
 }
 
@@ -31,7 +31,7 @@ impl<P> Pipelines<P> {
         }
     }
 
-    /// One that was made before.
+    /// Pipeline with this key, if it is in the cache.
     pub fn get(&mut self, key: &PipelineKey) -> Option<Arc<P>> {
         self.turn += 1;
         let known = self.known.get_mut(key)?;
@@ -39,8 +39,8 @@ impl<P> Pipelines<P> {
         Some(known.pipeline.clone())
     }
 
-    /// Adds one, and hands over that which is there: another thread may have been sooner. Lets go of what was not asked for
-    /// the longest, where more are unused than are kept.
+    /// Adds a pipeline and returns it, or the one with the same key that another thread has added in the meantime. If
+    /// too many pipelines are unused, those that were not requested for the longest time are dropped.
     pub fn add(&mut self, key: PipelineKey, made: P) -> Arc<P> {
         self.turn += 1;
         let added = self.known.entry(key).or_insert_with(|| Known {
@@ -78,7 +78,7 @@ mod tests {
         for index in 1..=MOST_UNUSED {
             pipelines.add(key(index), index);
         }
-        // All that are unused fit; the first of them was just asked for.
+        // All unused pipelines fit; the first of them was requested last.
         assert_eq!(pipelines.get(&key(1)).as_deref(), Some(&1));
         for index in MOST_UNUSED + 1..MOST_UNUSED + 4 {
             pipelines.add(key(index), index);

@@ -1,4 +1,4 @@
-//! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
+//! Layout of the descriptor sets and pipelines that all passes share, and a cache of pipelines.
 
 use super::cache::Pipelines;
 use super::pool::DescriptorPool;
@@ -10,20 +10,20 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
-/// device has.
+/// Largest number of distinct textures of a material. With one for the environment, this is the number of samplers
+/// that every Vulkan device supports.
 pub(crate) const SLOTS: usize = spirv::shade_set::TEXTURES.count as usize;
 
-/// Bytes of push constants: a matrix and four words, as `raster` has them.
+/// Number of bytes of push constants: a matrix and four words, for `raster`.
 pub(crate) const PUSH_BYTES: u32 = 80;
 
-/// The layout of both descriptor sets and of every pipeline, and the pipelines made so far.
+/// Layouts of both descriptor sets and of the pipelines, and a cache of pipelines.
 pub struct FrameLayout {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) frame_set: vk::DescriptorSetLayout,
     pub(crate) texture_set: vk::DescriptorSetLayout,
     pub(crate) pipeline: vk::PipelineLayout,
-    /// Fixed in the layout, so that sets are whole where nothing has an environment.
+    /// Sampler of the environment, fixed in the layout so that sets are complete even without an environment.
     environment_sampler: vk::Sampler,
     pipelines: Mutex<Pipelines>,
 }
@@ -65,7 +65,7 @@ impl FrameLayout {
             environment_sampler: vk::Sampler::null(),
             pipelines: Mutex::new(Pipelines::new(gpu.limits().max_unused_pipelines)),
         };
-        // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
+        // SAFETY: plain creations on a live device; `Drop` destroys handles that were made before a failure.
         unsafe {
             let make = |bindings: &[vk::DescriptorSetLayoutBinding<'_>]| {
                 let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(bindings);
@@ -105,19 +105,19 @@ impl FrameLayout {
         Ok(Arc::new(layout))
     }
 
-    /// The size of the subgroups of kernels that count on them.
+    /// Subgroup size of kernels that depend on it.
     pub(crate) fn subgroup(&self) -> Option<u32> {
         Some(self.gpu.limits().subgroup_size)
     }
 
-    /// Whether kernels that use `lanes` invocations of a subgroup have to check how large theirs are: the constant `UNSURE`
-    /// of `shaders/include/lanes.glsl`.
+    /// Whether kernels that use `lanes` invocations of a subgroup have to check the subgroup size: the constant
+    /// `UNSURE` of `shaders/include/lanes.glsl`.
     pub(crate) fn is_unsure(&self, lanes: u32) -> bool {
         let limits = self.gpu.limits();
         !(limits.can_require_subgroup_size && lanes == limits.subgroup_size)
     }
 
-    /// A compute pipeline of one of the crate's shaders; `subgroup` fixes the size of its subgroups.
+    /// Pipeline of a compute shader of the crate; `subgroup` fixes the size of its subgroups.
     pub(crate) fn compute<S: Compiled>(
         &self,
         shader: &S,
@@ -126,7 +126,7 @@ impl FrameLayout {
         self.compute_variant(S::code(), shader, subgroup)
     }
 
-    /// The same of one of the variants of a shader.
+    /// Pipeline of a variant of a compute shader of the crate; `subgroup` fixes the size of its subgroups.
     pub(crate) fn compute_variant<S: Specialized>(
         &self,
         code: &'static [u8],
@@ -138,7 +138,7 @@ impl FrameLayout {
         self.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
     }
 
-    /// The pipeline of a shader, constants and variant, made where it is not known yet.
+    /// Pipeline for a shader, constants and variant, from the cache or made by `make`.
     pub(crate) fn cached(
         &self,
         code: &'static [u8],
@@ -156,12 +156,12 @@ impl FrameLayout {
         if let Some(pipeline) = known().get(&key) {
             return Ok(pipeline);
         }
-        // Not under the lock, so that several threads make theirs at once.
+        // The lock is not held here, so that several threads can make pipelines in parallel.
         let made = make()?.of(interface);
         Ok(known().add(key, made))
     }
 
-    /// A pool for `frames` sets 0 and `bins` sets 1.
+    /// Pool for `frames` sets 0 and `bins` sets 1.
     pub(crate) fn pool(&self, frames: u32, bins: u32) -> Result<DescriptorPool, VulkanError> {
         let mut sizes: Vec<vk::DescriptorPoolSize> = Vec::new();
         for binding in frame_set::ALL {
@@ -228,7 +228,7 @@ mod tests {
             Requirements::SAMPLED_IMAGES
         );
         assert_eq!(all.len() as u32 + 1, Requirements::RESOURCES);
-        // Every device has 4 storage images, 12 uniform buffers and 16 samplers.
+        // Every device supports 4 storage images, 12 uniform buffers and 16 samplers.
         assert!(count(&[T::STORAGE_TEXEL_BUFFER]) <= 4);
         assert!(count(&[T::UNIFORM_BUFFER]) <= 12);
         assert!(count(&[T::COMBINED_IMAGE_SAMPLER]) <= 16);

@@ -1,4 +1,4 @@
-//! Kernels that read a buffer that a host lends: their set shows storage buffers alone, and a count is pushed to them.
+//! Kernels that read a buffer lent by a host. Their set has only storage buffers, and a count is pushed to them.
 
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::vulkan::{Binding, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
@@ -6,7 +6,7 @@ use ash::vk;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// The layouts of a kernel of 64 invocations a workgroup; `S` is its shader, `C` what is pushed.
+/// Layouts of a kernel with 64 invocations in a workgroup; `S` is its shader, `C` the type of its push constants.
 pub(crate) struct LentKernel<S, C> {
     layout: PipelineLayout,
     set_layout: SetLayout,
@@ -14,7 +14,7 @@ pub(crate) struct LentKernel<S, C> {
 }
 
 impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
-    /// Makes the layouts, for a set of these bindings.
+    /// Makes the layouts for a set with these bindings.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -27,7 +27,7 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
         })
     }
 
-    /// The pipeline for the shader's constants.
+    /// Makes the pipeline for a shader with its constants.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -37,24 +37,24 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
         Ok(made.of(S::INTERFACE))
     }
 
-    /// A set that shows buffers at its bindings.
+    /// Makes a set with these buffers.
     ///
     /// # Errors
     /// If the driver refuses it.
     ///
     /// # Safety
-    /// The buffers outlive the set's use.
+    /// The buffers outlive the use of the set.
     pub unsafe fn set(
         &self,
         buffers: &[(Binding, vk::DescriptorBufferInfo)],
     ) -> Result<OwnSet, VulkanError> {
         let set = self.set_layout.allocate()?;
-        // SAFETY: the set is new; of the buffers as the caller says.
+        // SAFETY: the set is new; the caller guarantees the buffers.
         unsafe { set.write_buffers(buffers) };
         Ok(set)
     }
 
-    /// Records so many invocations.
+    /// Records a dispatch over `invocations` invocations.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

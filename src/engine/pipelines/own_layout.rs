@@ -1,4 +1,4 @@
-//! Layouts of descriptor sets beside the frame's, and of pipelines that bind them.
+//! Layouts of descriptor sets besides the frame's, and of pipelines that bind them.
 
 use super::FrameLayout;
 use super::pool::DescriptorPool;
@@ -8,7 +8,7 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// The layout of a set of a compute shader's own.
+/// Layout of a descriptor set that belongs to one compute shader.
 pub(crate) struct SetLayout {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::DescriptorSetLayout,
@@ -38,7 +38,7 @@ impl SetLayout {
         })
     }
 
-    /// A set of this layout in a pool of its own.
+    /// Allocates a set of this layout from its own pool.
     pub fn allocate(&self) -> Result<OwnSet, VulkanError> {
         let sizes: Vec<_> = self
             .bindings
@@ -68,10 +68,10 @@ impl Drop for SetLayout {
     }
 }
 
-/// A buffer, and the binding that shows it.
+/// A binding and its buffer.
 pub(crate) type BoundBuffer = (Binding, vk::DescriptorBufferInfo);
 
-/// A descriptor set and the pool that it is of.
+/// A descriptor set with its own pool.
 pub(crate) struct OwnSet {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::DescriptorSet,
@@ -79,10 +79,10 @@ pub(crate) struct OwnSet {
 }
 
 impl OwnSet {
-    /// Shows buffers.
+    /// Writes buffers to the set.
     ///
     /// # Safety
-    /// The set is not in use, and its bindings are these, of buffers, which outlive its use.
+    /// The set is not in use, its bindings are for buffers, and the buffers outlive its use.
     pub unsafe fn write_buffers(&self, shown: &[BoundBuffer]) {
         let writes: Vec<_> = shown
             .iter()
@@ -91,14 +91,14 @@ impl OwnSet {
                     .buffer_info(std::slice::from_ref(buffer))
             })
             .collect();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 
-    /// Shows texel buffers.
+    /// Writes texel buffers to the set.
     ///
     /// # Safety
-    /// The set is not in use, and its bindings are these, of texel buffers, which outlive its use.
+    /// The set is not in use, its bindings are for texel buffers, and the buffers outlive its use.
     pub unsafe fn write_texels(&self, shown: &[(Binding, vk::BufferView)]) {
         let writes: Vec<_> = shown
             .iter()
@@ -107,20 +107,20 @@ impl OwnSet {
                 self.write(binding).texel_buffer_view(view)
             })
             .collect();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 
-    /// Shows an image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
+    /// Writes an image, in the layout `SHADER_READ_ONLY_OPTIMAL`, to the set.
     ///
     /// # Safety
-    /// The set is not in use, and its binding is that of an image, which outlives its use.
+    /// The set is not in use, its binding is for an image, and the image outlives its use.
     pub unsafe fn write_image(&self, binding: Binding, view: vk::ImageView) {
         let info = [vk::DescriptorImageInfo::default()
             .image_view(view)
             .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
         let writes = [self.write(&binding).image_info(&info)];
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 
@@ -132,14 +132,14 @@ impl OwnSet {
     }
 }
 
-/// The layout of a pipeline.
+/// Layout of a pipeline.
 pub(crate) struct PipelineLayout {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::PipelineLayout,
 }
 
 impl PipelineLayout {
-    /// With these sets, and so many bytes of push constants for compute.
+    /// Makes a layout with these sets and `push_bytes` bytes of push constants for compute shaders.
     pub fn new(
         gpu: &Arc<Gpu>,
         sets: &[vk::DescriptorSetLayout],
@@ -178,8 +178,8 @@ impl PipelineLayout {
 }
 
 impl PipelineLayout {
-    /// A pipeline of this layout, of those that a frame's layout knows. Layouts that are made alike are one and the same to
-    /// pipelines.
+    /// Pipeline with this layout, from the cache of a frame's layout. Identically defined layouts are compatible, so
+    /// that they share pipelines.
     pub fn compute<S: Compiled>(
         &self,
         frame: &FrameLayout,
@@ -190,7 +190,7 @@ impl PipelineLayout {
         frame.cached(S::code(), S::INTERFACE, constants, 0, made)
     }
 
-    /// Binds sets and pushes constants; both are of this layout.
+    /// Binds sets and pushes constants of this layout.
     pub fn bind(
         &self,
         recorder: &Recorder<'_>,
@@ -198,7 +198,7 @@ impl PipelineLayout {
         push: &impl bytemuck::NoUninit,
     ) {
         let (device, raw) = (recorder.device(), recorder.bindings());
-        // SAFETY: the recorder's contract; sets and constants are of this layout.
+        // SAFETY: guaranteed by the recorder's caller; sets and constants belong to this layout.
         unsafe {
             device.cmd_bind_descriptor_sets(
                 raw,
@@ -221,12 +221,12 @@ impl PipelineLayout {
 
 impl Drop for PipelineLayout {
     fn drop(&mut self) {
-        // SAFETY: owners drop the layout after the pipelines that were made with it are done.
+        // SAFETY: owners drop the layout after the pipelines that were made with it have run.
         unsafe { self.gpu.device.destroy_pipeline_layout(self.raw, None) };
     }
 }
 
-/// All of a buffer, for a descriptor.
+/// A whole buffer, for a descriptor.
 pub(crate) fn whole(buffer: &Buffer) -> vk::DescriptorBufferInfo {
     vk::DescriptorBufferInfo::default()
         .buffer(buffer.handle())

@@ -4,14 +4,14 @@ use crate::vulkan::{Gpu, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// A pool whose sets go with it.
+/// A pool of descriptor sets, which are freed with it.
 pub(crate) struct DescriptorPool {
     gpu: Arc<Gpu>,
     raw: vk::DescriptorPool,
 }
 
 impl DescriptorPool {
-    /// A pool of up to `sets` sets, whose descriptors number as `sizes` say.
+    /// Makes a pool of up to `sets` sets, with the numbers of descriptors in `sizes`.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         sets: u32,
@@ -29,7 +29,7 @@ impl DescriptorPool {
         })
     }
 
-    /// A set of a layout that the pool has descriptors for.
+    /// Allocates a set of a layout for which the pool has descriptors.
     pub(crate) fn allocate(
         &self,
         layout: vk::DescriptorSetLayout,

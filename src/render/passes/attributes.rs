@@ -1,4 +1,4 @@
-//! attributes: depth, ID, normal and sampling of every pixel, where asked for.
+//! attributes: writes depth, ID, normal and number of samples of every pixel, on request.
 
 use crate::engine::data::Content;
 use crate::engine::passes::spirv;
@@ -6,14 +6,14 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Writes two vectors a pixel, see `shaders/attributes.comp`.
+/// Writes two vectors for each pixel: see `shaders/attributes.comp`.
 pub struct Attributes {
     pipeline: Arc<Pipeline>,
 }
 
 impl Attributes {
-    /// Makes the pipeline; `superpixels` tells them from other pixels, `grown` if [`Grow`](super::Grow) added
-    /// some.
+    /// Makes the pipeline. `superpixels` says whether there are superpixels, `grown` whether [`Grow`](super::Grow) has
+    /// added some.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -33,7 +33,7 @@ impl Attributes {
         })
     }
 
-    /// Records it for a region of `pixels` pixels.
+    /// Records the pass for a region of `pixels` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
         recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
     }

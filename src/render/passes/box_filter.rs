@@ -1,4 +1,4 @@
-//! box_filter: k x k supersampled pixels to one.
+//! box_filter: averages k x k supersampled pixels.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -24,7 +24,7 @@ impl BoxFilter {
         })
     }
 
-    /// Records it for a region that becomes `pixels` pixels, each of `side` x `side`.
+    /// Records the pass for a region that becomes `pixels` pixels, each the mean of `side` x `side`.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
         recorder.push(self.layout, &spirv::BoxFilterPush { side });
         recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));

@@ -1,4 +1,4 @@
-//! encode: colours in the format of a host's image.
+//! encode: converts colours to the format of a host's image.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -6,19 +6,19 @@ use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Formats that a host's image may have.
+/// Formats of a host's image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     /// sRGB-encoded, premultiplied: `R8G8B8A8_UNORM` or `R8G8B8A8_SRGB`.
     Rgba8,
     /// Linear, premultiplied: `R16G16B16A16_SFLOAT`.
     Rgba16Float,
-    /// Linear, premultiplied: `R32G32B32A32_SFLOAT`; needs no pass.
+    /// Linear, premultiplied: `R32G32B32A32_SFLOAT`; needs no conversion.
     Rgba32Float,
 }
 
 impl Encoding {
-    /// The encoding of a format, if it has one.
+    /// Encoding for a Vulkan format, if it is supported.
     #[must_use]
     pub fn of(format: vk::Format) -> Option<Self> {
         match format {
@@ -56,7 +56,7 @@ impl Encode {
         })
     }
 
-    /// Records it for a region of `pixels` pixels.
+    /// Records the pass for a region of `pixels` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
         recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
     }

@@ -1,11 +1,11 @@
-//! multisample: what the device's own multisampling saw, as visibility samples.
+//! multisample: turns the device's multisampling into visibility samples.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Turns multisampled triangle IDs into records.
+/// Turns multisampled triangle IDs into visibility samples.
 pub struct Multisample {
     pipeline: Arc<Pipeline>,
 }
@@ -22,7 +22,7 @@ impl Multisample {
         })
     }
 
-    /// Records it for a region of `tiles` tiles.
+    /// Records the pass for a region of `tiles` tiles.
     pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
         recorder.dispatch(&self.pipeline, u64::from((tiles * 32).div_ceil(64)));
     }

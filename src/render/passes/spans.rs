@@ -1,4 +1,4 @@
-//! spans: rows of 8 pixels, listed by material bin.
+//! spans: lists rows of 8 pixels by material bin.
 
 use crate::engine::data::Content;
 use crate::engine::passes::arguments::{After, Arguments};
@@ -8,17 +8,17 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Lists what of a region is to be shaded.
+/// Lists the pixels of a region that need shading.
 pub struct Spans {
     layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
-    /// Spans need not be counted beforehand.
+    /// Whether there is a single bin, so that spans need not be counted first.
     one_bin: bool,
     arguments: Arguments,
 }
 
 impl Spans {
-    /// Invocations of a workgroup, which may be several subgroups.
+    /// Number of invocations of a workgroup, which may contain several subgroups.
     const WORKGROUP: u32 = 64;
 
     /// Makes the pipelines.
@@ -42,7 +42,7 @@ impl Spans {
         })
     }
 
-    /// Records it for a region of `width` x `height` pixels.
+    /// Records the pass for a region of `width` x `height` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, [width, height]: [u32; 2]) {
         let groups = (u64::from(width.div_ceil(8)) * u64::from(height)).div_ceil(64);
         recorder.clear(bins);

@@ -1,4 +1,4 @@
-//! Which buffer or image each binding of a frame's descriptor set shows.
+//! Buffers and images of a frame's descriptor sets.
 
 use super::{Resources, SampleSet};
 use crate::engine::data::Content;
@@ -6,24 +6,24 @@ use crate::engine::passes::spirv::frame_set;
 use crate::vulkan::{Binding, Buffer};
 use ash::vk;
 
-/// A texel buffer, and the binding of the frame's set that shows it.
+/// A binding of the frame's set, and the texel buffer for it.
 pub type BoundTexels = (Binding, vk::BufferView);
 
-/// What shows triangle IDs and depth to passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
+/// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 #[derive(Clone, Copy, Debug)]
 pub struct IdViews {
     /// Triangle IDs.
     pub ids: vk::ImageView,
-    /// IDs of the nearest BLEND triangles, where there are any.
+    /// IDs of the nearest BLEND triangles, if there are any.
     pub blend_ids: Option<vk::ImageView>,
-    /// Depth, where `thin` reads it.
+    /// Depth, if `thin` reads it.
     pub depth: Option<vk::ImageView>,
-    /// Stands for the single-sampled IDs where these are multisampled.
+    /// View bound instead of the single-sampled IDs if the IDs are multisampled.
     pub placeholder: Option<vk::ImageView>,
 }
 
 impl Resources {
-    /// Writes a set that was just allocated; `texels` and `lights` belong to a scene or to what a frame sees of it.
+    /// Writes a newly allocated set. `texels` and `lights` belong to a scene or to a frame's view of it.
     pub(crate) fn write_set(
         &self,
         set: &SampleSet,
@@ -84,8 +84,9 @@ impl Resources {
             (frame_set::PATTERN, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
-        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
-        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
+        // A set has either single-sampled or multisampled IDs. Pipelines that could read the single-sampled ones, but
+        // are specialised not to, get a placeholder. Without BLEND triangles, their binding has the opaque IDs, which
+        // are not read either.
         let IdViews { ids, .. } = *shown;
         let blend_ids = shown.blend_ids.unwrap_or(ids);
         let images = match (shown.placeholder, shown.depth) {
@@ -135,7 +136,7 @@ impl Resources {
             .chain(images)
             .chain(environment)
             .collect();
-        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
+        // SAFETY: the set is new and no frame uses it; every handle is alive and outlives the set.
         unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 }

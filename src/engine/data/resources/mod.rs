@@ -1,4 +1,4 @@
-//! The memory of one frame: sized when it is prepared, used again for every region and every frame.
+//! Memory of one frame: allocated when the frame is prepared, and used again for every region and every recording.
 
 mod descriptors;
 mod record;
@@ -17,19 +17,19 @@ use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Buffers that passes hand to each other.
+/// Buffers through which passes exchange data.
 pub struct Resources {
     sizes: ResourceSizes,
     pub(crate) display: BufferView,
     pub(crate) color: BufferView,
-    /// A word for each [`Counter`].
+    /// Counters: a word for each [`Counter`].
     pub counters: Buffer,
-    /// A word for each tile, a bit for each superpixel.
+    /// Masks: a word for each tile, with a bit for each superpixel.
     pub masks: Buffer,
     pub(crate) marks: Buffer,
-    /// Four words for each tile, see `shaders/include/frame.glsl`.
+    /// Tiles: four words for each, see `shaders/include/frame.glsl`.
     pub tiles: Buffer,
-    /// The work lists, see `shaders/include/work.glsl`.
+    /// Work lists, see `shaders/include/work.glsl`.
     pub tile_lists: Buffer,
     survivors: Buffer,
     pairs: BufferView,
@@ -40,14 +40,14 @@ pub struct Resources {
     pub(crate) shadow_words: BufferView,
     pub(crate) shade_order: Buffer,
     pub(crate) bins: Buffer,
-    /// Four words for each [`Argument`].
+    /// Sizes of indirect dispatches: four words for each [`Argument`].
     pub arguments: Buffer,
-    /// A word that says whether there is another round, where the device can skip those that there are not.
+    /// Word that says whether there is another round; `None` if the device can't skip commands.
     another_round: Option<Buffer>,
     filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
-    /// What lists of locations need.
+    /// Buffers for lists of locations.
     pub locations: LocationBuffers,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
@@ -68,11 +68,11 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Resources {
-    /// Allocates a frame's memory and one descriptor set for each list of offsets of sub-samples. `texels_of_others` are the
-    /// texel buffers that others own, as they own the lights.
+    /// Allocates a frame's memory, and a descriptor set for each list of sample offsets. `texels_of_others` are the
+    /// texel buffers with other owners; the lights have another owner too.
     ///
     /// # Errors
-    /// If memory runs out or a buffer passes the device's limits.
+    /// If memory runs out or a buffer exceeds a limit of the device.
     pub fn new(
         layout: &Arc<FrameLayout>,
         memory: &Memory,
@@ -96,7 +96,7 @@ impl Resources {
         let texels = |name: &str, elements: u64, format| {
             texels_in(name, elements, format, MemoryUse::Device)
         };
-        // The host reads what its own locations see, run by run.
+        // The host reads the results of its own locations, run by run.
         let output = match sizes.locations {
             Some(LocationSizes { lent: false, .. }) => MemoryUse::Readback,
             _ => MemoryUse::Device,
@@ -171,13 +171,13 @@ impl Resources {
         Ok(resources)
     }
 
-    /// What was asked for.
+    /// Sizes of the memory.
     #[must_use]
     pub fn sizes(&self) -> &ResourceSizes {
         &self.sizes
     }
 
-    /// The list of offsets of sub-samples at `index`.
+    /// Set of the list of sample offsets with this index.
     #[must_use]
     pub fn set(&self, index: usize) -> Option<&SampleSet> {
         self.sets.get(index)

@@ -1,4 +1,4 @@
-//! What a frame records of its memory beside its passes: uploads, clearing, counters and the background.
+//! Recordings of a frame's memory besides its passes: uploads, clearing, counters and the background.
 
 use super::{Resources, SampleSet};
 use crate::engine::data::{Counter, FrameUniform};
@@ -6,7 +6,7 @@ use crate::vulkan::{Buffer, Recorder};
 use ash::vk;
 
 impl Resources {
-    /// Copies the offsets to the device and clears all counters, once.
+    /// Records the upload of the offsets and the clearing of all counters.
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         for set in &self.sets {
             set.upload.record(recorder);
@@ -15,7 +15,7 @@ impl Resources {
         recorder.barrier();
     }
 
-    /// Begins work on a region: its uniform block, cleared counters and tiles, bound sets.
+    /// Records the beginning of a region: uniform block, cleared counters and tiles, bound sets.
     pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
         recorder.barrier();
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
@@ -25,9 +25,9 @@ impl Resources {
         self.record_bind(recorder, set);
     }
 
-    /// Binds the set of the passes.
+    /// Records binding the set of the passes.
     pub(crate) fn record_bind(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        // SAFETY: the recorder's contract; the set matches the layout of all pipelines.
+        // SAFETY: guaranteed by the recorder's caller; the set matches the layout of all pipelines.
         unsafe {
             recorder.device().cmd_bind_descriptor_sets(
                 recorder.bindings(),
@@ -40,19 +40,19 @@ impl Resources {
         }
     }
 
-    /// Tells the passes that follow how far samples of a list's locations reach.
+    /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.
     pub(crate) fn record_reach(&self, recorder: &Recorder<'_>, set: &SampleSet) {
         let counter = 4 * Counter::Reach as u64;
         let member = std::mem::offset_of!(FrameUniform, reach) as u64;
-        // SAFETY: counter and member lie in the buffers, which were made for copies and go with the frame.
+        // SAFETY: counter and member lie in the buffers, which were created for copies and live as long as the frame.
         unsafe { recorder.copy_raw((self.counters.raw, counter), (set.uniform.raw, member), 4) };
         recorder.barrier();
     }
 
-    /// Records so many rounds. The device skips those that no tile waits for, if it can.
+    /// Records `rounds` rounds. If the device can skip commands, it skips the rounds for which no tile waits.
     ///
-    /// The passes of the first one are timed, and all others together: timestamps are not skipped, and cost CPU devices ten times
-    /// what else a skipped round does.
+    /// The passes of the first round are timed separately, all others together: timestamps are not skipped, and on CPU
+    /// devices they cost ten times as much as the rest of a skipped round.
     pub(crate) fn record_rounds(
         &self,
         recorder: &mut Recorder<'_>,
@@ -75,24 +75,24 @@ impl Resources {
             return;
         };
         let waiting = 4 * Counter::Waiting as u64;
-        // SAFETY: the counter lies in its buffer; both were made for copies and go with the frame.
+        // SAFETY: the counter lies in its buffer; both buffers were created for copies and live as long as the frame.
         unsafe { recorder.copy_raw((self.counters.raw, waiting), (another_round.raw, 0), 4) };
-        // Dispatches of a host's are not skipped. In a round that is, they find nothing.
+        // Dispatches of a host are not skipped. In a skipped round they must find nothing to do.
         recorder.clear(&self.arguments);
         recorder.barrier();
         recorder.unless_zero(another_round, record);
     }
 
-    /// Copies the counters to slot `slot` of a read-back buffer.
+    /// Records a copy of the counters to slot `slot` of a read-back buffer.
     pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
         let bytes = Counter::BYTES;
         recorder.copy(&self.counters, bytes, to, slot * bytes);
     }
 
-    /// Copies the first bytes of the colours to a buffer of a host's, from a byte of that on.
+    /// Records a copy of the first bytes of the colours to a host's buffer, from `first_byte` of that on.
     ///
     /// # Safety
-    /// The buffer outlives the execution of the commands, was made for copies, and has room for them.
+    /// The buffer outlives the execution of the commands, was created for copies, and has room for the colours.
     pub(crate) unsafe fn record_keep_colors(
         &self,
         recorder: &Recorder<'_>,
@@ -101,20 +101,20 @@ impl Resources {
         bytes: u64,
     ) {
         if bytes > 0 {
-            // SAFETY: passed on to the caller; the resources have room for as many colours.
+            // SAFETY: guaranteed by the caller; the resources have room for that many colours.
             unsafe { recorder.copy_raw((self.color.buffer.raw, 0), (to, first_byte), bytes) };
         }
     }
 
-    /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
+    /// Records replacing the supersampled pixels by the first `pixels` pixels of the box filter.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
         let (from, to) = (&self.filtered.buffer, &self.color.buffer);
         recorder.copy(from, 16 * u64::from(pixels), to, 0);
         recorder.barrier();
     }
 
-    /// Fills the first `pixels` pixels or locations with the background, premultiplied as in the output, its display code and, of
-    /// locations that have them, its attributes.
+    /// Records filling the first `pixels` pixels or locations with the background: its colour, premultiplied as in the
+    /// output, its display code and, for locations with attributes, these.
     pub(crate) fn record_background(
         &self,
         recorder: &Recorder<'_>,
@@ -122,7 +122,7 @@ impl Resources {
         background: [f32; 4],
         code: u32,
     ) {
-        // SAFETY: the recorder's contract; the buffer was made for copies.
+        // SAFETY: guaranteed by the recorder's caller; the buffer was created for copies.
         unsafe {
             recorder.device().cmd_fill_buffer(
                 recorder.raw(),
@@ -141,15 +141,16 @@ impl Resources {
     }
 }
 
-/// Fills the first `count` places of a buffer, which has them and was made for copies.
+/// Records filling the first `count` elements of a buffer, which was created for copies and has that many.
 fn fill<T: bytemuck::NoUninit>(recorder: &Recorder<'_>, buffer: &Buffer, value: T, count: u32) {
-    /// Bytes written inline, as many as can be; the rest is copied from what is there, twice as much each time.
+    /// Number of bytes that are written inline, the largest possible. The rest is copied from them, doubling each
+    /// time.
     const SEED: u64 = 65_536;
     let device = recorder.device();
     let total = u64::from(count) * size_of::<T>() as u64;
     let mut filled = SEED.min(total);
-    // SAFETY: the recorder's contract; sizes are multiples of 4, and each copy reads what the copies before it wrote and writes
-    // past it.
+    // SAFETY: guaranteed by the recorder's caller; sizes are multiples of 4, and each copy reads what earlier copies
+    // wrote and writes behind it.
     unsafe {
         if bytemuck::bytes_of(&value).iter().all(|byte| *byte == 0) {
             device.cmd_fill_buffer(recorder.raw(), buffer.raw, 0, vk::WHOLE_SIZE, 0);

@@ -1,4 +1,4 @@
-//! Sub-sample offsets on the device, and the descriptor set of the passes that read them.
+//! Sample offsets on the device, and the descriptor set of the passes that read them.
 
 use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
@@ -7,16 +7,16 @@ use crate::engine::pipelines::pool::DescriptorPool;
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 
-/// Offsets of sub-samples from the pixel's centre, in pixels.
+/// Sample offsets from the pixel's centre, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offsets<'a> {
-    /// Those of a cell, and then those of a first run of few samples where there is one.
+    /// Offsets of a cell's samples, followed by those of the first run of a few samples, if there is one.
     pub all: &'a [[f32; 2]],
-    /// Samples of a cell.
+    /// Number of samples of a cell.
     pub count: u32,
 }
 
-/// Sub-sample offsets and the descriptor set that reads them.
+/// Sample offsets, and the descriptor set that contains them.
 pub struct SampleSet {
     pub(crate) uniform: Buffer,
     pub(crate) offsets: BufferView,
@@ -26,7 +26,7 @@ pub struct SampleSet {
 }
 
 impl SampleSet {
-    /// Allocates a list of offsets, its uniform block and its set, which is not written yet.
+    /// Allocates a list of offsets, its uniform block and its set, which is not yet written.
     pub(crate) fn new(
         layout: &FrameLayout,
         memory: &Memory,
@@ -64,25 +64,25 @@ impl SampleSet {
         })
     }
 
-    /// Number of offsets.
+    /// Number of sample offsets of a cell.
     #[must_use]
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// The descriptor set.
+    /// Descriptor set of the passes.
     pub(crate) fn descriptor(&self) -> vk::DescriptorSet {
         self.set
     }
 }
 
-/// Samples of a cell that fit in a mask of `shaders/include/mask.glsl`.
+/// Number of samples that fit into a mask of `shaders/include/mask.glsl`.
 const MASK: usize = 64;
-/// Samples of a run whose sums are listed.
+/// Number of consecutive samples whose sums are tabulated.
 const RUN: usize = 4;
 
-/// For each run of four samples of the first 64, and for one behind them: the sums of the offsets of those that the bits of
-/// a number from 0 to 15 name.
+/// Table of sums: for each four consecutive samples of the first 64, and for one entry behind them, the sums of the
+/// offsets that the bits of a number from 0 to 15 select.
 fn sums_of_runs(all: &[[f32; 2]], count: u32) -> Vec<[f32; 2]> {
     let known = &all[..all.len().min(count as usize).min(MASK)];
     let numbers =

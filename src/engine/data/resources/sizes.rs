@@ -1,60 +1,60 @@
-//! How much room a frame needs.
+//! Sizes of a frame's memory.
 
 use crate::engine::data::{LocationSizes, STRETCH};
 use crate::vulkan::{Limits, VulkanError};
 
-/// How much room a frame needs.
+/// Sizes of a frame's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResourceSizes {
-    /// Largest region, in pixels.
+    /// Width and height of the largest region, in pixels.
     pub region: [u32; 2],
-    /// Invocations of a subgroup: an entry of a work list is as many cells.
+    /// Number of invocations of a subgroup; an entry of a work list has as many cells.
     pub lanes: u32,
-    /// Locations of a region, where cells are these instead of pixels.
+    /// Sizes for locations, if cells are locations instead of pixels.
     pub locations: Option<LocationSizes>,
-    /// Triangles that may touch a cell, or are thin.
+    /// Number of triangles that may touch a cell, or are thin, for which there is room.
     pub survivor_capacity: u32,
-    /// Pairs of a triangle and a tile of all rounds.
+    /// Number of pairs of a triangle and a tile, over all rounds.
     pub pair_capacity: u32,
-    /// Candidates of all lists of a round.
+    /// Number of candidates in all lists of a round.
     pub list_capacity: u32,
-    /// Visibility samples of a round; 0 where no cell is ever sampled.
+    /// Number of visibility samples of a round; 0 if no cell is ever sampled.
     pub record_capacity: u32,
-    /// Pixels of a region after the box filter; 0 without one.
+    /// Number of pixels of a region after the box filter; 0 without the filter.
     pub filtered: u32,
-    /// Words of each place that is shaded, which say what lights reach it; 0 where that is not asked. See
+    /// Number of words for each shaded place that say which lights reach it; 0 without shadows. See
     /// `shaders/include/shadows.glsl`.
     pub shadow_words: u32,
-    /// Whether attributes are asked for.
+    /// Whether attributes are written.
     pub attributes: bool,
-    /// Bytes of a region encoded for a host's image; 0 without one.
+    /// Number of bytes of a region that is encoded for a host's image; 0 without one.
     pub encoded: u64,
 }
 
 impl ResourceSizes {
-    /// Bytes of a pair.
+    /// Number of bytes of a pair.
     pub const PAIR_BYTES: u64 = 8;
-    /// Elements of a candidate in a texel buffer.
+    /// Number of elements of a candidate in a texel buffer.
     pub const CANDIDATE_TEXELS: u64 = 4;
-    /// Bytes of a candidate.
+    /// Number of bytes of a candidate.
     pub const CANDIDATE_BYTES: u64 = 16 * Self::CANDIDATE_TEXELS;
-    /// Bytes of the marks of a tile or group of locations: three words.
+    /// Number of bytes of the marks of a tile or group of locations: three words.
     pub const MARK_BYTES: u64 = 12;
 
-    /// Most pairs that a buffer of the device holds.
+    /// Largest number of pairs in a buffer of the device.
     #[must_use]
     pub fn most_pairs(limits: &Limits) -> u64 {
         (limits.max_storage_bytes / Self::PAIR_BYTES).min(limits.max_texel_elements)
     }
 
-    /// Most candidates that a buffer of the device holds.
+    /// Largest number of candidates in a buffer of the device.
     #[must_use]
     pub fn most_candidates(limits: &Limits) -> u64 {
         let texels = limits.max_texel_elements / Self::CANDIDATE_TEXELS;
         (limits.max_storage_bytes / Self::CANDIDATE_BYTES).min(texels)
     }
 
-    /// Bytes of the largest storage buffer.
+    /// Number of bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
         let colors = self.colors() * 16;
@@ -72,13 +72,13 @@ impl ResourceSizes {
         .fold(0, u64::max)
     }
 
-    /// Pixels of a region.
+    /// Number of pixels of a region.
     #[must_use]
     pub fn pixels(&self) -> u32 {
         self.region[0] * self.region[1]
     }
 
-    /// Colours of a region.
+    /// Number of colours of a region: of pixels or locations.
     #[must_use]
     pub fn colors(&self) -> u64 {
         self.locations
@@ -87,7 +87,7 @@ impl ResourceSizes {
             })
     }
 
-    /// Most places that are shaded at once, where it is asked which lights reach them; otherwise 0.
+    /// Largest number of places that are shaded at once with shadows; 0 without shadows.
     #[must_use]
     pub fn receivers(&self) -> u32 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
@@ -97,20 +97,21 @@ impl ResourceSizes {
         }
     }
 
-    /// Words of all places: of the pixels, where cells are these, and of visibility samples.
+    /// Number of shadow words of all places: of visibility samples and, if cells are pixels, of the pixels.
     #[must_use]
     pub fn all_shadow_words(&self) -> u64 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
         u64::from(self.shadow_words) * (u64::from(pixels) + u64::from(self.record_capacity))
     }
 
-    /// Work items: tiles or, where there are more, groups of locations.
+    /// Number of work items: tiles or, if there are more, groups of locations.
     pub(crate) fn work_items(&self) -> u64 {
         let groups = self.locations.map_or(0, |locations| locations.groups);
         self.tiles().max(groups).into()
     }
 
-    /// Bytes of the work lists: six of them, with as many entries for a work item as its cells may fill.
+    /// Number of bytes of the work lists: six lists, with room for all entries that the cells of the work items may
+    /// fill.
     pub(crate) fn work_bytes(&self) -> u64 {
         let entries = if self.locations.is_some() {
             1
@@ -120,7 +121,7 @@ impl ResourceSizes {
         self.work_items() * 6 * 4 * u64::from(entries)
     }
 
-    /// Elements of the largest texel buffer.
+    /// Number of elements of the largest texel buffer.
     #[must_use]
     pub fn largest_texels(&self) -> u64 {
         let [records, pairs, candidates] =
@@ -144,29 +145,30 @@ impl ResourceSizes {
         .fold(0, u64::max)
     }
 
-    /// Tiles of 8 x 4 pixels of a region.
+    /// Number of tiles of 8 x 4 pixels of a region.
     #[must_use]
     pub fn tiles(&self) -> u32 {
         self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
     }
 
-    /// Bytes of the buffer of tiles: a vector a tile, and two a stretch of them.
+    /// Number of bytes of the buffer of tiles: a vector for each tile, and two for each stretch of tiles.
     pub(crate) fn tile_bytes(&self) -> u64 {
         let stretches = self.tiles().div_ceil(STRETCH);
         16 * (u64::from(self.tiles()) + 2 * u64::from(stretches))
     }
 
-    /// Fails where a buffer of these sizes is larger than the device's can be; `what` names the largest.
+    /// Checks that no buffer of these sizes exceeds a limit of the device; `what` describes the largest one in the
+    /// error.
     ///
     /// # Errors
-    /// [`VulkanError::TooLarge`].
+    /// [`VulkanError::TooLarge`] if one does.
     pub(crate) fn check(&self, what: &'static str, limits: &Limits) -> Result<(), VulkanError> {
         let (bytes, texels) = (self.largest_storage(), self.largest_texels());
         VulkanError::check_limit(what, bytes, "bytes", limits.max_storage_bytes)?;
         VulkanError::check_limit(what, texels, "elements", limits.max_texel_elements)
     }
 
-    /// About how many bytes [`super::Resources`] of this size take.
+    /// Approximate number of bytes of [`super::Resources`] with these sizes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         let pixels = self.colors();
