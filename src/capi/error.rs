@@ -1,5 +1,6 @@
 //! Answers of functions, and messages.
 
+use super::names::in_c;
 use super::version::GPC_ABI_VERSION;
 use crate::engine::sampler::EngineError;
 use crate::host::{HostError, ShaderError};
@@ -104,47 +105,6 @@ fn sizes(name: &str, found: usize, expected: usize) -> String {
         )
     } else {
         format!("it can be sizeof({name}), which is {expected}")
-    }
-}
-
-/// What the error says, with C's names for what C wrote.
-fn in_c(error: &HostError) -> String {
-    match error {
-        HostError::Engine(EngineError::Vulkan(VulkanError::NoFunction(name))) => {
-            Error::Function(name).to_string()
-        }
-        HostError::Engine(EngineError::Vulkan(VulkanError::NotEnabled {
-            member,
-            function,
-            remedy,
-        })) => format!("GpcDevice.{member} is VK_TRUE and there is no {function}: {remedy}"),
-        HostError::NoDepth => {
-            "thin triangles are found by depth: lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
-        }
-        HostError::NoCoordinates => {
-            "there are alpha maps and no texture coordinates: lend GpcGeometry.coordinates".to_owned()
-        }
-        HostError::BlendedCentres => {
-            "GpcGeometry.blended with GpcOptions.shade_all: centres are shaded by the nearest surface alone; draw the colours yourself".to_owned()
-        }
-        HostError::BlendedBackground => {
-            "GpcGeometry.blended without GpcOptions.flat_background: blended draws are composited over GpcOptions.background alone; set flat_background and lend the sky as triangles, or draw what is blended after the recording".to_owned()
-        }
-        HostError::NotBlended { draw } => {
-            format!("draw {draw} is blended; create the frame with GpcGeometry.blended")
-        }
-        HostError::AlphaMap { draw, map, maps } => {
-            let asked = u32::from(*map) + 1;
-            format!("GpcDraw.alpha_map of draw {draw} is {asked}; it can be 0 to {maps}")
-        }
-        HostError::FlatProjection => {
-            "GpcScenery.projection has a scale of 0 along y: it is projection[1][1], in columns".to_owned()
-        }
-        HostError::IndexType { found } => format!(
-            "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)",
-            found.as_raw()
-        ),
-        other => other.to_string(),
     }
 }
 

@@ -14,6 +14,7 @@ mod images;
 mod input;
 mod list;
 mod memory;
+mod names;
 mod options;
 mod shader;
 mod version;

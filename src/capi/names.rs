@@ -1,0 +1,192 @@
+//! C's names in messages of the engine.
+
+use super::error::Error;
+use crate::host::{EngineError, HostError};
+use crate::vulkan::VulkanError;
+
+/// Message of the error, with C's names for what C wrote.
+pub(super) fn in_c(error: &HostError) -> String {
+    match error {
+        HostError::Engine(EngineError::Vulkan(VulkanError::NoFunction(name))) => {
+            Error::Function(name).to_string()
+        }
+        HostError::Engine(EngineError::Vulkan(VulkanError::NotEnabled {
+            member,
+            function,
+            remedy,
+        })) => format!("GpcDevice.{member} is VK_TRUE and there is no {function}: {remedy}"),
+        HostError::NoDepth => {
+            "thin triangles are found by depth: lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
+        }
+        HostError::NoCoordinates => {
+            "there are alpha maps and no texture coordinates: lend GpcGeometry.coordinates".to_owned()
+        }
+        HostError::BlendedCentres => {
+            "GpcGeometry.blended with GpcOptions.shade_all: centres are shaded by the nearest surface alone; draw the colours yourself".to_owned()
+        }
+        HostError::BlendedBackground => {
+            "GpcGeometry.blended without GpcOptions.flat_background: blended draws are composited over GpcOptions.background alone; set flat_background and lend the sky as triangles, or draw what is blended after the recording".to_owned()
+        }
+        HostError::NotBlended { draw } => {
+            format!("draw {draw} is blended; create the frame with GpcGeometry.blended")
+        }
+        HostError::AlphaMap { draw, map, maps } => {
+            let asked = u32::from(*map) + 1;
+            format!("GpcDraw.alpha_map of draw {draw} is {asked}; it can be 0 to {maps}")
+        }
+        HostError::FlatProjection => {
+            "GpcScenery.projection has a scale of 0 along y: it is projection[1][1], in columns".to_owned()
+        }
+        HostError::IndexType { found } => format!(
+            "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)",
+            found.as_raw()
+        ),
+        HostError::NullHandle(what) => HostError::NullHandle(c_name(what)).to_string(),
+        HostError::Count { what, found, most } => HostError::Count {
+            what: c_name(what),
+            found: *found,
+            most: *most,
+        }
+        .to_string(),
+        HostError::Alignment {
+            what,
+            offset,
+            alignment,
+        } => HostError::Alignment {
+            what: c_name(what),
+            offset: *offset,
+            alignment: *alignment,
+        }
+        .to_string(),
+        HostError::Stride { what, found, least } => HostError::Stride {
+            what: c_name(what),
+            found: *found,
+            least: *least,
+        }
+        .to_string(),
+        HostError::Capacity {
+            what,
+            found,
+            capacity,
+        } => format!("{found} {what}; {} is {capacity}", capacity_name(what)),
+        HostError::Format(found) => format!(
+            "GpcImages.color_format is VK_FORMAT_{found:?}; it can have 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or be VK_FORMAT_B10G11R11_UFLOAT_PACK32"
+        ),
+        HostError::Encoded(found) => format!(
+            "GpcImages.color_encoded is VK_TRUE and GpcImages.color_format is VK_FORMAT_{found:?}, which holds linear light: set color_encoded to VK_FALSE"
+        ),
+        HostError::Layout { what, when, found } => format!(
+            "{}.{when}.layout is VK_IMAGE_LAYOUT_{found:?}; it can be any that keeps what the image holds",
+            image_name(what)
+        ),
+        HostError::Aspects {
+            what,
+            found,
+            possible,
+        } => format!(
+            "{}.aspects is {:#x}; it can have {possible}",
+            image_name(what),
+            found.as_raw()
+        ),
+        HostError::Address { map, found } => format!(
+            "an address mode of GpcGeometry.alpha_maps[{map}] is VK_SAMPLER_ADDRESS_MODE_{found:?}; it can be REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE"
+        ),
+        HostError::Filter { map, name, found } => format!(
+            "GpcGeometry.alpha_maps[{map}].{name} is {found}; it can be NEAREST (0) or LINEAR (1)"
+        ),
+        HostError::Cutoff { map } => {
+            format!("GpcGeometry.alpha_maps[{map}].cutoff is not finite")
+        }
+        HostError::NoIds => {
+            "GpcImages.depth is lent without GpcImages.ids: lend both, or neither to have both drawn".to_owned()
+        }
+        HostError::Key { draw, key, keys } => {
+            let last = keys.saturating_sub(1);
+            format!("GpcDraw.key of draw {draw} is {key}; it can be 0 to {last}, as GpcGeometry.keys is {keys}")
+        }
+        HostError::Matrix { draw } => {
+            format!("GpcDraw.to_clip of draw {draw} has a number that is not finite")
+        }
+        HostError::Projection => {
+            "GpcScenery.projection has a number that is not finite".to_owned()
+        }
+        HostError::Engine(EngineError::Vulkan(VulkanError::TooLarge {
+            what,
+            needed,
+            unit,
+            limit,
+        })) => VulkanError::TooLarge {
+            what: c_name(what).to_owned(),
+            needed: *needed,
+            unit,
+            limit: *limit,
+        }
+        .to_string(),
+        HostError::Engine(EngineError::Background(found)) => {
+            format!("GpcOptions.background is {found:?}: its light must be finite")
+        }
+        HostError::Engine(EngineError::Pattern(error)) => {
+            format!("GpcOptions.samples and GpcOptions.pattern: {error}")
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The member of C's that the engine calls `what`.
+fn c_name<'a>(what: &'a str) -> &'a str {
+    let known = NAMES.iter().find(|(name, _)| *name == what);
+    known.map_or(what, |(_, member)| member)
+}
+
+/// The member that bounds the number of what a recording has.
+fn capacity_name(what: &str) -> &'static str {
+    match what {
+        "draws" => "GpcGeometry.draw_capacity",
+        "triangles" => "GpcGeometry.triangle_capacity",
+        "locations" => "GpcLocationList.capacity",
+        _ => "GpcGeometry.position_capacity",
+    }
+}
+
+/// The image that the engine calls `what`, without its member `image`.
+fn image_name(what: &str) -> &str {
+    let name = c_name(what);
+    name.strip_suffix(".image").unwrap_or(name)
+}
+
+/// What the engine's errors call members, and C's names of these.
+const NAMES: [(&str, &str); 30] = [
+    ("the buffer of positions", "GpcGeometry.positions"),
+    ("the buffer of indices", "GpcGeometry.indices"),
+    ("the buffer of coordinates", "GpcGeometry.coordinates"),
+    ("positions_offset", "GpcGeometry.positions_offset"),
+    ("position_stride", "GpcGeometry.position_stride"),
+    ("indices_offset", "GpcGeometry.indices_offset"),
+    ("coordinates_offset", "GpcGeometry.coordinates_offset"),
+    ("coordinates_stride", "GpcGeometry.coordinates_stride"),
+    ("vertex_capacity", "GpcGeometry.vertex_capacity"),
+    (
+        "the capacity of positions in object space",
+        "GpcGeometry.position_capacity",
+    ),
+    ("index_capacity", "GpcGeometry.index_capacity"),
+    ("triangle_capacity", "GpcGeometry.triangle_capacity"),
+    ("draw_capacity", "GpcGeometry.draw_capacity"),
+    ("keys", "GpcGeometry.keys"),
+    ("the number of alpha maps", "GpcGeometry.alpha_map_count"),
+    ("the view of an alpha map", "GpcAlphaMap.view"),
+    ("the width of an alpha map", "GpcAlphaMap.width"),
+    ("the height of an alpha map", "GpcAlphaMap.height"),
+    ("levels of an alpha map", "GpcAlphaMap.levels"),
+    ("the image of IDs", "GpcImages.ids.image"),
+    ("the view of IDs", "GpcImages.ids.view"),
+    ("the image of depth", "GpcImages.depth.image"),
+    ("the view of depth", "GpcImages.depth.view"),
+    ("the image of colours", "GpcImages.color.image"),
+    ("the view of colours", "GpcImages.color.view"),
+    ("the buffer of locations", "GpcLocationList.locations"),
+    ("the buffer of colours", "GpcLocationList.colors"),
+    ("the offset of locations", "GpcLocationList.offset"),
+    ("the offset of colours", "GpcLocationList.colors_offset"),
+    ("the capacity of locations", "GpcLocationList.capacity"),
+];
