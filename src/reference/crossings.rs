@@ -12,7 +12,7 @@ pub const THIN: f64 = 1.5;
 
 /// View of a pinhole.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+pub struct PinholeView {
     /// Matrix from positions to (u w, v w, w, distance).
     matrix: DMat4,
     near: f64,
@@ -44,7 +44,7 @@ pub enum Mark {
     Apart,
 }
 
-impl View {
+impl PinholeView {
     /// View of a pinhole onto positions relative to `origin`.
     #[must_use]
     pub fn new(pinhole: &Pinhole, origin: DVec3) -> Self {
@@ -187,10 +187,10 @@ mod tests {
     use super::*;
 
     /// A view along -z from the origin. A pixel at distance 1 is 0.1 wide, and (10, 10) is straight ahead.
-    fn view() -> View {
+    fn view() -> PinholeView {
         let corner = DVec3::new(-1.0, 1.0, -1.0);
         let [a, b] = [DVec3::X * 0.1, DVec3::NEG_Y * 0.1];
-        View::new(
+        PinholeView::new(
             &Pinhole::new(DVec4::W, corner, a, b, 0.5, None).unwrap(),
             DVec3::ZERO,
         )

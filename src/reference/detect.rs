@@ -27,7 +27,7 @@ pub enum Mode {
 
 /// Image as detection reads it, rows from the top.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
+pub struct DetectionImage<'a> {
     width: u32,
     height: u32,
     ids: &'a [u32],
@@ -49,7 +49,7 @@ pub struct PlaneError {
     pub found: usize,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> DetectionImage<'a> {
     /// Image of `width` x `height` pixels. For each pixel it has the ID of the nearest opaque or masked triangle, the
     /// ID of the nearest blended triangle (0 for none), and the displayed colour as RGBA, 8 bits each, red in the
     /// lowest byte.
@@ -105,7 +105,7 @@ impl<'a> Frame<'a> {
 /// Superpixels of an image: one word for each tile of [`TILE_WIDTH`] x [`TILE_HEIGHT`] pixels, tiles row by row,
 /// ceil(width / 8) of them in a row. Pixel (x, y) is bit 8 (y mod 4) + x mod 8 of its tile's word. Bits outside the
 /// image are 0.
-pub fn superpixels(frame: &Frame<'_>, mode: Mode) -> Vec<u32> {
+pub fn superpixels(frame: &DetectionImage<'_>, mode: Mode) -> Vec<u32> {
     let tiles_x = frame.width.div_ceil(TILE_WIDTH);
     let tiles_y = frame.height.div_ceil(TILE_HEIGHT);
     let mut mask = vec![0; tiles_x as usize * tiles_y as usize];

@@ -7,7 +7,7 @@ const FARTHEST: f32 = 1_048_576.0;
 
 /// A sampling location.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Location {
+pub struct PlacedLocation {
     /// Column and row of the pixel in which it lies.
     pub pixel: [i32; 2],
     /// Place within the pixel, from 0 to 1.
@@ -18,14 +18,14 @@ pub struct Location {
 
 /// Region over which a list is distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
+pub struct ListBounds {
     /// Width and height in tiles.
     pub tiles: [u32; 2],
     /// Whether locations are sampled once each, so that they have no extent.
     pub points: bool,
 }
 
-impl Location {
+impl PlacedLocation {
     /// Half of the width and height of the area over which the samples spread.
     fn half_extent(&self, points: bool) -> [f32; 2] {
         let [[a, b], [c, d]] = self.jacobian;
@@ -53,11 +53,11 @@ impl Location {
     }
 }
 
-impl Region {
+impl ListBounds {
     /// Index of the tile in which a location lies. `None` for a location that is left out: outside of the region, NaN,
     /// or with samples too far away.
     #[must_use]
-    pub fn tile(&self, location: &Location) -> Option<u32> {
+    pub fn tile(&self, location: &PlacedLocation) -> Option<u32> {
         let extent = location.half_extent(self.points);
         let sound = location.within.iter().all(|v| (0.0..=1.0).contains(v))
             && extent.iter().all(|v| (0.0..=FARTHEST).contains(v));
@@ -69,7 +69,7 @@ impl Region {
 
     /// Largest distance of a location's samples from the centre of its pixel, and at least half a pixel.
     #[must_use]
-    pub fn reach(&self, location: &Location) -> f32 {
+    pub fn reach(&self, location: &PlacedLocation) -> f32 {
         let extent = location.half_extent(self.points);
         let reach = |axis: usize| (location.within[axis] - 0.5).abs() + extent[axis];
         if self.points {
@@ -82,7 +82,7 @@ impl Region {
     /// Smallest rectangle, relative to the centre of the tile, around the samples of some locations of a tile: lowest
     /// and highest corner.
     #[must_use]
-    pub fn bounds(&self, locations: &[Location]) -> [[f32; 2]; 2] {
+    pub fn bounds(&self, locations: &[PlacedLocation]) -> [[f32; 2]; 2] {
         let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];
         for location in locations {
             let (at, extent) = (location.place_in_tile(), location.half_extent(self.points));

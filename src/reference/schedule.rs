@@ -25,7 +25,7 @@ pub struct Tile {
 
 /// List in which a tile is entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum List {
+pub enum ScheduledList {
     /// Tiles with opaque triangles only.
     Plain,
     /// Tiles that also have alpha-tested triangles.
@@ -67,7 +67,7 @@ pub struct Placed {
     /// Index of the tile in the region.
     pub tile: usize,
     /// List in which the tile is entered.
-    pub list: List,
+    pub list: ScheduledList,
     /// Index of its first candidate in the round.
     pub first_candidate: u64,
     /// Index of its first header.
@@ -86,15 +86,15 @@ pub struct Round {
 impl Rounds {
     /// List in which a tile with superpixels is entered.
     #[must_use]
-    pub fn list(&self, tile: Tile) -> List {
+    pub fn list(&self, tile: Tile) -> ScheduledList {
         if tile.overflows || tile.candidates > self.candidates {
-            List::Unlisted
+            ScheduledList::Unlisted
         } else if tile.has_blend {
-            List::Blended
+            ScheduledList::Blended
         } else if tile.has_mask {
-            List::Masked
+            ScheduledList::Masked
         } else {
-            List::Plain
+            ScheduledList::Plain
         }
     }
 
@@ -102,7 +102,7 @@ impl Rounds {
     fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] =
             [self.samples, self.block, self.parts, self.layers].map(u64::from);
-        let unlisted = self.list(tile) == List::Unlisted;
+        let unlisted = self.list(tile) == ScheduledList::Unlisted;
         let blocks = samples.div_ceil(block);
         let headers = u64::from(tile.cells) * blocks;
         let all_samples = u64::from(tile.cells) * samples;

@@ -97,9 +97,9 @@ pub fn is_in_shadow(
     let others = triangles.iter().enumerate().filter(|(i, _)| *i != triangle);
     for (_, corners) in others {
         match between(corners, position, to_light, doubt) {
-            Crossing::None => {}
-            Crossing::Doubtful => return None,
-            Crossing::At(distance) => {
+            RayHit::None => {}
+            RayHit::Doubtful => return None,
+            RayHit::At(distance) => {
                 if (distance - least).abs() < doubt * least.max(distance.abs()) + 1e-9 {
                     return None;
                 }
@@ -110,7 +110,7 @@ pub fn is_in_shadow(
     Some(hidden)
 }
 
-enum Crossing {
+enum RayHit {
     None,
     Doubtful,
     /// The ray meets the triangle at this distance.
@@ -118,13 +118,13 @@ enum Crossing {
 }
 
 /// Intersection of a ray and a triangle.
-fn between(&[a, b, c]: &[DVec3; 3], from: DVec3, along: DVec3, doubt: f64) -> Crossing {
+fn between(&[a, b, c]: &[DVec3; 3], from: DVec3, along: DVec3, doubt: f64) -> RayHit {
     let (ab, ac) = (b - a, c - a);
     let cross = along.cross(ac);
     let determinant = ab.dot(cross);
     let size = ab.length() * ac.length();
     if determinant.abs() < doubt * size {
-        return Crossing::Doubtful;
+        return RayHit::Doubtful;
     }
     let to = from - a;
     let u = to.dot(cross) / determinant;
@@ -134,10 +134,10 @@ fn between(&[a, b, c]: &[DVec3; 3], from: DVec3, along: DVec3, doubt: f64) -> Cr
     // Movement of the intersection, in these coordinates, if the ray moves by a fraction of the sides.
     let reach = doubt * size / determinant.abs();
     if edge.abs() < reach {
-        return Crossing::Doubtful;
+        return RayHit::Doubtful;
     }
     if edge < 0.0 {
-        return Crossing::None;
+        return RayHit::None;
     }
-    Crossing::At(ac.dot(across) / determinant)
+    RayHit::At(ac.dot(across) / determinant)
 }

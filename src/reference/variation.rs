@@ -15,7 +15,7 @@ const CENTRE: usize = 4;
 
 /// Parts of a superpixel in which a triangle is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parts {
+pub enum ShadedParts {
     /// All parts.
     All,
     /// Parts merged in pairs.
@@ -48,7 +48,7 @@ pub fn parts(
     material_of: impl Fn(u32) -> u32,
     triangle: u32,
     alike: u8,
-) -> Parts {
+) -> ShadedParts {
     let alike = u32::from(alike);
     let own = around.ids[CENTRE];
     let other = around
@@ -64,20 +64,20 @@ pub fn parts(
         let centres = count(around, seen);
         even = centres >= 2 && 4 * range(around, seen) <= alike;
         if even && centres >= 4 {
-            return Parts::One;
+            return ShadedParts::One;
         }
     } else if !known.map(material).contains(&material(triangle)) {
-        return Parts::Pairs;
+        return ShadedParts::Pairs;
     }
     let seen = |id: u32| material(id) == material(triangle);
     if count(around, seen) < 3 {
-        return Parts::Pairs;
+        return ShadedParts::Pairs;
     }
     match range(around, seen) {
-        range if range <= alike => Parts::One,
-        range if range <= 4 * alike => Parts::Fours,
-        _ if even => Parts::Pairs,
-        _ => Parts::All,
+        range if range <= alike => ShadedParts::One,
+        range if range <= 4 * alike => ShadedParts::Fours,
+        _ if even => ShadedParts::Pairs,
+        _ => ShadedParts::All,
     }
 }
 

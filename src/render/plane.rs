@@ -14,7 +14,7 @@ pub(super) const TILE: [i64; 2] = [8, 4];
 
 /// Part of a plane in which sampling locations lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Window {
+pub(super) struct PlaneWindow {
     /// Column and row of its upper left pixel.
     pub low: [i64; 2],
     /// Width and height in tiles.
@@ -23,7 +23,7 @@ pub(super) struct Window {
     pub middle: [f64; 2],
 }
 
-impl Window {
+impl PlaneWindow {
     /// Number of tiles.
     pub fn tile_count(&self) -> u32 {
         self.tiles[0] * self.tiles[1]

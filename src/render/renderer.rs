@@ -167,7 +167,7 @@ impl Renderer {
     /// Allocates device memory for a scene, and for its casters if shadows are asked for.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] or [`RenderError::Vulkan`] if memory runs out, exceeds the limit, or the scene exceeds
+    /// [`RenderError::Engine`] if memory runs out, exceeds the limit, or the scene exceeds
     /// a limit of the device; [`RenderError::Geometry`] if the geometry contradicts itself;
     /// [`RenderError::OtherMotion`] for a pose and motion that were not made together; [`RenderError::ShadowLights`]
     /// for shadows of more than 32 lights.

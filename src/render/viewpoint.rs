@@ -7,13 +7,13 @@ use crate::render::data::GpuScene;
 use glam::DVec3;
 
 /// Position from which a scene is seen, and the direction of view.
-pub(super) struct Viewpoint {
+pub(super) struct EyePoint {
     eye: DVec3,
     direction: DVec3,
     is_parallel: bool,
 }
 
-impl From<&Camera> for Viewpoint {
+impl From<&Camera> for EyePoint {
     fn from(camera: &Camera) -> Self {
         Self {
             eye: camera.eye,
@@ -23,7 +23,7 @@ impl From<&Camera> for Viewpoint {
     }
 }
 
-impl From<&Pinhole> for Viewpoint {
+impl From<&Pinhole> for EyePoint {
     fn from(pinhole: &Pinhole) -> Self {
         // Parallel rays need not be perpendicular to the plane.
         let of_rays = pinhole.parallel_direction().map(|to_centre| -to_centre);
@@ -37,7 +37,7 @@ impl From<&Pinhole> for Viewpoint {
 
 impl SceneBlock {
     /// Viewpoint block for a scene on the device.
-    pub(super) fn of(scene: &GpuScene, viewpoint: &Viewpoint) -> Self {
+    pub(super) fn of(scene: &GpuScene, viewpoint: &EyePoint) -> Self {
         let parallel = if viewpoint.is_parallel { 1.0 } else { 0.0 };
         Self {
             eye: (viewpoint.eye - scene.origin())

@@ -1,7 +1,7 @@
 //! Detection on the device, compared with the CPU's pixel by pixel.
 
 use gpc::color::srgb::{decode_u8, encode};
-use gpc::reference::detect::{Frame, Mode, superpixels};
+use gpc::reference::detect::{DetectionImage, Mode, superpixels};
 use gpc::render::{
     Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings, Shading,
     SuperpixelOptions,
@@ -73,7 +73,7 @@ pub fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
 /// Superpixels that the CPU finds, without growth.
 fn expected(size: [u32; 2], ids: &[u32], blend: &[u32], codes: &[u32], mode: Mode) -> Vec<bool> {
     let [width, height] = size;
-    let frame = Frame::new(width, height, ids, blend, codes).unwrap();
+    let frame = DetectionImage::new(width, height, ids, blend, codes).unwrap();
     pixels(size, &superpixels(&frame, mode))
 }
 

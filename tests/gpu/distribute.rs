@@ -1,7 +1,7 @@
 //! Tiles, cells and groups that `distribute` makes of a list, compared with the CPU's.
 
 use gpc::bench::Random;
-use gpc::reference::distribute::{Location, Region};
+use gpc::reference::distribute::{ListBounds, PlacedLocation};
 use gpc::render::Headless;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
@@ -27,7 +27,7 @@ struct Found {
     groups: Vec<[u32; 4]>,
 }
 
-fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellSizes) {
+fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found, CellSizes) {
     let lanes = gpu.gpu().limits().lanes;
     let cell_sizes = CellSizes::new(lanes, cells, SAMPLES);
     let tiles = TILES[0] * TILES[1];
@@ -108,7 +108,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
     (found, cell_sizes)
 }
 
-fn check(found: &Found, sizes: CellSizes, list: &[Location], region: &Region) {
+fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &ListBounds) {
     let counted = |counter: Counter| found.counters[counter as usize];
     let count = (TILES[0] * TILES[1]) as usize;
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
@@ -199,7 +199,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[Location], region: &Region) {
 }
 
 /// Locations all over and around the region, crowds in one pixel, cells of all sizes, and invalid locations.
-fn list(random: &mut Random, count: usize) -> Vec<Location> {
+fn list(random: &mut Random, count: usize) -> Vec<PlacedLocation> {
     let side = [0, 1].map(|axis| f64::from(TILES[axis] * [8, 4][axis]));
     let crowd = [
         random.below(side[0] as u64) as i32,
@@ -208,7 +208,7 @@ fn list(random: &mut Random, count: usize) -> Vec<Location> {
     let location = |_| {
         let mut number = |low: f64, high: f64| random.range(low, high) as f32;
         let wide = f64::from(number(-6.0, 5.0).exp2());
-        let mut location = Location {
+        let mut location = PlacedLocation {
             pixel: [0, 1].map(|axis| number(-8.0, side[axis] + 8.0).floor() as i32),
             within: [number(0.0, 1.0), number(0.0, 1.0)],
             jacobian: [0, 1].map(|_| [number(-wide, wide), number(-wide, wide)]),
@@ -235,7 +235,7 @@ fn lists_come_to_the_tiles_and_cells_that_they_lie_in() {
     on_gpu(|gpu| {
         let mut random = Random::new(11);
         for (cells, points) in [(Cells::Points, true), (Cells::Superpixels, false)] {
-            let region = Region {
+            let region = ListBounds {
                 tiles: TILES,
                 points,
             };

@@ -1,6 +1,6 @@
 //! Growth of superpixels, compared with the CPU's.
 
-use gpc::reference::detect::{Frame, Mode, superpixels};
+use gpc::reference::detect::{DetectionImage, Mode, superpixels};
 use gpc::reference::grow::grown;
 use gpc::render::{Coverage, Detection, Rendered, Settings, SuperpixelOptions};
 use gpc::scene::AlphaMode;
@@ -18,7 +18,7 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let (seen, _) = codes(&base);
     let ids = ids(&base);
     let blend = vec![0; ids.len()];
-    let frame = Frame::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
+    let frame = DetectionImage::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
     for (samples, growths) in [(4, 1), (144, 2)] {
         let rendered = render(
             &once(SIZE).method(

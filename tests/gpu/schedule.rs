@@ -1,7 +1,7 @@
 //! Rounds that `tally`, `schedule` and `enlist` make, compared with the CPU's.
 
 use gpc::bench::Random;
-use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
+use gpc::reference::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 use gpc::render::Headless;
 use gpc::testing::{
     Argument, Cells, Counter, FrameUniform, RecordRate, ResourceSizes, Sample, SampleOptions,
@@ -263,7 +263,13 @@ fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
 
 /// Entries of each list, in order.
 fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
-    [List::Plain, List::Masked, List::Blended, List::Unlisted].map(|list| {
+    [
+        ScheduledList::Plain,
+        ScheduledList::Masked,
+        ScheduledList::Blended,
+        ScheduledList::Unlisted,
+    ]
+    .map(|list| {
         let placed = round.placed.iter().filter(|placed| placed.list == list);
         let parts = |placed: &Placed| {
             let cells = tiles[placed.tile].cells;
@@ -307,7 +313,7 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
         assert_eq!(counter(Counter::NextTile), round.tiles.end as u32, "{what}");
         for placed in &round.placed {
             let tile = &mut tiles[placed.tile];
-            let listed = placed.list != List::Unlisted;
+            let listed = placed.list != ScheduledList::Unlisted;
             let length = if listed { tile[0] } else { 0 };
             let flags = tile[3] & (MASK | BLEND) | if listed { LISTED } else { 0 };
             tile[1] = placed.first_candidate as u32;

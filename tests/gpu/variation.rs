@@ -3,7 +3,7 @@
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
 use gpc::color::srgb::encode;
-use gpc::reference::variation::{Neighbourhood, Parts, parts};
+use gpc::reference::variation::{Neighbourhood, ShadedParts, parts};
 use gpc::render::{Coverage, Detection, Rendered, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
@@ -124,10 +124,10 @@ fn places_are_as_many_as_the_twin_says() {
                         let parts = parts(&around, material, own, CONTRAST);
                         seen[parts as usize] += 1;
                         expected += match parts {
-                            Parts::All => all,
-                            Parts::Pairs => all / if samples < 32 { 1 } else { 2 },
-                            Parts::Fours => all / if samples < 32 { 2 } else { 4 },
-                            Parts::One => u64::from(samples.div_ceil(BLOCK)),
+                            ShadedParts::All => all,
+                            ShadedParts::Pairs => all / if samples < 32 { 1 } else { 2 },
+                            ShadedParts::Fours => all / if samples < 32 { 2 } else { 4 },
+                            ShadedParts::One => u64::from(samples.div_ceil(BLOCK)),
                         };
                     }
                 }

@@ -3,7 +3,9 @@
 use crate::command::{Run, asset, files, gpc};
 use crate::difference::rmse;
 use glam::DVec2;
-use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardstick, brute_force};
+use gpc::bench::{
+    Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force,
+};
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
@@ -125,7 +127,7 @@ fn unseen_wires_are_not_missed() {
     let size = [SIZE; 2];
     let picture = |pixels| Picture::new(size, pixels).unwrap();
     let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
-    let looks = Looks::new(&mut headless, &scene, &camera, &plain, || {}).unwrap();
+    let looks = PixelTriangles::new(&mut headless, &scene, &camera, &plain, || {}).unwrap();
     let [with, without] = [(with, &images[0]), (without, &images[1])].map(|(settings, image)| {
         let causes = looks
             .causes(&mut headless, &scene, &camera, &settings)

@@ -2,7 +2,9 @@
 
 use crate::difference::rmse;
 use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
-use gpc::bench::{Half, Looks, Random, Stripped, Suspects, Within, Yardstick, brute_force};
+use gpc::bench::{
+    Half, PixelTriangles, Random, Stripped, Suspects, Within, Yardstick, brute_force,
+};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
     Coverage, Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene,
@@ -114,7 +116,7 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
             })
         });
     let image = render(&mut headless, &whole, &settings);
-    let looks = Looks::new(&mut headless, &whole, &camera(), &plain, || {}).unwrap();
+    let looks = PixelTriangles::new(&mut headless, &whole, &camera(), &plain, || {}).unwrap();
     let causes = looks
         .causes(&mut headless, &whole, &camera(), &settings)
         .unwrap();

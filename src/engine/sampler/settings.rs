@@ -28,7 +28,7 @@ pub enum Shadows {
     None,
     /// Exact shadows: every shaded point tests for every light whether another triangle occludes it, by sampling on
     /// the light's image plane, without the aliasing of a shadow map. Superpixels are then shaded at every sample,
-    /// whatever [`Settings::shading`] says. The scene has to be prepared for shadows: see `SceneRequest::shadows`.
+    /// whatever [`SuperpixelOptions::shading`] says. The scene has to be prepared for shadows: see `SceneRequest::shadows`.
     Exact,
 }
 

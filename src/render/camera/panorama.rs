@@ -77,7 +77,7 @@ pub enum PanoramaError {
 }
 
 /// A face of a cubemap.
-struct Face {
+struct CubeFace {
     forward: DVec3,
     right: DVec3,
     down: DVec3,
@@ -85,7 +85,7 @@ struct Face {
     cross: [u32; 2],
 }
 
-impl Face {
+impl CubeFace {
     /// Direction through a place of the face; the place is 0 to 1 from the face's left and upper side.
     fn toward(&self, place: DVec2) -> DVec3 {
         let way = 2.0 * place - DVec2::ONE;
@@ -93,38 +93,38 @@ impl Face {
     }
 }
 
-const FACES: [Face; 6] = [
-    Face {
+const FACES: [CubeFace; 6] = [
+    CubeFace {
         forward: DVec3::X,
         right: DVec3::Z,
         down: DVec3::NEG_Y,
         cross: [2, 1],
     },
-    Face {
+    CubeFace {
         forward: DVec3::NEG_X,
         right: DVec3::NEG_Z,
         down: DVec3::NEG_Y,
         cross: [0, 1],
     },
-    Face {
+    CubeFace {
         forward: DVec3::Y,
         right: DVec3::X,
         down: DVec3::NEG_Z,
         cross: [1, 0],
     },
-    Face {
+    CubeFace {
         forward: DVec3::NEG_Y,
         right: DVec3::X,
         down: DVec3::Z,
         cross: [1, 2],
     },
-    Face {
+    CubeFace {
         forward: DVec3::Z,
         right: DVec3::NEG_X,
         down: DVec3::NEG_Y,
         cross: [3, 1],
     },
-    Face {
+    CubeFace {
         forward: DVec3::NEG_Z,
         right: DVec3::X,
         down: DVec3::NEG_Y,
@@ -239,13 +239,13 @@ impl Panorama {
         // In their middles the planes have the resolution of the panorama.
         let side = (2.0 / self.radians_per_pixel()).ceil().min(LARGEST_PLANE);
         let rig = Rig::cube(camera.eye, camera.axes, side as u32, near)?;
-        let layout = Layout::of(self);
+        let layout = PanoramaLayout::of(self);
         let size = layout.size(self.size);
         let sets = rig.sets(size, |place| {
             let direction = match layout {
-                Layout::Plain => self.look(place),
-                Layout::Around => self.look(place - DVec2::X),
-                Layout::Faces { side } => {
+                PanoramaLayout::Plain => self.look(place),
+                PanoramaLayout::Around => self.look(place - DVec2::X),
+                PanoramaLayout::Faces { side } => {
                     let pitch = f64::from(side + 2);
                     let index = (place.x / pitch).floor();
                     let local = DVec2::new(place.x - index * pitch, place.y) - DVec2::ONE;
@@ -284,7 +284,7 @@ impl Panorama {
 /// Arrangement of the sampled cells. Where the panorama continues at another place of the image, the cells have a
 /// border of one pixel with these neighbours, so that seams are antialiased like everything else.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Layout {
+enum PanoramaLayout {
     /// The image's pixels, without a border.
     Plain,
     /// The image's columns, preceded by a copy of the last column and followed by a copy of the first.
@@ -293,7 +293,7 @@ enum Layout {
     Faces { side: u32 },
 }
 
-impl Layout {
+impl PanoramaLayout {
     fn of(panorama: &Panorama) -> Self {
         match panorama.projection {
             PanoramaProjection::Cubemap => Self::Faces {
@@ -334,7 +334,7 @@ impl Layout {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PanoramaLocations {
     panorama: Panorama,
-    layout: Layout,
+    layout: PanoramaLayout,
     size: [u32; 2],
     rig: Vec<(Pinhole, Vec<SampleLocation>)>,
 }

@@ -9,7 +9,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{CounterLog, SamplerRun};
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
-use crate::render::plane::Window;
+use crate::render::plane::PlaneWindow;
 use crate::render::{PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -85,7 +85,7 @@ impl CrossingFinder {
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
-        (pinhole, window): (&Pinhole, &Window),
+        (pinhole, window): (&Pinhole, &PlaneWindow),
         (output, count): (&MarkedOutput, usize),
         commands: vk::CommandBuffer,
     ) {

@@ -6,7 +6,7 @@
 use super::LocationError;
 use crate::camera::SampleLocation;
 use crate::engine::data::{Cells, ListedLocation};
-use crate::render::plane::{TILE, Window};
+use crate::render::plane::{PlaneWindow, TILE};
 use crate::render::shadows::Rectangle;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -144,7 +144,7 @@ impl<'a> Partition<'a> {
     }
 
     /// Writes a run's locations in the format of the device, in pixels of its window.
-    pub fn list(&self, (run, window): (&Range<usize>, &Window), to: &mut [ListedLocation]) {
+    pub fn list(&self, (run, window): (&Range<usize>, &PlaneWindow), to: &mut [ListedLocation]) {
         to.par_iter_mut().enumerate().for_each(|(i, listed)| {
             let SampleLocation { uv, jacobian, .. } = self.location(run.start + i);
             let floor = uv.map(f64::floor);
@@ -172,7 +172,7 @@ impl<'a> Partition<'a> {
     }
 
     /// Window that holds the locations of a run.
-    pub fn window(&self, run: &Range<usize>) -> Window {
+    pub fn window(&self, run: &Range<usize>) -> PlaneWindow {
         let bounds = match &self.chunks {
             Some(chunks) => {
                 let of_run = run.start / CHUNK..run.end.div_ceil(CHUNK);
@@ -184,7 +184,7 @@ impl<'a> Partition<'a> {
                 Bounds::of(places.map(|place| tile_of(self.location(place))))
             }
         };
-        Window {
+        PlaneWindow {
             low: bounds.low.map(|pixel| pixel as i64),
             tiles: bounds.tiles(),
             middle: self.middle.unwrap_or_else(|| bounds.middle()),

@@ -6,7 +6,7 @@ use crate::engine::data::{Cells, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
 use crate::render::data::FrameGeometry;
-use crate::render::plane::Window;
+use crate::render::plane::PlaneWindow;
 use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{EngineError, PreparedScene, RenderError, Settings, Shadows};
 use std::ops::Range;
@@ -99,7 +99,7 @@ impl LocationPlan {
 }
 
 /// Size in pixels of the largest window. All windows share one buffer of tiles, whatever their proportions.
-fn region(windows: impl Iterator<Item = Window>) -> [u32; 2] {
+fn region(windows: impl Iterator<Item = PlaneWindow>) -> [u32; 2] {
     let area = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
     let sizes = windows.map(|window| window.size());
     sizes.max_by_key(|size| area(*size)).unwrap_or_default()

@@ -7,7 +7,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::SamplerRun;
 use crate::render::data::{FrameGeometry, FrameLook};
 use crate::render::passes::{Stroke, StrokeSizes};
-use crate::render::plane::Window;
+use crate::render::plane::PlaneWindow;
 use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -88,7 +88,7 @@ impl RunMemory {
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
-        (pinhole, window): (&Pinhole, &Window),
+        (pinhole, window): (&Pinhole, &PlaneWindow),
         (cells, count): ((Cells, u32), usize),
         commands: vk::CommandBuffer,
         record: impl FnOnce(&mut Recorder<'_>, &SamplerRun<'_>, bool),

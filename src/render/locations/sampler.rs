@@ -9,7 +9,7 @@ use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
-use crate::render::plane::Window;
+use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
 use crate::render::{RenderError, Settings, Statistics};
@@ -125,7 +125,7 @@ impl LocationSampler {
         &mut self,
         scene: &PreparedScene,
         sight: &Sight,
-        window: &Window,
+        window: &PlaneWindow,
         count: usize,
         commands: vk::CommandBuffer,
     ) {
@@ -191,7 +191,7 @@ impl LocationSampler {
     }
 
     /// Work that the last run could not finish.
-    fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
+    fn shortfall(&self, window: &PlaneWindow) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
         self.sampler
             .add_shortfall([window.tile_count()], &mut shortfall)?;
@@ -203,7 +203,7 @@ impl LocationSampler {
 
     /// Whether the last run had cells, or tiles of a light, with longer lists than the kernels for several cells at a
     /// time can process.
-    pub fn has_long_lists(&self, window: &Window) -> Result<bool, VulkanError> {
+    pub fn has_long_lists(&self, window: &PlaneWindow) -> Result<bool, VulkanError> {
         let shortfall = self.shortfall(window)?;
         Ok(shortfall.stalled + shortfall.unshadowed > 0)
     }
@@ -213,7 +213,7 @@ impl LocationSampler {
     ///
     /// # Errors
     /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if it was not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
-    pub fn check(&self, window: &Window) -> Result<(), RenderError> {
+    pub fn check(&self, window: &PlaneWindow) -> Result<(), RenderError> {
         let shortfall = self.shortfall(window)?;
         Ok(shortfall.check(self.run.resources.sizes().lanes)?)
     }
@@ -225,7 +225,7 @@ impl LocationSampler {
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,
-        window: &Window,
+        window: &PlaneWindow,
         total: &mut Statistics,
     ) -> Result<(), VulkanError> {
         self.sampler.add_statistics([window.tile_count()], total)?;

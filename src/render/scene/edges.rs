@@ -61,7 +61,7 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
         }
         let drawn = groups
             .iter()
-            .map(|group| Surface::new(group, materials).edges(edges.crease, material))
+            .map(|group| MergedPrimitives::new(group, materials).edges(edges.crease, material))
             .filter(Primitive::is_strokes);
         let drawn: Vec<Primitive> = drawn.collect();
         mesh.extend(drawn);
@@ -69,34 +69,34 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
 }
 
 /// Primitives whose vertices are merged if their positions are equal.
-struct Surface<'p> {
+struct MergedPrimitives<'p> {
     primitives: &'p [&'p Primitive],
     /// Primitive and vertex of each merged vertex.
     vertices: Vec<(usize, usize)>,
-    faces: Vec<Face>,
+    faces: Vec<MergedFace>,
 }
 
-struct Face {
+struct MergedFace {
     corners: [u32; 3],
     is_double_sided: bool,
 }
 
 /// Directed side of a face.
 #[derive(Clone, Copy)]
-struct Side {
+struct HalfEdge {
     from: u32,
     to: u32,
     opposite: u32,
     face: u32,
 }
 
-impl Side {
+impl HalfEdge {
     fn key(&self) -> (u32, u32) {
         (self.from.min(self.to), self.from.max(self.to))
     }
 }
 
-impl<'p> Surface<'p> {
+impl<'p> MergedPrimitives<'p> {
     fn new(primitives: &'p [&'p Primitive], materials: &[Material]) -> Self {
         let mut surface = Self {
             primitives,
@@ -129,7 +129,7 @@ impl<'p> Surface<'p> {
                 match surface.faces.get_mut(face) {
                     // Two faces with the same corners in opposite order are one double-sided face.
                     Some(face) => face.is_double_sided = true,
-                    None => surface.faces.push(Face {
+                    None => surface.faces.push(MergedFace {
                         corners,
                         is_double_sided,
                     }),
@@ -146,11 +146,11 @@ impl<'p> Surface<'p> {
 
     /// Makes lines of the edges, with the material of this index.
     fn edges(&self, crease: f64, material: usize) -> Primitive {
-        let mut sides: Vec<Side> = (0..)
+        let mut sides: Vec<HalfEdge> = (0..)
             .zip(&self.faces)
-            .flat_map(|(face, Face { corners, .. })| {
+            .flat_map(|(face, MergedFace { corners, .. })| {
                 let [a, b, c] = *corners;
-                [[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, opposite]| Side {
+                [[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, opposite]| HalfEdge {
                     from,
                     to,
                     opposite,
@@ -167,8 +167,8 @@ impl<'p> Surface<'p> {
             let [first, rest @ ..] = group else {
                 continue;
             };
-            let is_double_sided = |side: &Side| self.faces[side.face as usize].is_double_sided;
-            let turned = |side: &Side| side.from == first.from;
+            let is_double_sided = |side: &HalfEdge| self.faces[side.face as usize].is_double_sided;
+            let turned = |side: &HalfEdge| side.from == first.from;
             let second = rest.first();
             let normals = match rest {
                 [second] => Some(self.normals(first, second.opposite)),
@@ -200,7 +200,7 @@ impl<'p> Surface<'p> {
     }
 
     /// Normals of a face and of its neighbour `beyond` a side; zero for a face without area.
-    fn normals(&self, side: &Side, beyond: u32) -> [DVec3; 2] {
+    fn normals(&self, side: &HalfEdge, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;
         let normal = along.cross(self.position(side.opposite) - from);

@@ -11,7 +11,7 @@
 use super::casters::Lit;
 use crate::camera::{Pinhole, Rig};
 use crate::render::passes::LightPlane;
-use crate::render::plane::{TILE, Window};
+use crate::render::plane::{PlaneWindow, TILE};
 use crate::scene::{Light, LightKind};
 use glam::{DMat3, DVec2, DVec3};
 
@@ -45,7 +45,7 @@ pub(in crate::render) struct Sight {
 /// View of a light: its pinhole, the window of its plane that is sampled, and the light's parameters for receivers.
 pub(in crate::render) struct LightView {
     pub(super) pinhole: Pinhole,
-    pub(super) window: Window,
+    pub(super) window: PlaneWindow,
     pub(super) plane: LightPlane,
     /// Bit of the light in the words of receivers.
     pub(super) bit: u32,
@@ -124,8 +124,8 @@ fn around(places: impl Iterator<Item = DVec2>) -> Rectangle {
 }
 
 /// Window that covers a whole plane.
-fn whole_window(side: u32) -> Window {
-    Window {
+fn whole_window(side: u32) -> PlaneWindow {
+    PlaneWindow {
         low: [0; 2],
         tiles: [side / 8, side / 4],
         middle: [0.5 * f64::from(side); 2],
@@ -133,7 +133,7 @@ fn whole_window(side: u32) -> Window {
 }
 
 /// Window with the tiles of a plane around places in the world.
-fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
+fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> PlaneWindow {
     let [low, high] = around(places.iter().filter_map(|place| pinhole.project(*place)));
     // The margin is at least as large as the rounding of positions.
     let rim = RIM * f64::from(side);
@@ -142,7 +142,7 @@ fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
     let last = whole.tiles.map(|tiles| i64::from(tiles) - 1);
     let first = [0, 1].map(|axis| tile(low - rim, axis).clamp(0, last[axis]));
     let end = [0, 1].map(|axis| tile(high + rim, axis).clamp(first[axis], last[axis]) + 1);
-    Window {
+    PlaneWindow {
         low: [0, 1].map(|axis| first[axis] * TILE[axis]),
         tiles: [0, 1].map(|axis| (end[axis] - first[axis]) as u32),
         ..whole

@@ -50,12 +50,12 @@ pub struct Split {
 ///
 /// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
 #[derive(Clone, Debug)]
-pub struct Looks {
+pub struct PixelTriangles {
     unseen: Vec<bool>,
     several: Vec<bool>,
 }
 
-impl Looks {
+impl PixelTriangles {
     /// Finds the triangle IDs in each pixel of an image with these settings. `progress` is called after each of
     /// [`LOOKS`] renderings.
     ///
@@ -97,7 +97,7 @@ impl Looks {
     }
 
     /// Cause of each pixel's error under superpixel antialiasing with these settings, rows from the top. Scene, camera
-    /// and size must be those that [`Looks::new`] was given.
+    /// and size must be those that [`PixelTriangles::new`] was given.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -115,7 +115,7 @@ impl Looks {
     }
 }
 
-impl Looks {
+impl PixelTriangles {
     fn classify(&self, centres: &[PixelAttributes]) -> Vec<Cause> {
         let holds = self.unseen.iter().zip(&self.several);
         let cause = |(centre, holds): (&PixelAttributes, (&bool, &bool))| match holds {
@@ -203,7 +203,7 @@ mod tests {
                 ..PixelAttributes::default()
             })
             .collect();
-        let looks = Looks {
+        let looks = PixelTriangles {
             unseen: vec![true, false, false, true],
             several: vec![true, false, true, true],
         };

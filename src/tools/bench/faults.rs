@@ -1,7 +1,7 @@
 //! Faults: whether edges, texture or light cause an error.
 
 use super::accuracy::squares;
-use super::{Cause, Looks, Yardstick};
+use super::{Cause, PixelTriangles, Yardstick};
 use crate::camera::Camera;
 use crate::compare::CompareError;
 use crate::output::{DecodedImage, OutputError, Picture};
@@ -70,7 +70,7 @@ pub struct Suspects<'a> {
     /// Camera of all images.
     pub camera: &'a Camera,
     /// Triangles in each pixel of the whole scene.
-    pub looks: &'a Looks,
+    pub looks: &'a PixelTriangles,
 }
 
 /// Squared errors of a stripped scene, one for each pixel.

@@ -3,7 +3,7 @@
 //! [`brute_force`] renders the reference by supersampling with thousands of samples a pixel, and a [`Cache`] keeps it
 //! on disk. [`Yardstick`] compares images with it. [`take_turns`] times several [`Contender`]s in one run, frame by
 //! frame in turns, so that a machine that slows down affects all of them. [`VariantContender`] does the same for the
-//! sampling sets of the camera's variants. [`Sequence`] compares frames in [`Motion`] with a reference for each frame.
+//! sampling sets of the camera's variants. [`SequenceErrors`] compares frames in [`Motion`] with a reference for each frame.
 
 mod accuracy;
 mod cache;
@@ -21,10 +21,10 @@ mod variants;
 pub use crate::random::Random;
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
-pub use causes::{Cause, LOOKS, Looks, Split};
+pub use causes::{Cause, LOOKS, PixelTriangles, Split};
 pub use faults::{Fault, FaultError, Half, Suspects, Within};
 pub use growth::{Growth, GrowthStep};
-pub use motion::{Motion, Sequence, Steadiness};
+pub use motion::{Motion, SequenceErrors, Steadiness};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, TRUTH_SIDE, brute_force};
 pub use spread::Spread;
 pub use stripped::Stripped;

@@ -76,14 +76,14 @@ pub struct Steadiness {
 
 /// Accumulated errors of a sequence of frames.
 #[derive(Clone, Debug, Default)]
-pub struct Sequence {
+pub struct SequenceErrors {
     frames: u32,
     rmse: f64,
     /// Sum of the errors and sum of their squares, for each colour of each pixel.
     sums: Vec<[[f64; 2]; 3]>,
 }
 
-impl Sequence {
+impl SequenceErrors {
     /// Adds a frame and its reference.
     ///
     /// # Errors
@@ -136,7 +136,7 @@ mod tests {
     }
 
     fn steadiness(frames: &[([f32; 2], [f32; 2])]) -> Steadiness {
-        let mut sequence = Sequence::default();
+        let mut sequence = SequenceErrors::default();
         for (truth, image) in frames {
             sequence.add(&frame(*truth), &frame(*image)).unwrap();
         }
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn frames_have_one_size() {
-        let mut sequence = Sequence::default();
+        let mut sequence = SequenceErrors::default();
         sequence.add(&frame([0.0; 2]), &frame([0.0; 2])).unwrap();
         let other = DecodedImage {
             size: [1, 1],

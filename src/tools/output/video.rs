@@ -20,12 +20,12 @@ pub enum VideoFormat {
 
 /// Writer of a film's frames.
 pub struct VideoWriter<W: Write> {
-    stream: Stream<W>,
+    stream: VideoOutput<W>,
     size: [u32; 2],
 }
 
 /// Destination of the frames: an encoder or a plain writer, depending on the format.
-enum Stream<W: Write> {
+enum VideoOutput<W: Write> {
     Y4m(y4m::Encoder<Unbuffered<W>>),
     Raw(Unbuffered<W>),
 }
@@ -66,9 +66,9 @@ impl<W: Write> VideoWriter<W> {
                 let header = y4m::encode(width, height, ratio(rate))
                     .with_colorspace(Colorspace::C444)
                     .append_vendor_extension(range.map_err(refused)?);
-                Stream::Y4m(header.write_header(out).map_err(refused)?)
+                VideoOutput::Y4m(header.write_header(out).map_err(refused)?)
             }
-            VideoFormat::Raw => Stream::Raw(out),
+            VideoFormat::Raw => VideoOutput::Raw(out),
         };
         Ok(Self { stream, size })
     }
@@ -85,12 +85,12 @@ impl<W: Write> VideoWriter<W> {
             });
         }
         match &mut self.stream {
-            Stream::Y4m(encoder) => {
+            VideoOutput::Y4m(encoder) => {
                 let planes = planes(picture);
                 let frame = y4m::Frame::new(planes.each_ref().map(Vec::as_slice), None);
                 encoder.write_frame(&frame).map_err(refused)
             }
-            Stream::Raw(out) => {
+            VideoOutput::Raw(out) => {
                 let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
                 let bytes: Vec<_> = codes.into_iter().map(|code| code as u8).collect();
                 out.write_all(&bytes).map_err(OutputError::Stream)

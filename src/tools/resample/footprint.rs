@@ -11,12 +11,12 @@ const MOST: f64 = 64.0;
 /// The footprint of a pixel is an ellipse whose axes are the singular values of the Jacobian. Along an axis of length
 /// a <= 1 the reconstruction suffices. For a longer axis, a box filter of width sqrt(a^2 - 1) is added. Variances of
 /// successive filters add up, and the width grows from 0, so that the result is continuous where the prefilter begins.
-pub(super) struct Footprint {
+pub(super) struct SampleGrid {
     axes: [DVec2; 2],
     counts: [u32; 2],
 }
 
-impl Footprint {
+impl SampleGrid {
     pub(super) fn new(jacobian: DMat2) -> Self {
         // Eigenvalues and eigenvectors of J J^T = ((p, q), (q, r)).
         let rows = jacobian.transpose();

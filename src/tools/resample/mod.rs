@@ -14,7 +14,7 @@ pub use zoomed::{Zoomed, ZoomedError};
 
 use crate::color::srgb;
 use crate::output::{DecodedImage, Picture};
-use footprint::Footprint;
+use footprint::SampleGrid;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
@@ -66,7 +66,7 @@ impl Photograph {
     /// Footprints more than 64 pixels wide are averaged with gaps.
     #[must_use]
     pub fn sample(&self, uv: DVec2, jacobian: DMat2) -> [f32; 4] {
-        let footprint = Footprint::new(jacobian);
+        let footprint = SampleGrid::new(jacobian);
         let mut sum = [0.0; 4];
         for offset in footprint.offsets() {
             for (sum, value) in sum.iter_mut().zip(self.interpolate(uv + offset)) {

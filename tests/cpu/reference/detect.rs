@@ -1,6 +1,6 @@
 //! Detection, compared with its definition pixel by pixel.
 
-use gpc::reference::detect::{Frame, Mode, PlaneError, superpixels};
+use gpc::reference::detect::{DetectionImage, Mode, PlaneError, superpixels};
 
 use super::meshes::Random;
 
@@ -35,8 +35,8 @@ impl Image {
         }
     }
 
-    fn frame(&self) -> Frame<'_> {
-        Frame::new(
+    fn frame(&self) -> DetectionImage<'_> {
+        DetectionImage::new(
             self.width,
             self.height,
             &self.ids,
@@ -134,7 +134,7 @@ fn mask_is_the_definition() {
 #[test]
 fn threshold_must_be_exceeded() {
     let (ids, colours) = ([1, 2], [0x1000_0000, 0x1C00_0000]);
-    let frame = Frame::new(2, 1, &ids, &[0, 0], &colours).unwrap();
+    let frame = DetectionImage::new(2, 1, &ids, &[0, 0], &colours).unwrap();
     assert_eq!(superpixels(&frame, Mode::Contrast(12)), [0]);
     assert_eq!(superpixels(&frame, Mode::Contrast(11)), [3]);
 }
@@ -143,7 +143,7 @@ fn threshold_must_be_exceeded() {
 fn one_surface_contrasts_with_itself_unless_edges_are_asked_for() {
     let mask = |ids: [u32; 2], mode| {
         let colours = [0xFF00_0000, 0xFF00_0020];
-        let frame = Frame::new(2, 1, &ids, &[0, 0], &colours).unwrap();
+        let frame = DetectionImage::new(2, 1, &ids, &[0, 0], &colours).unwrap();
         superpixels(&frame, mode)
     };
     assert_eq!(mask([1, 1], Mode::Contrast(12)), [3]);
@@ -155,7 +155,7 @@ fn one_surface_contrasts_with_itself_unless_edges_are_asked_for() {
 
 #[test]
 fn planes_of_another_size_are_refused() {
-    let error = Frame::new(2, 2, &[0; 4], &[0; 3], &[0; 4]).unwrap_err();
+    let error = DetectionImage::new(2, 2, &[0; 4], &[0; 3], &[0; 4]).unwrap_err();
     let expected = PlaneError {
         plane: "blend IDs",
         width: 2,
@@ -163,6 +163,12 @@ fn planes_of_another_size_are_refused() {
         found: 3,
     };
     assert_eq!(error, expected);
-    assert!(Frame::new(u32::MAX, u32::MAX, &[], &[], &[]).is_err());
-    assert!(superpixels(&Frame::new(0, 5, &[], &[], &[]).unwrap(), Mode::Exact).is_empty());
+    assert!(DetectionImage::new(u32::MAX, u32::MAX, &[], &[], &[]).is_err());
+    assert!(
+        superpixels(
+            &DetectionImage::new(0, 5, &[], &[], &[]).unwrap(),
+            Mode::Exact
+        )
+        .is_empty()
+    );
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
-use gpc::reference::crossings::{Mark, View};
+use gpc::reference::crossings::{Mark, PinholeView};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
@@ -249,7 +249,7 @@ fn cells_are_marked_as_the_twin_has_it() {
             let rig = [(pinhole, locations)];
             let rendered = gpu.render_locations(&scene, &rig, SIZE, &settings).unwrap();
             let [(_, locations)] = &rig;
-            let view = View::new(&pinhole, DVec3::ZERO);
+            let view = PinholeView::new(&pinhole, DVec3::ZERO);
             let ids: Vec<u32> = rendered.attributes.iter().map(|seen| seen.id).collect();
             let (mut marked, mut doubtful) = (0, 0);
             for (location, seen) in locations.iter().zip(&rendered.attributes) {

@@ -15,7 +15,7 @@ pub struct DevicesArgs {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct DevicesReport<'a> {
     devices: Vec<Device<'a>>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Device<'a> {
 pub fn run(args: &DevicesArgs) -> anyhow::Result<ExitCode> {
     let devices = Instance::new(InstanceOptions::default())?.devices()?;
     if args.json {
-        print::json(&Report {
+        print::json(&DevicesReport {
             devices: devices.iter().map(Device::of).collect(),
         })?;
     } else {

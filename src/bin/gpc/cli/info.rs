@@ -26,7 +26,7 @@ pub struct InfoArgs {
 const SIZE: [u32; 2] = [256, 144];
 
 #[derive(Serialize)]
-struct Report<'a> {
+struct SceneReport<'a> {
     #[serde(flatten)]
     info: &'a SceneInfo,
     warnings: &'a [String],
@@ -48,7 +48,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
     }
     let info = loaded.scene.info();
     if args.json {
-        print::json(&Report {
+        print::json(&SceneReport {
             info: &info,
             warnings: &loaded.warnings,
         })?;

@@ -3,7 +3,7 @@
 use super::exit::Usage;
 use super::render::{self, ImageArgs};
 use super::report::ReportArgs;
-use super::stage::Stage;
+use super::stage::RenderSetup;
 use clap::Args;
 use gpc::camera::panorama::{Panorama, PanoramaError, PanoramaProjection};
 use gpc::render::{PixelAttributes, Rendered};
@@ -59,7 +59,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let fov = image.camera.fov.take().unwrap_or(widest);
     let refuse = |error: PanoramaError| Usage(error.to_string());
     let panorama = Panorama::new(args.projection, fov, image.size).map_err(refuse)?;
-    let mut stage = Stage::open(&args.scene, &image, image.settings(format))?;
+    let mut stage = RenderSetup::open(&args.scene, &image, image.settings(format))?;
     let locations = panorama.locations(&stage.camera).map_err(refuse)?;
     let shot = stage.render(locations.size(), locations.rig())?;
     stage.finish()?;

@@ -1,8 +1,8 @@
 //! A scene on a device and one camera, for the commands that choose their own sampling locations.
 
 use super::exit::usage;
-use super::render::{self, ImageArgs, Shot};
-use super::report::{Device, Effort, Figures, RenderWork};
+use super::render::{self, ImageArgs, RenderedImage};
+use super::report::{DeviceReport, Effort, Figures, RenderWork};
 use super::values::Background;
 use gpc::camera::{Camera, Pinhole, SampleLocation};
 use gpc::render::{Headless, PreparedScene, Settings};
@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// A scene on a device, the camera that samples it, and the settings.
-pub struct Stage {
+pub struct RenderSetup {
     pub headless: Headless,
     pub scene: PreparedScene,
     pub camera: Camera,
@@ -20,7 +20,7 @@ pub struct Stage {
     warnings: Vec<String>,
 }
 
-impl Stage {
+impl RenderSetup {
     /// Loads a scene, poses it and uploads it.
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
         if image.background == Background::Environment {
@@ -67,12 +67,12 @@ impl Stage {
         &mut self,
         size: [u32; 2],
         rig: &[(Pinhole, Vec<SampleLocation>)],
-    ) -> anyhow::Result<Shot> {
+    ) -> anyhow::Result<RenderedImage> {
         let start = Instant::now();
         let rendered = self
             .headless
             .render_locations(&self.scene, rig, size, &self.settings)?;
-        Ok(Shot {
+        Ok(RenderedImage {
             passes: vec![rendered.statistics.passes.clone()],
             wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],
             rendered,
@@ -89,7 +89,7 @@ impl Stage {
     ) -> Figures<T> {
         Figures {
             output: output.display().to_string(),
-            device: Device::of(&self.headless),
+            device: DeviceReport::of(&self.headless),
             size,
             effort,
             more,
@@ -98,7 +98,7 @@ impl Stage {
     }
 
     /// Effort of making an image.
-    pub fn effort(&self, shot: &Shot) -> Effort {
+    pub fn effort(&self, shot: &RenderedImage) -> Effort {
         Effort::new(
             &self.settings,
             &RenderWork {

@@ -3,7 +3,7 @@
 use super::exit::{self, Usage, usage};
 use super::render::{AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
 use super::values::{self, Background};
-use crate::view::{self, Appearance, Look, Options, Source, Start};
+use crate::view::{self, Appearance, Look, Options, SceneSource, Start};
 use clap::Args;
 use gpc::camera::Orbit;
 use gpc::render::{HeadlessOptions, MethodKind, Settings, Shadows};
@@ -56,7 +56,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
         usage!("a scene is needed");
     };
     view::run(Options {
-        source: Source {
+        source: SceneSource {
             path,
             variant: args.camera.variant,
             request: PoseRequest {

@@ -11,7 +11,7 @@ use super::overlay::Overlay;
 use super::panel::Wishes;
 use super::photo::Framing;
 use super::pointer::Drag;
-use super::source::{Source, Stage};
+use super::source::{LoadedScene, SceneSource};
 use super::standpoint::Standpoint;
 use super::window::Viewer;
 use super::worker::{Subject, Task};
@@ -117,7 +117,7 @@ impl Viewer {
     /// Shows the open file with this index.
     fn show_scene(&mut self, index: usize) {
         self.scene = index;
-        self.source = Source::new(self.scenes[index].clone());
+        self.source = SceneSource::new(self.scenes[index].clone());
         self.load(false);
     }
 
@@ -145,7 +145,7 @@ impl Viewer {
                 self.flight = None;
             }
             Action::Quit => self.wants_to_quit = true,
-            Action::Fit => {
+            Action::SwapchainFit => {
                 let size = self.pixels();
                 let photo = self.easel.as_ref();
                 if let Some(photo) = photo.map(|easel| easel.photo.photograph().size()) {
@@ -397,7 +397,7 @@ impl Viewer {
     }
 
     /// Scene, standpoint and settings of the picture under the pointer.
-    fn shot<'a>(&'a self, stage: &'a Stage) -> Shot<'a> {
+    fn shot<'a>(&'a self, stage: &'a LoadedScene) -> Shot<'a> {
         Shot {
             source: &stage.source,
             standpoint: &self.standpoint,

@@ -7,9 +7,9 @@ use super::look::Look;
 use super::painter::{Painter, Painting};
 use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
 use super::preparer::{Prepared, Preparer};
-use super::presenter::{Fit, Presenter};
-use super::slot::{Kept, SLOTS, Slot};
-use super::source::Stage;
+use super::presenter::{Presenter, SwapchainFit};
+use super::slot::{ReplacedObject, SLOTS, Slot};
+use super::source::LoadedScene;
 use super::swapchain::{Acquired, Swapchain, Turn};
 use anyhow::bail;
 use ash::vk;
@@ -52,7 +52,7 @@ pub struct Canvas {
     cover: Option<Picture>,
     /// Whether pictures get more samples at rest.
     pub refines: bool,
-    stage: Option<Stage>,
+    stage: Option<LoadedScene>,
     is_uploaded: bool,
     /// Whether the memory of the upload has still to be freed.
     has_uploads: bool,
@@ -67,7 +67,7 @@ pub struct Canvas {
 }
 
 /// What the next image of the window shows.
-pub struct Seen<'a> {
+pub struct ShownPicture<'a> {
     pub camera: Option<&'a Camera>,
     pub moment: Option<&'a Arc<Moment>>,
     pub pieces: &'a [Piece],
@@ -124,17 +124,17 @@ impl Canvas {
     }
 
     /// Scene that is shown.
-    pub fn stage(&self) -> Option<&Stage> {
+    pub fn stage(&self) -> Option<&LoadedScene> {
         self.stage.as_ref()
     }
 
     /// Shows another scene, or none.
-    pub fn set_stage(&mut self, stage: Option<Stage>) {
+    pub fn set_stage(&mut self, stage: Option<LoadedScene>) {
         let seen = self.take_pictures();
         let before = std::mem::replace(&mut self.before, seen);
-        self.keep(Kept::Pictures(before));
+        self.keep(ReplacedObject::Pictures(before));
         if let Some(stage) = std::mem::replace(&mut self.stage, stage) {
-            self.keep(Kept::Stage(Box::new(stage)));
+            self.keep(ReplacedObject::LoadedScene(Box::new(stage)));
         }
         (self.is_uploaded, self.has_uploads) = (false, false);
         for slot in &mut self.slots {
@@ -158,7 +158,7 @@ impl Canvas {
         for (layer, picture) in self.layers.iter_mut().zip(before.by_ref()) {
             layer.set_before(picture);
         }
-        self.keep(Kept::Pictures(before.collect()));
+        self.keep(ReplacedObject::Pictures(before.collect()));
         Ok(())
     }
 
@@ -166,12 +166,14 @@ impl Canvas {
     fn take_pictures(&mut self) -> Vec<Picture> {
         let layers = std::mem::take(&mut self.layers);
         let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
-        self.keep(Kept::Pictures(others.into_iter().flatten().collect()));
+        self.keep(ReplacedObject::Pictures(
+            others.into_iter().flatten().collect(),
+        ));
         seen
     }
 
     /// Keeps a replaced object until no commands use it.
-    fn keep(&mut self, kept: Kept) {
+    fn keep(&mut self, kept: ReplacedObject) {
         let kept = Rc::new(kept);
         for slot in self.slots.iter_mut().filter(|slot| slot.is_busy()) {
             slot.kept.push(kept.clone());
@@ -190,7 +192,7 @@ impl Canvas {
     /// Sets the picture that is shown instead of all others, or removes it.
     pub fn set_cover(&mut self, cover: Option<Picture>) {
         if let Some(before) = std::mem::replace(&mut self.cover, cover) {
-            self.keep(Kept::Pictures(vec![before]));
+            self.keep(ReplacedObject::Pictures(vec![before]));
         }
     }
 
@@ -209,7 +211,7 @@ impl Canvas {
         let mut any = false;
         let mut outcome = Ok(());
         if let Some(shown) = self.presenter.poll() {
-            self.is_stale |= shown? == Fit::Stale;
+            self.is_stale |= shown? == SwapchainFit::Stale;
         }
         for index in 0..SLOTS {
             if self.slots[index].poll()? {
@@ -288,7 +290,7 @@ impl Canvas {
     pub fn draw(
         &mut self,
         acquired: Acquired,
-        seen: &Seen<'_>,
+        seen: &ShownPicture<'_>,
         painting: Painting,
         now: Instant,
     ) -> anyhow::Result<()> {
@@ -324,7 +326,7 @@ impl Canvas {
     unsafe fn record_work(
         &mut self,
         commands: vk::CommandBuffer,
-        seen: &Seen<'_>,
+        seen: &ShownPicture<'_>,
         now: Instant,
     ) -> anyhow::Result<()> {
         if let Some(cover) = &mut self.cover {
@@ -367,7 +369,7 @@ impl Canvas {
         &self,
         commands: vk::CommandBuffer,
         acquired: &Acquired,
-        seen: &Seen<'_>,
+        seen: &ShownPicture<'_>,
     ) {
         let device = &self.engine.device;
         let black = vk::ClearColorValue {
@@ -467,7 +469,7 @@ impl Canvas {
     fn wait(&mut self) -> anyhow::Result<()> {
         self.engine.device.wait();
         if let Some(shown) = self.presenter.wait() {
-            self.is_stale |= shown? == Fit::Stale;
+            self.is_stale |= shown? == SwapchainFit::Stale;
         }
         // An error of the pictures doesn't matter: they are about to be dropped.
         let _ = self.collect();

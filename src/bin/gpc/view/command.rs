@@ -1,7 +1,7 @@
 //! The `gpc render` or `gpc zoom` command that makes the visible picture.
 
 use super::look::Look;
-use super::source::Source;
+use super::source::SceneSource;
 use super::standpoint::Standpoint;
 use glam::DVec3;
 use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// A picture to be made by a command.
 pub struct Shot<'a> {
-    pub source: &'a Source,
+    pub source: &'a SceneSource,
     pub standpoint: &'a Standpoint,
     pub look: &'a Look,
     /// Options for the appearance of scenes, as words of a command line.
@@ -217,8 +217,8 @@ mod tests {
     use super::*;
     use gpc::render::{Detection, Shading};
 
-    fn source(path: &str) -> Source {
-        Source::new(path.into())
+    fn source(path: &str) -> SceneSource {
+        SceneSource::new(path.into())
     }
 
     fn look(settings: Settings) -> Look {

@@ -10,7 +10,7 @@ pub enum Action {
     Help,
     Panel,
     FullScreen,
-    Fit,
+    SwapchainFit,
     LookFrom(Side),
     NextCamera,
     Fly,
@@ -38,7 +38,7 @@ pub enum Action {
 }
 
 /// A key with or without Control, and its action.
-struct Binding {
+struct KeyBinding {
     key: Pressed,
     control: bool,
     /// Label of the key in the list.
@@ -57,8 +57,8 @@ const fn text(
     label: &'static str,
     action: Action,
     does: &'static str,
-) -> Binding {
-    Binding {
+) -> KeyBinding {
+    KeyBinding {
         key: Pressed::Text(key),
         control: false,
         label,
@@ -67,8 +67,13 @@ const fn text(
     }
 }
 
-const fn named(key: NamedKey, label: &'static str, action: Action, does: &'static str) -> Binding {
-    Binding {
+const fn named(
+    key: NamedKey,
+    label: &'static str,
+    action: Action,
+    does: &'static str,
+) -> KeyBinding {
+    KeyBinding {
         key: Pressed::Named(key),
         control: false,
         label,
@@ -78,7 +83,7 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Bindings of all keys.
-static BINDINGS: [Binding; 35] = [
+static BINDINGS: [KeyBinding; 35] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
     named(
@@ -90,7 +95,7 @@ static BINDINGS: [Binding; 35] = [
     named(
         NamedKey::Enter,
         "Enter",
-        Action::Fit,
+        Action::SwapchainFit,
         "show the whole scene",
     ),
     text(
@@ -210,7 +215,7 @@ static BINDINGS: [Binding; 35] = [
         Action::Screenshot,
         "write the picture with all samples to a file",
     ),
-    Binding {
+    KeyBinding {
         key: Pressed::Text("c"),
         control: true,
         label: "Ctrl+C",
@@ -246,7 +251,7 @@ pub const MOUSE: [(&str, &str); 7] = [
 
 /// Action of a key, if it has one.
 pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
-    let is_pressed = |binding: &&Binding| {
+    let is_pressed = |binding: &&KeyBinding| {
         let pressed = match (&binding.key, key) {
             (Pressed::Named(named), Key::Named(key)) => named == key,
             (Pressed::Text(text), Key::Character(key)) => key.to_lowercase() == *text,

@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::look::Look;
 use super::picture::Picture;
 use super::preparer::{Preparer, Ticket};
-use super::schedule::{PictureWork, Schedule, Took};
+use super::schedule::{PictureSchedule, PictureWork, Took};
 use ash::vk;
 use gpc::camera::Camera;
 use gpc::render::{
@@ -20,7 +20,7 @@ const RETRIES: u32 = 6;
 /// A picture of the scene, at most as large as the window.
 pub struct Layer {
     pub look: Look,
-    pub schedule: Schedule,
+    pub schedule: PictureSchedule,
     picture: Picture,
     /// Picture that is shown until this layer has rendered something.
     before: Option<Picture>,
@@ -69,7 +69,7 @@ impl Layer {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
             before: None,
-            schedule: Schedule::new(&look, now),
+            schedule: PictureSchedule::new(&look, now),
             look,
             ticket: Ticket::default(),
             spare: Vec::new(),

@@ -48,7 +48,7 @@ mod window;
 mod worker;
 
 pub use look::{Look, default_samples};
-pub use source::{Appearance, Source};
+pub use source::{Appearance, SceneSource};
 pub use standpoint::Start;
 
 use anyhow::bail;
@@ -61,7 +61,7 @@ use winit::event_loop::EventLoop;
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Source that is opened first: a file, or the scenes of a folder.
-    pub source: Source,
+    pub source: SceneSource,
     /// Other files and folders that the arrow keys go to.
     pub others: Vec<PathBuf>,
     /// Standpoint at the start, in the first scene.

@@ -4,7 +4,7 @@ use super::app::Event;
 use super::photo::{Easel, Photo};
 use super::player::Player;
 use super::progress::Progress;
-use super::source::{Opened, Source, Stage};
+use super::source::{LoadedScene, Opened, SceneSource};
 use super::standpoint::Standpoint;
 use super::watch::Watch;
 use super::window::Viewer;
@@ -14,7 +14,7 @@ use std::time::Instant;
 /// A file that is being loaded.
 pub struct Loading {
     number: u64,
-    pub source: Source,
+    pub source: SceneSource,
     pub since: Instant,
     pub progress: Progress,
     /// Whether the new scene is seen from the standpoint of the scene before it.
@@ -112,7 +112,7 @@ impl Viewer {
         }
     }
 
-    fn set_stage(&mut self, stage: Stage, keeps_view: bool) -> anyhow::Result<()> {
+    fn set_stage(&mut self, stage: LoadedScene, keeps_view: bool) -> anyhow::Result<()> {
         self.set_easel(None);
         if !keeps_view {
             let aspect = self.aspect();

@@ -19,11 +19,11 @@ const MOST: f64 = 64.0;
 #[derive(Debug)]
 pub struct Photo {
     pub path: PathBuf,
-    image: Image,
+    image: PhotoImage,
 }
 
 #[derive(Debug)]
-enum Image {
+enum PhotoImage {
     Plain(Photograph),
     Zoomed(Zoomed),
 }
@@ -34,9 +34,9 @@ impl Photo {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).with_context(|| format!("{name} can't be read"))?;
         let image = if Zoomed::is_in(&bytes) {
-            Image::Zoomed(Zoomed::decode(&bytes, &name)?)
+            PhotoImage::Zoomed(Zoomed::decode(&bytes, &name)?)
         } else {
-            Image::Plain(Photograph::from(&output::decode(&bytes, &name)?))
+            PhotoImage::Plain(Photograph::from(&output::decode(&bytes, &name)?))
         };
         Ok(Self {
             path: path.to_owned(),
@@ -47,16 +47,16 @@ impl Photo {
     /// The image as a photograph.
     pub fn photograph(&self) -> &Photograph {
         match &self.image {
-            Image::Plain(photograph) => photograph,
-            Image::Zoomed(zoomed) => zoomed.photograph(),
+            PhotoImage::Plain(photograph) => photograph,
+            PhotoImage::Zoomed(zoomed) => zoomed.photograph(),
         }
     }
 
     /// The image with its map, if `gpc zoom` made it.
     pub fn zoomed(&self) -> Option<&Zoomed> {
         match &self.image {
-            Image::Plain(_) => None,
-            Image::Zoomed(zoomed) => Some(zoomed),
+            PhotoImage::Plain(_) => None,
+            PhotoImage::Zoomed(zoomed) => Some(zoomed),
         }
     }
 }

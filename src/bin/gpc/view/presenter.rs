@@ -13,14 +13,14 @@ use std::thread::JoinHandle;
 pub struct Presenter {
     /// Channel to the thread; `None` only in `Drop`.
     images: Option<Sender<Acquired>>,
-    outcomes: Receiver<Result<Fit, VulkanError>>,
+    outcomes: Receiver<Result<SwapchainFit, VulkanError>>,
     is_busy: bool,
     thread: Option<JoinHandle<()>>,
 }
 
 /// Whether the swapchain still fits the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fit {
+pub enum SwapchainFit {
     Fits,
     /// The swapchain has to be made anew.
     Stale,
@@ -58,21 +58,21 @@ impl Presenter {
     }
 
     /// Result of presenting the last image; `None` until it is there, and once it was returned.
-    pub fn poll(&mut self) -> Option<Result<Fit, VulkanError>> {
+    pub fn poll(&mut self) -> Option<Result<SwapchainFit, VulkanError>> {
         let outcome = self.outcomes.try_recv().ok()?;
         self.is_busy = false;
         Some(outcome)
     }
 
     /// Waits until no image is being presented. The device must have finished the commands that draw it.
-    pub fn wait(&mut self) -> Option<Result<Fit, VulkanError>> {
+    pub fn wait(&mut self) -> Option<Result<SwapchainFit, VulkanError>> {
         let outcome = self.is_busy.then(|| self.outcomes.recv().ok()).flatten()?;
         self.is_busy = false;
         Some(outcome)
     }
 }
 
-fn present(device: &Device, image: &Acquired) -> Result<Fit, VulkanError> {
+fn present(device: &Device, image: &Acquired) -> Result<SwapchainFit, VulkanError> {
     let (waits, swapchains, indices) = ([image.drawn], [image.swapchain], [image.index]);
     let info = vk::PresentInfoKHR::default()
         .wait_semaphores(&waits)
@@ -82,8 +82,8 @@ fn present(device: &Device, image: &Acquired) -> Result<Fit, VulkanError> {
     // SAFETY: the image was acquired, and submitted commands signal its semaphore. Nobody else uses the queue now, nor
     // the swapchain while the presenter is busy.
     match unsafe { device.swapchains.queue_present(*queue, &info) } {
-        Ok(false) if !image.stale => Ok(Fit::Fits),
-        Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Fit::Stale),
+        Ok(false) if !image.stale => Ok(SwapchainFit::Fits),
+        Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(SwapchainFit::Stale),
         Err(result) => Err(VulkanError::of("vkQueuePresentKHR")(result)),
     }
 }

@@ -27,10 +27,10 @@ impl LoadStep {
 
 /// Progress that is shared between the thread that loads and the one that waits.
 #[derive(Clone, Debug, Default)]
-pub struct Progress(Arc<State>);
+pub struct Progress(Arc<LoadState>);
 
 #[derive(Debug, Default)]
-struct State {
+struct LoadState {
     step: AtomicUsize,
     is_cancelled: AtomicBool,
 }

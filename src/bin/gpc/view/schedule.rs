@@ -70,7 +70,7 @@ impl Took {
 
 /// Work that is left to do on a picture.
 #[derive(Debug)]
-pub struct Schedule {
+pub struct PictureSchedule {
     /// Numbers of samples while something moves, the largest first.
     drafts: Vec<u32>,
     /// Number of samples of the draft that equals the picture at rest, if there is one.
@@ -104,7 +104,7 @@ enum Phase {
     Done,
 }
 
-impl Schedule {
+impl PictureSchedule {
     /// Schedule of a picture that has not been rendered.
     pub fn new(look: &Look, now: Instant) -> Self {
         let asked = look.samples();
@@ -270,9 +270,9 @@ mod tests {
     use gpc::render::{Settings, SuperpixelOptions};
     use gpc::sampling::Pattern;
 
-    fn schedule(method: MethodKind, samples: u32, height: u32, now: Instant) -> Schedule {
+    fn schedule(method: MethodKind, samples: u32, height: u32, now: Instant) -> PictureSchedule {
         let settings = Settings::new(100, height).method(method.with_samples(samples));
-        Schedule::new(&Look::new(settings, SuperpixelOptions::new(64)), now)
+        PictureSchedule::new(&Look::new(settings, SuperpixelOptions::new(64)), now)
     }
 
     fn after(ms: u64, start: Instant) -> Instant {
@@ -280,7 +280,7 @@ mod tests {
     }
 
     /// Samples and rows of all bands until the picture is done, if each row takes `ms` milliseconds.
-    fn bands(schedule: &mut Schedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
+    fn bands(schedule: &mut PictureSchedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
             if let PictureWork::Band { samples, rows } = &work {
@@ -359,7 +359,7 @@ mod tests {
     fn drafts_get_cheaper_until_they_are_fluid() {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 1024, 100, start);
-        let draft = |schedule: &mut Schedule, ms: f64, now: Instant| {
+        let draft = |schedule: &mut PictureSchedule, ms: f64, now: Instant| {
             schedule.restart(now);
             let work = schedule.take(now).unwrap();
             schedule.learn(&work, Took { ms, fixed_ms: 0.0 }, now);
@@ -437,7 +437,7 @@ mod tests {
         let start = Instant::now();
         let options = SuperpixelOptions::new(1024).pattern(Pattern::Grid);
         let settings = Settings::new(100, 100).method(options.clone());
-        let schedule = Schedule::new(&Look::new(settings, options), start);
+        let schedule = PictureSchedule::new(&Look::new(settings, options), start);
         assert_eq!(schedule.drafts, [16, 4, 1]);
         assert_eq!(schedule.steps, [64, 256, 1024]);
     }

@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::layer::Job;
 use super::picture::Picture;
-use super::source::Stage;
+use super::source::LoadedScene;
 use ash::vk;
 use gpc::vulkan::VulkanError;
 use std::rc::Rc;
@@ -13,8 +13,8 @@ use std::sync::Arc;
 pub const SLOTS: usize = 2;
 
 /// A replaced object that commands may still use.
-pub enum Kept {
-    Stage(#[expect(dead_code, reason = "kept until it is dropped")] Box<Stage>),
+pub enum ReplacedObject {
+    LoadedScene(#[expect(dead_code, reason = "kept until it is dropped")] Box<LoadedScene>),
     Pictures(#[expect(dead_code, reason = "kept until it is dropped")] Vec<Picture>),
 }
 
@@ -30,7 +30,7 @@ pub struct Slot {
     /// Work on pictures that the commands contain.
     pub jobs: Vec<Job>,
     /// Replaced objects that the commands use.
-    pub kept: Vec<Rc<Kept>>,
+    pub kept: Vec<Rc<ReplacedObject>>,
     /// Textures of the panel to free once these commands have run.
     pub textures: Vec<egui::TextureId>,
     /// Whether the commands upload the scene.

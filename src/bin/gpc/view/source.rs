@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// A file to open: its path, and the scene, material variant, animation and time to show.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub struct SceneSource {
     pub path: PathBuf,
     /// Variant of the materials by name.
     pub variant: Option<String>,
@@ -33,13 +33,13 @@ pub struct Appearance {
 
 /// Contents of an opened file.
 pub enum Opened {
-    Scene(Box<Stage>),
+    Scene(Box<LoadedScene>),
     Photo(Photo),
 }
 
 /// A scene on the device, and what the window needs to know of it.
-pub struct Stage {
-    pub source: Source,
+pub struct LoadedScene {
+    pub source: SceneSource,
     pub scene: Arc<Scene>,
     pub prepared: Arc<PreparedScene>,
     /// How the scene moves, if it has animations.
@@ -55,7 +55,7 @@ pub struct Stage {
     _engine: Arc<Engine>,
 }
 
-impl Stage {
+impl LoadedScene {
     /// Index of the animation that is played.
     pub fn animation(&self) -> usize {
         let Some(asked) = &self.source.request.animation else {
@@ -67,7 +67,7 @@ impl Stage {
     }
 }
 
-impl Source {
+impl SceneSource {
     /// Source for the file's default scene at the start of its animation.
     pub fn new(path: PathBuf) -> Self {
         Self {
@@ -116,7 +116,7 @@ impl Source {
         let prepared = renderer.prepare_scene(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
-        Ok(Opened::Scene(Box::new(Stage {
+        Ok(Opened::Scene(Box::new(LoadedScene {
             source: self.clone(),
             scene: Arc::new(loaded.scene),
             bounds: bounds(&pose),

@@ -1,7 +1,7 @@
 //! The window: loads scenes and draws what is due.
 
 use super::app::Event;
-use super::canvas::{Canvas, Seen};
+use super::canvas::{Canvas, ShownPicture};
 use super::compose::{self, Magnifier};
 use super::cover::Cover;
 use super::device::Device;
@@ -18,7 +18,7 @@ use super::photo::Easel;
 use super::player::Player;
 use super::pointer::Pointer;
 use super::preparer::Preparer;
-use super::source::{Appearance, Source};
+use super::source::{Appearance, SceneSource};
 use super::standpoint::{Standpoint, Start};
 use super::watch::Watch;
 use super::worker::{Made, PictureWorker};
@@ -50,7 +50,7 @@ pub struct Viewer {
     pub scenes: Vec<PathBuf>,
     pub scene: usize,
     /// Source that was requested.
-    pub source: Source,
+    pub source: SceneSource,
     pub loading: Option<Loading>,
     /// Number of requests to load a file.
     pub loads: u64,
@@ -374,7 +374,7 @@ impl Viewer {
             };
             compose::magnified(size, split, magnifier)
         });
-        let seen = Seen {
+        let seen = ShownPicture {
             camera: camera.as_ref(),
             moment: self.moment.as_ref(),
             pieces: &compose::pictures(size, split),

@@ -4,7 +4,7 @@
 use super::losses::is_lost;
 use super::overlay::{self, COUNT_SIDE, Overlay};
 use super::photo::PhotoView;
-use super::source::{Source, bounds};
+use super::source::{SceneSource, bounds};
 use super::standpoint::Standpoint;
 use super::stop::Stop;
 use super::tint::tinted;
@@ -66,7 +66,7 @@ pub enum Task {
 
 /// A picture of a scene: scene, standpoint and settings.
 pub struct SceneTask {
-    pub source: Source,
+    pub source: SceneSource,
     pub scene: Arc<Scene>,
     /// Time of the animation in seconds.
     pub time: f64,

@@ -29,7 +29,7 @@ const LEAST_TRIANGLES: usize = 4 * Instance::ALIGNMENT as usize;
 const LEAST_SAVED: usize = 1 << 16;
 
 /// A placement, and the place of its elements in the geometry.
-struct Job<'p, 'd> {
+struct PlacementJob<'p, 'd> {
     placement: Placement<'d>,
     /// Index of the placement; with instances, of one of its placements.
     index: usize,
@@ -41,7 +41,7 @@ struct Job<'p, 'd> {
     instances: Vec<&'p Placement<'d>>,
 }
 
-impl Job<'_, '_> {
+impl PlacementJob<'_, '_> {
     fn triangle_count(&self) -> u32 {
         // The conversion is safe: the total number was checked to fit into u32.
         self.placement.primitive.triangles.len() as u32
@@ -88,8 +88,8 @@ pub fn assemble(
         triangles: vec![[0; 3]; count(|p| p.primitive.triangles.len())],
         draws: draws(&jobs),
         instances: instances(&jobs, origin),
-        strokes: jobs.iter().flat_map(Job::strokes).collect(),
-        edges: jobs.iter().flat_map(Job::edges).collect(),
+        strokes: jobs.iter().flat_map(PlacementJob::strokes).collect(),
+        edges: jobs.iter().flat_map(PlacementJob::edges).collect(),
     };
     let indices = geometry.index_count();
     if indices > MAX_ELEMENTS {
@@ -129,7 +129,7 @@ struct Needed {
 }
 
 impl Needed {
-    fn by(scene: &Scene, jobs: &[Job<'_, '_>]) -> Self {
+    fn by(scene: &Scene, jobs: &[PlacementJob<'_, '_>]) -> Self {
         let any = |has: &dyn Fn(&Placement<'_>) -> bool| jobs.iter().any(|job| has(&job.placement));
         let material = |p: &Placement<'_>, has: fn(&Material) -> bool| {
             scene.materials.get(p.primitive.material).is_some_and(has)
@@ -148,7 +148,7 @@ fn plan<'p, 'd>(
     scene: &Scene,
     placements: &'p [Placement<'d>],
     warnings: &mut Warnings,
-) -> (Vec<Job<'p, 'd>>, DVec3) {
+) -> (Vec<PlacementJob<'p, 'd>>, DVec3) {
     let boxes: Vec<(DVec3, DVec3)> = placements.par_iter().map(bounds).collect();
     let mut placed = Vec::new();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -185,7 +185,7 @@ fn jobs<'p, 'd>(
     scene: &Scene,
     placed: &[(usize, &'p Placement<'d>)],
     origin: DVec3,
-) -> Vec<Job<'p, 'd>> {
+) -> Vec<PlacementJob<'p, 'd>> {
     let mut sharing: HashMap<*const Primitive, usize> = HashMap::new();
     for mesh in placed.iter().filter_map(|(_, placement)| placement.mesh()) {
         *sharing.entry(std::ptr::from_ref(mesh)).or_default() += 1;
@@ -196,13 +196,13 @@ fn jobs<'p, 'd>(
         // Points and lines have a different shape at each place.
         mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED && !mesh.is_strokes()
     };
-    let mut jobs: Vec<Job<'p, 'd>> = Vec::new();
+    let mut jobs: Vec<PlacementJob<'p, 'd>> = Vec::new();
     let mut job_of: HashMap<*const Primitive, usize> = HashMap::new();
     for &(index, placement) in placed {
         let material = scene.materials.get(placement.primitive.material);
         let class = material.map_or(DrawClass::Opaque, DrawClass::of);
         let Some(mesh) = placement.mesh().filter(|mesh| is_instanced(mesh)) else {
-            jobs.push(Job {
+            jobs.push(PlacementJob {
                 placement: placement.clone(),
                 index,
                 class,
@@ -215,7 +215,7 @@ fn jobs<'p, 'd>(
         let job = *job_of.entry(std::ptr::from_ref(mesh)).or_insert_with(|| {
             let own = placement.at(DAffine3::IDENTITY);
             let (low, high) = bounds(&own);
-            jobs.push(Job {
+            jobs.push(PlacementJob {
                 placement: own,
                 index,
                 class,
@@ -235,7 +235,7 @@ fn jobs<'p, 'd>(
 }
 
 /// Instances that draw the triangles of jobs; empty if all are in world space.
-fn instances(jobs: &[Job<'_, '_>], origin: DVec3) -> Vec<Instance> {
+fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<Instance> {
     if jobs.iter().all(|job| job.instances.is_empty()) {
         return Vec::new();
     }
@@ -304,7 +304,7 @@ fn empty_box() -> (DVec3, DVec3) {
 }
 
 /// Ranges of triangles with the same material and class.
-fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
+fn draws(jobs: &[PlacementJob<'_, '_>]) -> Vec<Draw> {
     let mut draws: Vec<Draw> = Vec::new();
     let mut first_triangle = 0;
     for job in jobs {
@@ -327,7 +327,7 @@ fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
 }
 
 /// The slices of all streams that one job fills; empty for a stream that the geometry lacks.
-struct Parts<'g> {
+struct StreamSlices<'g> {
     positions: &'g mut [[f32; 3]],
     normals: &'g mut [[f32; 3]],
     tangents: &'g mut [[f32; 4]],
@@ -337,9 +337,9 @@ struct Parts<'g> {
     triangles: &'g mut [[u32; 3]],
 }
 
-fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
+fn fill(jobs: &[PlacementJob<'_, '_>], geometry: &mut Geometry) {
     let streams = &mut geometry.streams;
-    let mut rest = Parts {
+    let mut rest = StreamSlices {
         positions: &mut geometry.positions,
         normals: &mut streams.normals,
         tangents: &mut streams.tangents,
@@ -353,7 +353,7 @@ fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
         let vertices = job.placement.primitive.positions.len();
         work.push((
             job,
-            Parts {
+            StreamSlices {
                 positions: take(&mut rest.positions, vertices),
                 normals: take(&mut rest.normals, vertices),
                 tangents: take(&mut rest.tangents, vertices),
@@ -376,8 +376,8 @@ fn take<'g, T>(rest: &mut &'g mut [T], count: usize) -> &'g mut [T] {
     part
 }
 
-impl Job<'_, '_> {
-    fn fill(&self, parts: Parts<'_>) {
+impl PlacementJob<'_, '_> {
+    fn fill(&self, parts: StreamSlices<'_>) {
         let (placement, origin) = (&self.placement, self.origin);
         let primitive = placement.primitive;
         copy(parts.uvs, &primitive.uvs);

@@ -8,7 +8,7 @@ use crate::scene::document::{Animated, Channel, Document, Transform};
 
 /// The nodes at one moment.
 #[derive(Debug)]
-pub struct State {
+pub struct NodeStates {
     /// Transform of every node from its space to the world.
     pub world: Vec<DAffine3>,
     /// Animated morph weights of every node.
@@ -17,7 +17,7 @@ pub struct State {
     pub drawn: Vec<bool>,
 }
 
-impl State {
+impl NodeStates {
     pub fn new(document: &Document, animation: &[Channel], time: f64) -> Self {
         let nodes = &document.nodes;
         let mut transforms: Vec<Transform> = nodes.iter().map(|node| node.transform).collect();

@@ -15,7 +15,7 @@ use crate::scene::{
 
 /// Appearance of a scene at one moment.
 #[derive(Debug)]
-pub struct Looks {
+pub struct SceneAppearance {
     /// Materials that the animation changes, with their indices, and their unlit copies.
     pub materials: Vec<(usize, Material)>,
     /// Lights, in the document's order.
@@ -24,7 +24,7 @@ pub struct Looks {
     pub cameras: Vec<Option<SceneProjection>>,
 }
 
-impl Looks {
+impl SceneAppearance {
     pub fn new(scene: &Scene, animation: &[Channel], time: f64, warnings: &mut Warnings) -> Self {
         let mut changes: BTreeMap<Described, Vec<Change<'_>>> = BTreeMap::new();
         for channel in animation {

@@ -23,7 +23,7 @@ use super::{
     view::{SceneCamera, SceneProjection},
 };
 use assemble::MovingPlacement;
-use looks::Looks;
+use looks::SceneAppearance;
 use motion::Moving;
 pub(crate) use motion::MovingBounds;
 pub use motion::{Moment, Motion, MotionPart};
@@ -168,8 +168,8 @@ fn show<'d>(
         });
     }
     let animation = keyframes::choose(document, request)?;
-    let state = hierarchy::State::new(document, animation, request.time);
-    let looks = Looks::new(scene, animation, request.time, warnings);
+    let state = hierarchy::NodeStates::new(document, animation, request.time);
+    let looks = SceneAppearance::new(scene, animation, request.time, warnings);
     let drawn = drawn_nodes(document, request.scene.or(document.default_scene));
 
     let mut placements = Vec::new();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use gltf::json::Node;
 
-use super::{copies, hierarchy::State, motion::Moving, primitives_of};
+use super::{copies, hierarchy::NodeStates, motion::Moving, primitives_of};
 use crate::scene::{
     document::{Document, Primitive, Target},
     geometry::length_scale,
@@ -19,7 +19,7 @@ pub struct Placement<'d> {
     pub primitive: &'d Primitive,
     /// Morph targets that have an effect: weight, index, displacements.
     pub targets: Arc<[(f64, usize, &'d Target)]>,
-    motion: Motion,
+    motion: VertexMotion,
     /// Whether the device moves the vertices.
     pub moves: bool,
     /// Whether the transform to the world mirrors, so that the winding has to be reversed.
@@ -27,22 +27,22 @@ pub struct Placement<'d> {
 }
 
 #[derive(Clone, Debug)]
-enum Motion {
-    Rigid(Frame),
+enum VertexMotion {
+    Rigid(VertexTransform),
     /// Transform of every joint, from the space of the bound mesh to the world.
     Skinned(Arc<[DAffine3]>),
 }
 
 /// Transform of one vertex.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct VertexTransform {
     affine: DAffine3,
     /// Inverse transpose up to a positive factor. It exists even if the inverse does not.
     normals: DMat3,
     sign: f64,
 }
 
-impl Frame {
+impl VertexTransform {
     fn new(affine: DAffine3) -> Self {
         let m = affine.matrix3;
         let sign = 1.0_f64.copysign(m.determinant());
@@ -70,7 +70,7 @@ impl<'d> Placement<'d> {
         document: &'d Document,
         index: usize,
         node: &'d Node,
-        state: &State,
+        state: &NodeStates,
         moving: &Moving,
     ) -> Vec<Self> {
         let primitives = primitives_of(document, node);
@@ -98,17 +98,17 @@ impl<'d> Placement<'d> {
                 .instances
                 .as_ref()
                 .and_then(|i| i.get(copy));
-            let rigid = Frame::new(world * instance.copied().unwrap_or_default());
+            let rigid = VertexTransform::new(world * instance.copied().unwrap_or_default());
             for (primitive, targets) in primitives.iter().zip(&targets) {
                 let (motion, mirrored) = match &skin {
                     Some(joints) if !primitive.influences.is_empty() => {
                         let mirrors = |joint: &DAffine3| joint.matrix3.determinant() < 0.0;
                         (
-                            Motion::Skinned(Arc::clone(joints)),
+                            VertexMotion::Skinned(Arc::clone(joints)),
                             joints.iter().all(mirrors),
                         )
                     }
-                    _ => (Motion::Rigid(rigid), rigid.sign < 0.0),
+                    _ => (VertexMotion::Rigid(rigid), rigid.sign < 0.0),
                 };
                 placements.push(Self {
                     moves: moving.has(document, index, node),
@@ -126,36 +126,36 @@ impl<'d> Placement<'d> {
     /// Mesh of the placement, if other placements of it may differ only in their [`rigid`](Self::rigid) transform.
     pub fn mesh(&self) -> Option<&'d Primitive> {
         let is_rigid =
-            matches!(self.motion, Motion::Rigid(_)) && self.targets.is_empty() && !self.moves;
+            matches!(self.motion, VertexMotion::Rigid(_)) && self.targets.is_empty() && !self.moves;
         is_rigid.then_some(self.primitive)
     }
 
     /// Transform from the mesh's space to the world, if all vertices have the same.
     pub fn rigid(&self) -> Option<DAffine3> {
         match &self.motion {
-            Motion::Rigid(frame) => Some(frame.affine),
-            Motion::Skinned(_) => None,
+            VertexMotion::Rigid(frame) => Some(frame.affine),
+            VertexMotion::Skinned(_) => None,
         }
     }
 
     /// Transforms from the mesh's space to the world: those of all joints, or the one of the node.
     pub fn matrices(&self) -> &[DAffine3] {
         match &self.motion {
-            Motion::Rigid(frame) => std::slice::from_ref(&frame.affine),
-            Motion::Skinned(joints) => joints,
+            VertexMotion::Rigid(frame) => std::slice::from_ref(&frame.affine),
+            VertexMotion::Skinned(joints) => joints,
         }
     }
 
     /// Whether its vertices follow joints.
     pub fn is_skinned(&self) -> bool {
-        matches!(self.motion, Motion::Skinned(_))
+        matches!(self.motion, VertexMotion::Skinned(_))
     }
 
     /// Placement of the same mesh at another place.
     pub fn at(&self, affine: DAffine3) -> Self {
-        let frame = Frame::new(affine);
+        let frame = VertexTransform::new(affine);
         Self {
-            motion: Motion::Rigid(frame),
+            motion: VertexMotion::Rigid(frame),
             mirrored: frame.sign < 0.0,
             ..self.clone()
         }
@@ -163,10 +163,10 @@ impl<'d> Placement<'d> {
 
     /// Transform of vertex `v`.
     #[inline]
-    pub fn frame(&self, v: usize) -> Frame {
+    pub fn frame(&self, v: usize) -> VertexTransform {
         match &self.motion {
-            Motion::Rigid(frame) => *frame,
-            Motion::Skinned(joints) => Frame::new(self.blend(joints, v)),
+            VertexMotion::Rigid(frame) => *frame,
+            VertexMotion::Skinned(joints) => VertexTransform::new(self.blend(joints, v)),
         }
     }
 
@@ -195,14 +195,14 @@ impl<'d> Placement<'d> {
     pub fn position(&self, v: usize) -> DVec3 {
         let position = self.morph(v, self.primitive.positions[v], |t| &t.positions);
         match &self.motion {
-            Motion::Rigid(frame) => frame.affine.transform_point3(position),
-            Motion::Skinned(joints) => self.blend(joints, v).transform_point3(position),
+            VertexMotion::Rigid(frame) => frame.affine.transform_point3(position),
+            VertexMotion::Skinned(joints) => self.blend(joints, v).transform_point3(position),
         }
     }
 
     /// Unit normal of vertex `v` in the world.
     #[inline]
-    pub fn normal(&self, v: usize, frame: &Frame) -> [f32; 3] {
+    pub fn normal(&self, v: usize, frame: &VertexTransform) -> [f32; 3] {
         let own = self.primitive.normals.get(v).copied();
         let normal = self.morph(v, own.unwrap_or_default(), |t| &t.normals);
         unit(frame.normals * normal, DVec3::Z)
@@ -211,7 +211,7 @@ impl<'d> Placement<'d> {
     /// Unit tangent of vertex `v` in the world. If the transform mirrors, the bitangent's sign changes, because cross
     /// products do not mirror.
     #[inline]
-    pub fn tangent(&self, v: usize, frame: &Frame) -> [f32; 4] {
+    pub fn tangent(&self, v: usize, frame: &VertexTransform) -> [f32; 4] {
         let [x, y, z, sign] = self.primitive.tangents[v];
         let tangent = self.morph(v, [x, y, z], |t| &t.tangents);
         let [x, y, z] = unit(frame.affine.transform_vector3(tangent), DVec3::X);
@@ -243,7 +243,7 @@ fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
 }
 
 /// Matrices of the joints of a node's skin. As the specification says, the node's own transform is ignored.
-fn joint_matrices(document: &Document, node: &Node, state: &State) -> Option<Arc<[DAffine3]>> {
+fn joint_matrices(document: &Document, node: &Node, state: &NodeStates) -> Option<Arc<[DAffine3]>> {
     let skin = document.skins.get(node.skin?.value())?;
     let joints = skin.joints.iter().zip(&skin.inverse_bind);
     let matrices = joints.map(|(&joint, bind)| {

@@ -32,7 +32,7 @@ pub fn read_all(
     materials: &[Material],
 ) -> (Vec<Vec<Channel>>, Descriptions) {
     let model = context.model;
-    let mut reader = Reader {
+    let mut reader = ChannelReader {
         descriptions: Descriptions::new(model),
         context,
         nodes,
@@ -86,7 +86,7 @@ fn read_channel(
     target_place: &str,
     sampler: &animation::Sampler,
     place: &str,
-    reader: &mut Reader<'_, '_>,
+    reader: &mut ChannelReader<'_, '_>,
 ) -> Result<Vec<Channel>, Fault> {
     let model = reader.context.model;
     let (targets, at) = match (target.path, pointer::of(model, target_place)) {
@@ -124,7 +124,7 @@ fn read_keyframes(
     target: Animated,
     sampler: &animation::Sampler,
     place: &str,
-    reader: &mut Reader<'_, '_>,
+    reader: &mut ChannelReader<'_, '_>,
 ) -> Result<Channel, Fault> {
     let (context, cache) = (&*reader.context, &mut reader.cache);
     let interpolation_place = format!("{place}/interpolation");
@@ -184,7 +184,7 @@ fn read_keyframes(
 }
 
 /// Reader of channels.
-struct Reader<'c, 'm> {
+struct ChannelReader<'c, 'm> {
     context: &'c mut Context<'m>,
     nodes: &'c [Node],
     /// Numbers of accessors that were read already; samplers often share accessors.
@@ -195,7 +195,7 @@ struct Reader<'c, 'm> {
     examined: usize,
 }
 
-impl Reader<'_, '_> {
+impl ChannelReader<'_, '_> {
     /// Refuses a channel with values that the description can't have at `pointer`, and warns of a channel that changes
     /// nothing.
     fn check_effect(
@@ -213,23 +213,23 @@ impl Reader<'_, '_> {
         let descriptions = &self.descriptions;
         // Warnings about values are reported when they are drawn.
         let mut unheard = self.context.warnings.of_the_same_file();
-        let mut read = |changes: &[Change<'_>]| -> Result<Option<Looks>, Fault> {
+        let mut read = |changes: &[Change<'_>]| -> Result<Option<AnimatedProperty>, Fault> {
             Ok(match described {
                 Described::Material(index) => {
                     let at_rest = &self.materials[index];
                     descriptions.changed::<json::Material>(index, changes)?;
                     let read = descriptions.material(index, changes, at_rest, &mut unheard);
-                    read.ok().map(Box::new).map(Looks::Material)
+                    read.ok().map(Box::new).map(AnimatedProperty::Material)
                 }
                 Described::Light(index) => {
                     descriptions.changed::<Light>(index, changes)?;
                     let read = descriptions.light(index, changes, &mut unheard);
-                    read.ok().map(Looks::Light)
+                    read.ok().map(AnimatedProperty::Light)
                 }
                 Described::Camera(index) => {
                     descriptions.changed::<json::Camera>(index, changes)?;
                     let read = descriptions.camera(index, changes);
-                    read.ok().map(Looks::Camera)
+                    read.ok().map(AnimatedProperty::Camera)
                 }
             })
         };
@@ -262,7 +262,7 @@ impl Reader<'_, '_> {
 
 /// Properties of a description that affect the image.
 #[derive(PartialEq)]
-enum Looks {
+enum AnimatedProperty {
     Material(Box<Material>),
     Light(light::Light),
     Camera(SceneProjection),

@@ -31,7 +31,7 @@ const WIDEST: u64 = 64;
 /// The extension object.
 #[derive(serde::Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Compressed {
+struct DracoExtension {
     buffer_view: Index<View>,
     attributes: BTreeMap<String, u32>,
 }
@@ -42,7 +42,7 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
         .extensions
         .as_ref()
         .map(|extensions| &extensions.others);
-    let Some((compressed, place)) = model::extension::<Compressed>(others, NAME, place)? else {
+    let Some((compressed, place)) = model::extension::<DracoExtension>(others, NAME, place)? else {
         return Ok(None);
     };
     let fault = |reason: String| Fault::new(place.clone(), reason);

@@ -79,10 +79,10 @@ impl Images {
     fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, String> {
         let format = sniff(&bytes)?;
         let (width, height) = match format {
-            Format::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
+            ImageEncoding::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
                 .into_dimensions()
                 .map_err(|error| format!("cannot be decoded: {error}"))?,
-            Format::Basis => super::basis::dimensions(&bytes)?,
+            ImageEncoding::Basis => super::basis::dimensions(&bytes)?,
         };
         let texels = u64::from(width) * u64::from(height);
         let size = format!("{width} x {height} texels");
@@ -143,7 +143,7 @@ fn fetch<'b>(
 
 /// Encoding of an image.
 #[derive(Clone, Copy)]
-enum Format {
+enum ImageEncoding {
     /// PNG, JPEG or WebP.
     Picture(ImageFormat),
     /// KTX2 of Basis Universal.
@@ -151,12 +151,12 @@ enum Format {
 }
 
 /// Format of an image by its content; the declared type and the file's extension are often wrong.
-fn sniff(bytes: &[u8]) -> Result<Format, String> {
+fn sniff(bytes: &[u8]) -> Result<ImageEncoding, String> {
     match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
-            Ok(Format::Picture(format))
+            Ok(ImageEncoding::Picture(format))
         }
-        _ if bytes.starts_with(KTX2) => Ok(Format::Basis),
+        _ if bytes.starts_with(KTX2) => Ok(ImageEncoding::Basis),
         _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
 }
@@ -167,15 +167,15 @@ const KTX2: &[u8] = b"\xABKTX 20\xBB";
 /// An encoded image whose header was accepted.
 struct Encoded<'b> {
     bytes: Cow<'b, [u8]>,
-    format: Format,
+    format: ImageEncoding,
     size: (u32, u32),
 }
 
 impl Encoded<'_> {
     fn decode(&self) -> Result<Image, String> {
         let pixels = match self.format {
-            Format::Picture(format) => self.decode_picture(format)?,
-            Format::Basis => super::basis::decode(&self.bytes)?,
+            ImageEncoding::Picture(format) => self.decode_picture(format)?,
+            ImageEncoding::Basis => super::basis::decode(&self.bytes)?,
         };
         let (width, height) = self.size;
         let image = Image {

@@ -27,7 +27,7 @@ struct LightObject {
 
 /// Reference of a scene to a light.
 #[derive(Deserialize)]
-struct Reference {
+struct LightReference {
     light: usize,
 }
 
@@ -41,9 +41,9 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Option<Arc<Environment>>> {
             .as_ref()
             .map(|extensions| &extensions.others);
         let place = format!("/scenes/{index}");
-        let chosen = model::extension::<Reference>(others, NAME, &place);
+        let chosen = model::extension::<LightReference>(others, NAME, &place);
         let chosen = context.tolerate(chosen, "the scene has the light of the studio");
-        let (Reference { light }, place) = chosen?;
+        let (LightReference { light }, place) = chosen?;
         let read = known.entry(light).or_insert_with(|| {
             let read = read(light, &format!("{place}/light"), context).map(Some);
             context

@@ -101,7 +101,7 @@ pub fn read(
     animated: bool,
     context: &mut Context<'_>,
 ) -> Lobes {
-    let mut reader = Reader {
+    let mut reader = LobeReader {
         item,
         place,
         animated,
@@ -123,14 +123,14 @@ fn unit(x: f32) -> f32 {
     x.clamp(0.0, 1.0)
 }
 
-struct Reader<'a, 'c, 'm> {
+struct LobeReader<'a, 'c, 'm> {
     item: &'a material::Material,
     place: &'a str,
     animated: bool,
     context: &'c mut Context<'m>,
 }
 
-impl Reader<'_, '_, '_> {
+impl LobeReader<'_, '_, '_> {
     /// Reads an extension for which `gltf` has no type.
     fn other<T: serde::de::DeserializeOwned>(&mut self, name: &str) -> Option<T> {
         let found = model::extension(Some(&self.item.others), name, self.place);

@@ -15,7 +15,7 @@ use crate::scene::error::Fault;
 /// The extension object.
 #[derive(serde::Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Compressed {
+pub struct MeshoptExtension {
     pub buffer: Index<Buffer>,
     #[serde(default)]
     pub byte_offset: USize64,
@@ -31,7 +31,7 @@ pub struct Compressed {
 pub fn find(
     others: Option<&Map<String, Value>>,
     place: &str,
-) -> Result<Option<(Compressed, String)>, Fault> {
+) -> Result<Option<(MeshoptExtension, String)>, Fault> {
     // The extension has two names; the KHR name is the ratified one.
     let old = model::extension(others, "EXT_meshopt_compression", place)?;
     match old {
@@ -48,7 +48,11 @@ const TRIANGLE_RATIO: u64 = 12;
 const INDEX_RATIO: u64 = 4;
 
 /// Decodes `encoded` by the extension object `compressed` at `place`.
-pub fn decode(compressed: &Compressed, encoded: &[u8], place: &str) -> Result<Vec<u8>, Fault> {
+pub fn decode(
+    compressed: &MeshoptExtension,
+    encoded: &[u8],
+    place: &str,
+) -> Result<Vec<u8>, Fault> {
     let (stride, count) = (compressed.byte_stride as usize, compressed.count);
     let ratio = match compressed.mode.as_str() {
         "ATTRIBUTES" => ATTRIBUTE_RATIO,
@@ -153,16 +157,16 @@ fn apply_filter(
 
 /// An element of `N` bytes; the standard library has no `Default` for arrays longer than 32.
 #[derive(Clone)]
-struct Element<const N: usize>([u8; N]);
+struct ElementBytes<const N: usize>([u8; N]);
 
-impl<const N: usize> Default for Element<N> {
+impl<const N: usize> Default for ElementBytes<N> {
     fn default() -> Self {
         Self([0; N])
     }
 }
 
 fn decode_elements<const N: usize>(encoded: &[u8], count: usize) -> Option<Vec<u8>> {
-    let elements = decode_vertex_buffer::<Element<N>>(encoded, count).ok()?;
+    let elements = decode_vertex_buffer::<ElementBytes<N>>(encoded, count).ok()?;
     Some(elements.iter().flat_map(|element| element.0).collect())
 }
 

@@ -35,7 +35,7 @@ pub fn read_nodes(context: &mut Context<'_>) -> Result<(Vec<Node>, Vec<usize>), 
 
 /// The extension object `KHR_node_visibility`.
 #[derive(serde::Deserialize)]
-struct Visibility {
+struct VisibilityExtension {
     visible: Option<bool>,
 }
 
@@ -89,7 +89,8 @@ fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Resul
         context.tolerate(light.map(Some), "the node has no light");
         let visibility = model::extension(Some(&extensions.others), "KHR_node_visibility", place);
         let visibility = context.tolerate(visibility, "the node is visible");
-        visible = visibility.is_none_or(|(Visibility { visible }, _)| visible.unwrap_or(true));
+        visible =
+            visibility.is_none_or(|(VisibilityExtension { visible }, _)| visible.unwrap_or(true));
         if item.mesh.is_some() {
             instances = instance::read(&extensions.others, place, context)?;
         }

@@ -37,7 +37,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
         )
     };
     let mut reader = Reader::new(Cursor::new(bytes));
-    let header = Parser::<Vertex>::new()
+    let header = Parser::<PlyVertex>::new()
         .read_header(&mut reader)
         .map_err(broken)?;
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
@@ -46,14 +46,14 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
         check(element, bytes.len())?;
         match name.as_str() {
             "vertex" => {
-                vertices = elements::<Vertex>(&mut reader, element, &header).map_err(broken)?
+                vertices = elements::<PlyVertex>(&mut reader, element, &header).map_err(broken)?
             }
-            "face" => faces = elements::<Face>(&mut reader, element, &header).map_err(broken)?,
+            "face" => faces = elements::<PlyFace>(&mut reader, element, &header).map_err(broken)?,
             "tristrips" => {
                 strips = elements::<Strip>(&mut reader, element, &header).map_err(broken)?
             }
-            "edge" => edges = elements::<Edge>(&mut reader, element, &header).map_err(broken)?,
-            _ => drop(elements::<Skipped>(&mut reader, element, &header).map_err(broken)?),
+            "edge" => edges = elements::<PlyEdge>(&mut reader, element, &header).map_err(broken)?,
+            _ => drop(elements::<SkippedElement>(&mut reader, element, &header).map_err(broken)?),
         }
     }
     let triangles = triangles(&faces, &strips, warnings);
@@ -88,9 +88,9 @@ fn elements<E: PropertyAccess>(
 }
 
 /// Triangles of polygons, as fans, and of strips, in which every other triangle has two vertices exchanged.
-fn triangles(faces: &[Face], strips: &[Strip], warnings: &mut Warnings) -> Vec<[u32; 3]> {
+fn triangles(faces: &[PlyFace], strips: &[Strip], warnings: &mut Warnings) -> Vec<[u32; 3]> {
     let (mut triangles, mut short) = (Vec::new(), 0);
-    for Face { indices } in faces {
+    for PlyFace { indices } in faces {
         match indices.as_slice() {
             [first, rest @ ..] if rest.len() >= 2 => {
                 triangles.extend(rest.windows(2).map(|edge| [*first, edge[0], edge[1]]));
@@ -114,13 +114,18 @@ fn triangles(faces: &[Face], strips: &[Strip], warnings: &mut Warnings) -> Vec<[
     triangles
 }
 
-fn draw(vertices: &[Vertex], triangles: Vec<[u32; 3]>, edges: &[Edge], header: &Header) -> Drawing {
+fn draw(
+    vertices: &[PlyVertex],
+    triangles: Vec<[u32; 3]>,
+    edges: &[PlyEdge],
+    header: &Header,
+) -> Drawing {
     let has = |names: &[&str]| {
         let element = header.elements.get("vertex");
         let has = |name: &&str| element.is_some_and(|e| e.properties.contains_key(*name));
         names.iter().all(has)
     };
-    let finite = |v: &&Vertex| v.position.is_finite();
+    let finite = |v: &&PlyVertex| v.position.is_finite();
     let origin = vertices
         .iter()
         .find(finite)
@@ -156,13 +161,13 @@ fn draw(vertices: &[Vertex], triangles: Vec<[u32; 3]>, edges: &[Edge], header: &
 }
 
 /// A vertex that is being read.
-struct Vertex {
+struct PlyVertex {
     position: DVec3,
     normal: [f32; 3],
     color: [f32; 4],
 }
 
-impl PropertyAccess for Vertex {
+impl PropertyAccess for PlyVertex {
     fn new() -> Self {
         Self {
             position: DVec3::ZERO,
@@ -208,11 +213,11 @@ fn number(property: &Property) -> Option<(f64, f64)> {
 
 /// A polygon; empty if an index is negative.
 #[derive(Default)]
-struct Face {
+struct PlyFace {
     indices: Vec<u32>,
 }
 
-impl PropertyAccess for Face {
+impl PropertyAccess for PlyFace {
     fn new() -> Self {
         Self::default()
     }
@@ -254,11 +259,11 @@ fn is_indices(name: &str) -> bool {
 }
 
 /// Line between two vertices. An index that is not a 32-bit whole number refers to no vertex.
-struct Edge {
+struct PlyEdge {
     ends: [u32; 2],
 }
 
-impl PropertyAccess for Edge {
+impl PropertyAccess for PlyEdge {
     fn new() -> Self {
         Self {
             ends: [u32::MAX; 2],
@@ -279,9 +284,9 @@ impl PropertyAccess for Edge {
 }
 
 /// An element that is not drawn.
-struct Skipped;
+struct SkippedElement;
 
-impl PropertyAccess for Skipped {
+impl PropertyAccess for SkippedElement {
     fn new() -> Self {
         Self
     }

@@ -23,7 +23,7 @@ const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 /// The extension object.
 #[derive(serde::Deserialize)]
-struct Source {
+struct TextureSource {
     source: Index<json::Image>,
 }
 
@@ -85,8 +85,8 @@ fn sources(item: &json::Texture, place: &str, context: &mut Context<'_>) -> Vec<
         .map(|extensions| &extensions.others);
     let mut sources = Vec::new();
     for name in SOURCES {
-        let source = model::extension::<Source>(others, name, place).and_then(|found| {
-            let Some((Source { source }, place)) = found else {
+        let source = model::extension::<TextureSource>(others, name, place).and_then(|found| {
+            let Some((TextureSource { source }, place)) = found else {
                 return Ok(None);
             };
             context.model.check(&source, &format!("{place}/source"))?;

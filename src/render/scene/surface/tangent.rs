@@ -12,7 +12,7 @@ use crate::scene::document::{Influences, Primitive, Target};
 pub fn generate(primitive: &mut Primitive, uv_set: u32) {
     let mut corners = vec![None; 3 * primitive.triangles.len()];
     let flat = primitive.is_flat();
-    let mut surface = Surface {
+    let mut surface = MikktspacePrimitive {
         primitive,
         flat,
         first_uv: if uv_set == 0 { 0 } else { 2 },
@@ -26,20 +26,20 @@ pub fn generate(primitive: &mut Primitive, uv_set: u32) {
 }
 
 /// A primitive with the interface of MikkTSpace.
-struct Surface<'p> {
+struct MikktspacePrimitive<'p> {
     primitive: &'p Primitive,
     flat: bool,
     first_uv: usize,
     corners: &'p mut [Option<[f32; 4]>],
 }
 
-impl Surface<'_> {
+impl MikktspacePrimitive<'_> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
         self.primitive.triangles[face][corner] as usize
     }
 }
 
-impl Geometry for Surface<'_> {
+impl Geometry for MikktspacePrimitive<'_> {
     fn num_faces(&self) -> usize {
         self.primitive.triangles.len()
     }

@@ -1,6 +1,6 @@
 //! Pictures for the report, as data URIs.
 
-use super::pictures::{ErrorMap, Window, colors, small_jpeg};
+use super::pictures::{CropBox, ErrorMap, colors, small_jpeg};
 use super::split::reason;
 use gpc::bench::{Cause, Fault, Yardstick};
 use gpc::output::DecodedImage;
@@ -34,7 +34,7 @@ pub struct Version {
 pub struct Part {
     /// Title: the effect that the example shows.
     pub title: String,
-    pub window: Window,
+    pub window: CropBox,
     pub versions: Vec<Version>,
 }
 
@@ -86,7 +86,7 @@ impl Gallery {
 
 impl GalleryImage {
     /// Causes of the squared error in a window, the largest share first.
-    fn blame(&self, errors: &ErrorMap, window: Window) -> String {
+    fn blame(&self, errors: &ErrorMap, window: CropBox) -> String {
         let mut shares: Vec<(&str, f64)> = Vec::new();
         for (pixel, square) in errors.squares(window) {
             let cause = self.causes.get(pixel).copied();
@@ -122,7 +122,7 @@ struct MethodKind<'a> {
 }
 
 fn versions(
-    window: Window,
+    window: CropBox,
     reference: &DecodedImage,
     images: &[MethodKind<'_>],
 ) -> anyhow::Result<Vec<Version>> {

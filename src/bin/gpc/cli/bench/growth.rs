@@ -1,6 +1,6 @@
 //! Times of the methods while one quantity of the scene or the image grows.
 
-use super::results::{Curve, Point, Time};
+use super::results::{Point, ScalingCurve, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
 use gpc::bench::{self, Contender, Growth, GrowthStep};
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
 
 /// All times of all curves (RFC 4180, but with bare line feeds).
-pub fn csv(curves: &[Curve]) -> String {
+pub fn csv(curves: &[ScalingCurve]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for curve in curves {
         for point in &curve.points {
@@ -47,9 +47,9 @@ const METHODS: [(MethodKind, u32); 3] = [
 impl Bench<'_> {
     /// Measures a curve. A method whose next frame would take longer than the time limit is dropped. The curve ends
     /// where the device runs out of memory.
-    pub fn grow(&mut self, growth: Growth) -> anyhow::Result<Curve> {
+    pub fn grow(&mut self, growth: Growth) -> anyhow::Result<ScalingCurve> {
         self.progress.begin(&growth.to_string());
-        let mut curve = Curve {
+        let mut curve = ScalingCurve {
             quantity: growth.to_string(),
             points: Vec::new(),
             notes: Vec::new(),
@@ -162,7 +162,7 @@ impl Bench<'_> {
 }
 
 /// Prints a curve.
-pub fn print(curve: &Curve) -> anyhow::Result<()> {
+pub fn print(curve: &ScalingCurve) -> anyhow::Result<()> {
     print::line(&format!("\ngrowth of {}, GPU ms:", curve.quantity))?;
     print::line(
         "         value  triangles        size  superpx      none  superpixel 64    ssaa 64",

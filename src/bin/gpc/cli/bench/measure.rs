@@ -36,7 +36,7 @@ impl Bench<'_> {
             None => None,
         };
 
-        let mut notes = Notes::default();
+        let mut notes = SkippedSamples::default();
         let mut entries = Vec::new();
         let mut ssaa = None;
         let mut superpixels = None;
@@ -184,9 +184,9 @@ fn for_whole_pixels(settings: Settings) -> Settings {
 
 /// Notes on numbers of samples that were left out: a line for each method and reason.
 #[derive(Default)]
-struct Notes(Vec<(MethodKind, String, Vec<u32>)>);
+struct SkippedSamples(Vec<(MethodKind, String, Vec<u32>)>);
 
-impl Notes {
+impl SkippedSamples {
     fn leave_out(&mut self, method: MethodKind, samples: u32, possible: String) {
         match self
             .0

@@ -4,7 +4,7 @@ use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
 use crate::cli::print;
-use gpc::bench::{Motion, Sequence};
+use gpc::bench::{Motion, SequenceErrors};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{EngineError, MethodKind, RenderError, Settings};
@@ -102,9 +102,9 @@ impl Bench<'_> {
         settings: &Settings,
         cameras: &[Camera],
         truths: &[DecodedImage],
-    ) -> anyhow::Result<Sequence> {
+    ) -> anyhow::Result<SequenceErrors> {
         let mut frame = self.headless.prepare(&subject.prepared, settings)?;
-        let mut sequence = Sequence::default();
+        let mut sequence = SequenceErrors::default();
         for (camera, truth) in cameras.iter().zip(truths) {
             let rendered = self.headless.render(&mut frame, camera)?;
             let picture = Picture::new(rendered.size, &rendered.colors)?;

@@ -27,7 +27,7 @@ pub struct ErrorMap {
 
 /// A rectangular part of an image, in pixels.
 #[derive(Clone, Copy)]
-pub struct Window {
+pub struct CropBox {
     /// Upper left pixel.
     pub low: [usize; 2],
     pub size: [usize; 2],
@@ -71,19 +71,19 @@ impl ErrorMap {
     }
 
     /// The index and squared error of each pixel in a window.
-    pub fn squares(&self, window: Window) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub fn squares(&self, window: CropBox) -> impl Iterator<Item = (usize, f64)> + '_ {
         let pixels = window.rows(self.size[0]).flatten();
         pixels.filter_map(|pixel| Some((pixel, f64::from(*self.errors.get(pixel)?).powi(2))))
     }
 
     /// The window with the largest sum of squared errors.
-    pub fn worst_window(&self) -> Window {
+    pub fn worst_window(&self) -> CropBox {
         let [width, height] = self.size;
         let size = [WINDOW[0].min(width), WINDOW[1].min(height)];
         let mut worst = (f32::NEG_INFINITY, [0, 0]);
         for y in (0..=height - size[1]).step_by(STRIDE) {
             for x in (0..=width - size[0]).step_by(STRIDE) {
-                let window = Window { low: [x, y], size };
+                let window = CropBox { low: [x, y], size };
                 let sum: f32 = window
                     .rows(width)
                     .filter_map(|row| self.errors.get(row))
@@ -95,11 +95,11 @@ impl ErrorMap {
                 }
             }
         }
-        Window { low: worst.1, size }
+        CropBox { low: worst.1, size }
     }
 }
 
-impl Window {
+impl CropBox {
     /// Index ranges of the window's rows, in an image of this width.
     fn rows(self, width: usize) -> impl Iterator<Item = Range<usize>> {
         let [x, y] = self.low;
@@ -127,7 +127,7 @@ pub fn small_jpeg(size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String>
     let mut bytes = Vec::with_capacity(3 * columns * rows);
     for y in 0..rows {
         for x in 0..columns {
-            let block = Window {
+            let block = CropBox {
                 low: [x * step, y * step],
                 size: [step, step],
             };
@@ -171,7 +171,7 @@ mod tests {
         for (x, y) in [(10, 10), (150, 70), (151, 71)] {
             image.pixels[y * 200 + x] = [0.5; 4];
         }
-        let Window { low, size } = ErrorMap::new(&black, &image).worst_window();
+        let CropBox { low, size } = ErrorMap::new(&black, &image).worst_window();
         assert!((low[0]..low[0] + size[0]).contains(&150), "{low:?}");
         assert!((low[1]..low[1] + size[1]).contains(&71), "{low:?}");
     }

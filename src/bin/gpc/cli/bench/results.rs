@@ -34,7 +34,7 @@ pub struct Results {
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
     /// Curves of time against the size of the scene or image.
-    pub growth: Vec<Curve>,
+    pub growth: Vec<ScalingCurve>,
     /// Findings of the stress suite.
     pub stress: Vec<Stress>,
 }
@@ -97,7 +97,7 @@ pub struct Stress {
 
 /// Times while one quantity grows.
 #[derive(Serialize)]
-pub struct Curve {
+pub struct ScalingCurve {
     pub quantity: String,
     pub points: Vec<Point>,
     /// What was left out, and why.

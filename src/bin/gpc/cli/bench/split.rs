@@ -1,7 +1,9 @@
 //! Split of an image's error by cause and by fault.
 
 use super::subject::{Bench, Subject, Wanted};
-use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
+use gpc::bench::{
+    self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick,
+};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 
@@ -10,7 +12,7 @@ const MOST_SAMPLES: u32 = 1024;
 
 /// Images and scenes that tell the causes and faults of errors.
 pub(super) struct Splitter {
-    looks: Looks,
+    looks: PixelTriangles,
     /// The scene stripped to its paint and stripped to its light, each with its reference.
     halves: [(PreparedScene, DecodedImage); 2],
     /// Samples of the superpixels by which the images of other methods are split.
@@ -34,7 +36,7 @@ impl Splitter {
         let settings = bench.settings(MethodKind::None, 1);
         let progress = &bench.progress;
         let mut looks = 0;
-        let found = Looks::new(
+        let found = PixelTriangles::new(
             &mut bench.headless,
             &subject.prepared,
             &subject.view.camera,

@@ -17,7 +17,7 @@ pub struct Summary {
     /// Ratios at each number of samples that superpixels were measured with.
     pub at: Vec<AtSamples>,
     /// Times to reach the error of supersampling, at each of its numbers of samples.
-    pub reach: Vec<Reach>,
+    pub reach: Vec<TimeToMatch>,
 }
 
 /// Cost and accuracy of superpixels at one number of samples. Each median is taken over the scenes that have both
@@ -53,7 +53,7 @@ pub struct Ratio {
 
 /// Superpixel time / supersampling time, at the error of supersampling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Reach {
+pub struct TimeToMatch {
     /// Samples a pixel of supersampling, whose error is the goal.
     pub samples: u32,
     /// The median ratio; `None` if at least half of the scenes never reach the error.
@@ -125,7 +125,7 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
     }
 }
 
-fn reach(scenes: &[&SceneResults], samples: u32) -> Option<Reach> {
+fn reach(scenes: &[&SceneResults], samples: u32) -> Option<TimeToMatch> {
     let scenes: Vec<_> = scenes
         .iter()
         .filter_map(|scene| Some((scene.name.clone(), time_to_error(scene, samples)?)))
@@ -134,7 +134,7 @@ fn reach(scenes: &[&SceneResults], samples: u32) -> Option<Reach> {
         .iter()
         .map(|(_, share)| share.unwrap_or(f64::INFINITY));
     let share = median(shares)?;
-    Some(Reach {
+    Some(TimeToMatch {
         samples,
         share: share.is_finite().then_some(share),
         scenes,

@@ -39,7 +39,7 @@ impl Status {
 
 /// An image of either folder, and its result.
 #[derive(Serialize)]
-pub struct Image {
+pub struct ComparedImage {
     /// Its path below the folder, with `/` between folders.
     pub name: String,
     pub status: Status,
@@ -51,12 +51,12 @@ pub struct Image {
 
 /// Output of `--json`.
 #[derive(Serialize)]
-struct Report<'a> {
+struct ComparisonReport<'a> {
     equal: usize,
     different: usize,
     missing: usize,
     new: usize,
-    images: &'a [Image],
+    images: &'a [ComparedImage],
 }
 
 pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
@@ -84,7 +84,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
     let count = |status| images.iter().filter(|image| image.status == status).count();
     let [equal, different, missing, new] = Status::ALL.map(count);
     if args.json {
-        print::json(&Report {
+        print::json(&ComparisonReport {
             equal,
             different,
             missing,
@@ -144,8 +144,8 @@ fn is_image(path: &Path) -> bool {
     extension.is_some_and(|e| ["png", "jpg", "jpeg", "exr"].contains(&e.as_str()))
 }
 
-fn alone(name: &str, status: Status, absent_from: &Path) -> Image {
-    Image {
+fn alone(name: &str, status: Status, absent_from: &Path) -> ComparedImage {
+    ComparedImage {
         name: name.to_owned(),
         status,
         comparison: None,
@@ -154,8 +154,8 @@ fn alone(name: &str, status: Status, absent_from: &Path) -> Image {
 }
 
 /// Compares the two images with this name, and writes the error map if they differ.
-fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image> {
-    let different = |comparison, reason| Image {
+fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<ComparedImage> {
+    let different = |comparison, reason| ComparedImage {
         name: name.to_owned(),
         status: Status::Different,
         comparison,
@@ -171,7 +171,7 @@ fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image>
         Err(error) => return Ok(different(None, error.to_string())),
     };
     if comparison.rmse <= bound {
-        return Ok(Image {
+        return Ok(ComparedImage {
             name: name.to_owned(),
             status: Status::Equal,
             comparison: Some(comparison),
@@ -200,7 +200,7 @@ fn difference_path(folder: &Path, name: &str) -> PathBuf {
     }
 }
 
-fn line(image: &Image) -> String {
+fn line(image: &ComparedImage) -> String {
     let status = image.status.name();
     match &image.reason {
         Some(reason) => format!("{status:<9}  {}: {reason}", image.name),

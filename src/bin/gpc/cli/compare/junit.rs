@@ -1,10 +1,10 @@
 //! JUnit reports, which the forges of continuous integration show among the results of tests.
 
-use super::folders::{Image, Status};
+use super::folders::{ComparedImage, Status};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 /// A report of a test suite with one test case for each image.
-pub fn report(suite: &str, images: &[Image]) -> anyhow::Result<String> {
+pub fn report(suite: &str, images: &[ComparedImage]) -> anyhow::Result<String> {
     let mut cases = TestSuite::new(suite);
     for image in images {
         let status = if image.status == Status::Equal {

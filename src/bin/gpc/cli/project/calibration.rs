@@ -12,12 +12,12 @@ use std::path::Path;
 /// A projector, and how well its correspondences fit.
 pub struct Calibrated {
     pub projector: Projector,
-    pub fit: Option<Fit>,
+    pub fit: Option<HomographyFit>,
 }
 
 /// Figures of the homography that was fitted to a projector's correspondences.
 #[derive(Clone, Copy, Serialize)]
-pub struct Fit {
+pub struct HomographyFit {
     correspondences: usize,
     agreeing: usize,
 }
@@ -90,7 +90,7 @@ fn planar(
     );
     Ok(Calibrated {
         projector: Projector::planar(size, homography)?,
-        fit: Some(Fit {
+        fit: Some(HomographyFit {
             correspondences: pairs.len(),
             agreeing,
         }),

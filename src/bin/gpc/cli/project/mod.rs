@@ -3,12 +3,12 @@
 mod calibration;
 
 use super::exit::{Usage, usage};
-use super::render::{self, ImageArgs, Shot};
+use super::render::{self, ImageArgs, RenderedImage};
 use super::report::{Figures, ReportArgs};
-use super::stage::Stage;
+use super::stage::RenderSetup;
 use super::{input, values};
 use anyhow::Context;
-use calibration::Fit;
+use calibration::HomographyFit;
 use clap::Args;
 use gpc::camera::projector::{Projector, blend_weights};
 use gpc::output::{self, Format, Picture};
@@ -63,9 +63,9 @@ pub struct ProjectArgs {
 
 /// Fields of `--json` for a projector's frame, besides those of every image.
 #[derive(Serialize)]
-struct Frame {
+struct ProjectorFrame {
     /// Quality of the correspondences; `null` for a dense map.
-    calibration: Option<Fit>,
+    calibration: Option<HomographyFit>,
     /// Mean of the projector's blend weights.
     mean_weight: f64,
     weights: Option<String>,
@@ -73,8 +73,8 @@ struct Frame {
 
 /// Output of `--json`.
 #[derive(Serialize)]
-struct Report {
-    images: Vec<Figures<Frame>>,
+struct ProjectReport {
+    images: Vec<Figures<ProjectorFrame>>,
     wall: Option<String>,
 }
 
@@ -108,7 +108,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         .map(|calibrated| (calibrated.projector, calibrated.fit))
         .unzip();
     let weights = blend_weights(&projectors);
-    let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
+    let mut stage = RenderSetup::open(&args.scene, &args.image, args.image.settings(format))?;
     let mut images = Vec::new();
     let mut frames = Vec::new();
     for (index, (projector, weights)) in projectors.iter().zip(&weights).enumerate() {
@@ -128,7 +128,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
             frames.push(Photograph::from(&picture));
         }
         let sum: f64 = weights.iter().copied().map(f64::from).sum();
-        let frame = Frame {
+        let frame = ProjectorFrame {
             calibration: fits.get(index).copied().flatten(),
             mean_weight: sum / weights.len().max(1) as f64,
             weights: weights_path.map(|path| path.display().to_string()),
@@ -151,7 +151,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         let picture = Picture::new(args.image.size, &light)?;
         render::write(path, &output::encode(format, &picture, &[])?)?;
     }
-    args.report.print(&Report {
+    args.report.print(&ProjectReport {
         images,
         wall: args.wall.as_ref().map(|path| path.display().to_string()),
     })?;
@@ -159,7 +159,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
 }
 
 /// Renders the picture at the locations of a projector's pixels.
-fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
+fn shoot(stage: &mut RenderSetup, projector: &Projector) -> anyhow::Result<RenderedImage> {
     let pinhole = stage.pinhole()?;
     let locations = projector.set()?.locations();
     stage.render(projector.size(), &[(pinhole, locations)])

@@ -19,7 +19,7 @@ pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
 pub use save::{beside, encode, save, write};
-pub use session::{Shot, open_beside, upload};
+pub use session::{RenderedImage, open_beside, upload};
 pub use view::{NamedView, choose as choose_views};
 
 use super::exit::{Usage, usage};
@@ -29,7 +29,7 @@ use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
-use report::{Origin, Report};
+use report::{ImageReport, Origin};
 use sequence::SequenceFrame;
 use serde::Serialize;
 use session::Session;
@@ -39,8 +39,8 @@ use template::{Fields, Template};
 
 /// Output of `--json` for several images.
 #[derive(Serialize)]
-struct Sequence {
-    images: Vec<Report>,
+struct SequenceReport {
+    images: Vec<ImageReport>,
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
@@ -52,7 +52,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     if steps.is_empty() {
         log::info!("there are fewer images than shares: none are left for this one");
         let images = Vec::new();
-        args.report.print(&Sequence { images })?;
+        args.report.print(&SequenceReport { images })?;
         return Ok(ExitCode::SUCCESS);
     };
     let aspect = f64::from(settings.size[0]) / f64::from(settings.size[1]);
@@ -124,7 +124,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 startup: clock.finish().filter(|_| args.repeat.is_none()),
                 warnings: warnings.0.clone(),
             };
-            let report = Report::new(origin, &shot);
+            let report = ImageReport::new(origin, &shot);
             progress.suspend(|| log::info!("{}", report.line()));
             progress.inc(1);
             images.push(report);
@@ -136,7 +136,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     }
     match images.as_slice() {
         [image] if args.sequence.shard.is_none() => args.report.print(image)?,
-        _ => args.report.print(&Sequence { images })?,
+        _ => args.report.print(&SequenceReport { images })?,
     }
     Ok(ExitCode::SUCCESS)
 }

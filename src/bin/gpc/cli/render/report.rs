@@ -1,20 +1,20 @@
 //! Report on an image.
 
-use super::session::Shot;
+use super::session::RenderedImage;
 use super::startup::StartUp;
 use super::view::NamedView;
-use crate::cli::report::{Device, Effort, RenderWork};
+use crate::cli::report::{DeviceReport, Effort, RenderWork};
 use gpc::camera::{Camera, Projection};
 use gpc::render::Settings;
 use serde::Serialize;
 
 /// Figures of one image.
 #[derive(Serialize)]
-pub struct Report {
+pub struct ImageReport {
     /// The file, or `-`.
     output: String,
     #[serde(flatten)]
-    device: Device,
+    device: DeviceReport,
     /// Width and height of the rendered image or part in pixels.
     size: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -52,7 +52,7 @@ struct CameraReport {
 /// Where an image came from and where it is written.
 pub struct Origin<'a> {
     pub output: String,
-    pub device: &'a Device,
+    pub device: &'a DeviceReport,
     pub settings: &'a Settings,
     pub view: &'a NamedView,
     /// The camera of the image, turntable rotation included.
@@ -61,8 +61,8 @@ pub struct Origin<'a> {
     pub warnings: Vec<String>,
 }
 
-impl Report {
-    pub fn new(origin: Origin<'_>, shot: &Shot) -> Self {
+impl ImageReport {
+    pub fn new(origin: Origin<'_>, shot: &RenderedImage) -> Self {
         let size = origin.settings.output_size();
         let [width, height] = origin.settings.size.map(f64::from);
         Self {

@@ -1,7 +1,7 @@
 //! A device with one scene on it, rendering image after image.
 
 use super::startup::Clock;
-use crate::cli::report::Device;
+use crate::cli::report::DeviceReport;
 use gpc::camera::Camera;
 use gpc::render::{
     Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, SceneRequest,
@@ -20,7 +20,7 @@ pub struct Session {
 }
 
 /// An image, and the times of all renderings that it took.
-pub struct Shot {
+pub struct RenderedImage {
     pub rendered: Rendered,
     /// Times of the passes, a list for each rendering.
     pub passes: Vec<Vec<PassTime>>,
@@ -79,8 +79,8 @@ impl Session {
     }
 
     /// The device.
-    pub fn device(&self) -> Device {
-        Device::of(&self.headless)
+    pub fn device(&self) -> DeviceReport {
+        DeviceReport::of(&self.headless)
     }
 
     /// Uploads a pose in place of the one before, prepared for the motion that is given, and makes pipelines for it.
@@ -110,7 +110,7 @@ impl Session {
     }
 
     /// Renders the scene on the device: once, or with `repeat` one unmeasured time and then `repeat` times.
-    pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
+    pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<RenderedImage> {
         if repeat.is_some() {
             self.render(camera)?;
         }
@@ -122,7 +122,7 @@ impl Session {
             wall_ms.push(1e3 * start.elapsed().as_secs_f64());
             passes.push(rendered.statistics.passes.clone());
             if passes.len() >= repeat.unwrap_or(1) as usize {
-                return Ok(Shot {
+                return Ok(RenderedImage {
                     rendered,
                     passes,
                     wall_ms,

@@ -33,12 +33,12 @@ pub struct Superpixels {
 pub struct Triangles {
     pub total: u64,
     drawn: u64,
-    skipped: Skipped,
+    skipped: SkippedTriangles,
 }
 
 /// Triangles that were left out of the search for samples, by reason.
 #[derive(Serialize)]
-struct Skipped {
+struct SkippedTriangles {
     outside: u64,
     backfacing: u64,
     degenerate: u64,
@@ -85,7 +85,7 @@ fn count(counts: &TriangleCounts) -> Triangles {
     Triangles {
         total: counts.total,
         drawn: counts.drawn,
-        skipped: Skipped {
+        skipped: SkippedTriangles {
             outside: counts.outside,
             backfacing: counts.backfacing,
             degenerate: counts.degenerate,

@@ -46,12 +46,12 @@ impl ReportArgs {
 
 /// The device that rendered.
 #[derive(Clone, Serialize)]
-pub struct Device {
+pub struct DeviceReport {
     pub device: String,
     pub driver: String,
 }
 
-impl Device {
+impl DeviceReport {
     pub fn of(headless: &Headless) -> Self {
         let limits = headless.gpu().limits();
         Self {
@@ -68,7 +68,7 @@ pub struct Figures<T> {
     /// The file, or `-`.
     pub output: String,
     #[serde(flatten)]
-    pub device: Device,
+    pub device: DeviceReport,
     /// Width and height of the image; of the image plane if the samples make no image.
     pub size: [u32; 2],
     #[serde(flatten)]

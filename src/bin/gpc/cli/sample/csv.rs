@@ -1,6 +1,6 @@
 //! Samples as comma-separated values.
 
-use super::table::{COLUMNS, Locations, Row};
+use super::table::{COLUMNS, Locations, SampleRow};
 use crate::cli::csv;
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
 }
 
 /// Writes a header, and a line for each row. The numbers have enough digits to be read back exactly.
-pub fn write(rows: &[Row]) -> Vec<u8> {
+pub fn write(rows: &[SampleRow]) -> Vec<u8> {
     let mut text = COLUMNS.join(",");
     for row in rows {
         text.push('\n');

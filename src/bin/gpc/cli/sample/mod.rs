@@ -7,7 +7,7 @@ mod table;
 use super::exit::{Usage, usage};
 use super::render::{ImageArgs, Tonemap};
 use super::report::{Effort, RenderWork, ReportArgs};
-use super::stage::Stage;
+use super::stage::RenderSetup;
 use super::{input, render};
 use anyhow::Context;
 use clap::Args;
@@ -58,7 +58,7 @@ pub struct SampleArgs {
 
 /// Fields of `--json` for samples, besides those of every image.
 #[derive(Serialize)]
-struct Seen {
+struct SampleFields {
     /// Sampling locations.
     locations: usize,
     /// Number of samples that see a triangle.
@@ -89,7 +89,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         (_, Some(Tonemap::Neutral)) => Format::Png8,
         _ => Format::Exr,
     };
-    let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
+    let mut stage = RenderSetup::open(&args.scene, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let start = Instant::now();
     let Sampled {
@@ -119,7 +119,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         }
     };
     render::write(&args.output, &bytes)?;
-    let seen = Seen {
+    let seen = SampleFields {
         locations: samples.len(),
         hits: samples
             .iter()
@@ -144,13 +144,13 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
 
 /// Values at each location; with antialiasing, the colours are means around it.
 fn sample(
-    stage: &mut Stage,
+    stage: &mut RenderSetup,
     pinhole: &Pinhole,
     set: &SamplingSet,
     aa: MethodKind,
 ) -> anyhow::Result<Sampled<PointSample>> {
     let locations = set.locations();
-    let Stage {
+    let RenderSetup {
         headless,
         scene,
         settings,

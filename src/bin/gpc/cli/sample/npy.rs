@@ -1,6 +1,6 @@
 //! Samples as NPY arrays (numpy.lib.format, versions 1 to 3).
 
-use super::table::{COLUMNS, Locations, Row};
+use super::table::{COLUMNS, Locations, SampleRow};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -77,7 +77,7 @@ fn shape(text: &str) -> Option<Vec<usize>> {
 }
 
 /// Writes an array of N x 12 float64.
-pub fn write(rows: &[Row]) -> Vec<u8> {
+pub fn write(rows: &[SampleRow]) -> Vec<u8> {
     let mut header = format!(
         "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
         rows.len(),

@@ -60,14 +60,14 @@ pub const COLUMNS: [&str; 12] = [
 ];
 
 /// The values of one sample.
-pub type Row = [f64; COLUMNS.len()];
+pub type SampleRow = [f64; COLUMNS.len()];
 
 /// Whether a sample sees a triangle.
 pub fn is_hit(sample: &PointSample) -> bool {
     sample.id != 0 || sample.blend_id != 0
 }
 
-pub fn row(uv: [f64; 2], sample: &PointSample) -> Row {
+pub fn row(uv: [f64; 2], sample: &PointSample) -> SampleRow {
     let [r, g, b, a] = sample.color.map(f64::from);
     let [x, y, z] = sample.normal.map(f64::from);
     let hit = f64::from(u8::from(is_hit(sample)));

@@ -6,9 +6,9 @@ mod steps;
 pub use args::ZoomArgs;
 
 use super::exit::{Usage, usage};
-use super::render::Shot;
+use super::render::RenderedImage;
 use super::report::Figures;
-use super::stage::Stage;
+use super::stage::RenderSetup;
 use super::{input, render};
 use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
 use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
@@ -23,16 +23,16 @@ use std::time::Instant;
 use steps::StepPicture;
 
 /// A zoomed image, the pictures of its steps, and its figures.
-struct Outcome {
+struct ZoomResult {
     result: Rendered,
     steps: Vec<StepPicture>,
-    figures: Report,
+    figures: ZoomReport,
 }
 
 /// Output of `--json`.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Report {
+enum ZoomReport {
     Scene(Box<Figures<About>>),
     Photograph {
         output: String,
@@ -58,7 +58,7 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let Outcome {
+    let ZoomResult {
         result,
         steps,
         figures,
@@ -98,7 +98,7 @@ fn is_picture(path: &Path) -> bool {
 }
 
 /// Zooms into a photograph.
-fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     if !args.image.aov.is_empty() {
         usage!("--aov: a photograph holds nothing but colours");
     }
@@ -118,13 +118,13 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
         attributes: Vec::new(),
         statistics: Statistics::default(),
     };
-    let figures = Report::Photograph {
+    let figures = ZoomReport::Photograph {
         output: args.output.display().to_string(),
         size,
         regions: map.regions().to_vec(),
         wall_ms,
     };
-    Ok(Outcome {
+    Ok(ZoomResult {
         result,
         steps,
         figures,
@@ -132,14 +132,14 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
 }
 
 /// Samples a scene at the locations that the map gives the pixels.
-fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outcome> {
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     let size = args.image.size;
     if args.steps {
         for (index, region) in map.regions().iter().enumerate() {
             check_window(index, &region.window())?;
         }
     }
-    let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
+    let mut stage = RenderSetup::open(&args.input, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let set = SamplingSet::mapped(size, map)?;
     let statistics = set.statistics();
@@ -178,10 +178,10 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
         }
     }
     stage.finish()?;
-    Ok(Outcome {
+    Ok(ZoomResult {
         result,
         steps,
-        figures: Report::Scene(Box::new(figures)),
+        figures: ZoomReport::Scene(Box::new(figures)),
     })
 }
 
@@ -193,6 +193,10 @@ fn rate(rate: Option<f64>) -> String {
     }
 }
 
-fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Shot> {
+fn render_set(
+    stage: &mut RenderSetup,
+    pinhole: Pinhole,
+    set: &SamplingSet,
+) -> anyhow::Result<RenderedImage> {
     stage.render(set.size(), &[(pinhole, set.locations())])
 }

@@ -5,18 +5,18 @@ use gpc::camera::LocationMap;
 use gpc::camera::zoom::ZoomMap;
 
 /// Pixels of a picture, rows from the top.
-type Pixels = Vec<[f32; 4]>;
+type LinearPixels = Vec<[f32; 4]>;
 
 /// A picture of one step of the zoom.
 pub struct StepPicture {
     /// Name of the step's file.
     pub name: String,
     pub size: [u32; 2],
-    pub pixels: Pixels,
+    pub pixels: LinearPixels,
 }
 
 impl StepPicture {
-    pub fn new(name: &str, size: [u32; 2], pixels: Pixels) -> Self {
+    pub fn new(name: &str, size: [u32; 2], pixels: LinearPixels) -> Self {
         Self {
             name: name.to_owned(),
             size,
@@ -47,9 +47,9 @@ const DRAWN: u32 = 96;
 const DIMMED: f32 = 0.15;
 
 /// Picture of the image, dimmed, with a subset of the locations as dots.
-fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> LinearPixels {
     let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
-    let mut picture: Pixels = original.iter().map(dim).collect();
+    let mut picture: LinearPixels = original.iter().map(dim).collect();
     let [width, height] = size;
     let step = (width.max(height) / DRAWN).max(1);
     let middles = |side: u32| (step / 2..side).step_by(step as usize);
@@ -71,12 +71,12 @@ fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
 }
 
 /// The zoomed image without the transitions.
-fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> LinearPixels {
     keep(size, result, |place| !in_transition(map, place))
 }
 
 /// The transitions alone.
-fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> LinearPixels {
     keep(size, result, |place| in_transition(map, place))
 }
 
@@ -87,7 +87,7 @@ fn in_transition(map: &ZoomMap, place: DVec2) -> bool {
 }
 
 /// The pixels at whose places `kept` is true; the others become transparent.
-fn keep(size: [u32; 2], pixels: &[[f32; 4]], kept: impl Fn(DVec2) -> bool) -> Pixels {
+fn keep(size: [u32; 2], pixels: &[[f32; 4]], kept: impl Fn(DVec2) -> bool) -> LinearPixels {
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |col| (col, row)));
     let pixel = |(pixel, (col, row)): (&[f32; 4], (u32, u32))| {
         if kept(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)) {

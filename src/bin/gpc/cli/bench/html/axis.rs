@@ -12,7 +12,7 @@ pub struct Axis {
 }
 
 /// Place of a chart's axes, in the picture's units.
-pub struct Frame {
+pub struct PlotArea {
     pub left: f64,
     pub right: f64,
     pub top: f64,
@@ -77,8 +77,8 @@ impl Axis {
 }
 
 /// Draws the grid lines, their values and the names of the axes.
-pub fn grid(svg: &mut String, frame: &Frame, [x, y]: [&Axis; 2], [across, up]: [&str; 2]) {
-    let Frame {
+pub fn grid(svg: &mut String, frame: &PlotArea, [x, y]: [&Axis; 2], [across, up]: [&str; 2]) {
+    let PlotArea {
         left,
         right,
         top,

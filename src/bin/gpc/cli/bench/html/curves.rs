@@ -16,7 +16,7 @@ const TOP: f64 = 34.0;
 const BOTTOM: f64 = 44.0;
 
 /// A place on the chart.
-type Place = (f64, f64);
+type ChartPoint = (f64, f64);
 
 /// An error against the reference: its name and its values.
 pub struct Measure {
@@ -52,7 +52,7 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
     let mut svg = format!(
         "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"error against time\">"
     );
-    let frame = axis::Frame {
+    let frame = axis::PlotArea {
         left: LEFT,
         right: WIDTH - RIGHT,
         top: TOP,
@@ -60,7 +60,7 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
     };
     let names = ["time of a frame on the device, ms", measure.name];
     axis::grid(&mut svg, &frame, [&x, &y], names);
-    let front: Vec<Place> = front(drawn.iter().copied(), error)
+    let front: Vec<ChartPoint> = front(drawn.iter().copied(), error)
         .into_iter()
         .map(place)
         .collect();
@@ -79,7 +79,7 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
         if rows.is_empty() {
             continue;
         }
-        let line: Vec<Place> = rows.iter().map(|row| place(row)).collect();
+        let line: Vec<ChartPoint> = rows.iter().map(|row| place(row)).collect();
         let _ = write!(
             svg,
             "<g class=\"{method}\"><polyline points=\"{}\"/>",

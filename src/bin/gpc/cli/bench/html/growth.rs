@@ -1,14 +1,14 @@
 //! The section on growth: a chart and a table for each quantity.
 
-use super::axis::{self, Axis, Frame, points};
+use super::axis::{self, Axis, PlotArea, points};
 use super::{escape, short, times};
-use crate::cli::bench::results::{Curve, Point};
+use crate::cli::bench::results::{Point, ScalingCurve};
 use gpc::render::MethodKind;
 use std::fmt::Write;
 
 const WIDTH: f64 = 540.0;
 const HEIGHT: f64 = 400.0;
-const FRAME: Frame = Frame {
+const FRAME: PlotArea = PlotArea {
     left: 62.0,
     right: WIDTH - 14.0,
     top: 34.0,
@@ -17,7 +17,7 @@ const FRAME: Frame = Frame {
 const METHODS: [MethodKind; 3] = [MethodKind::None, MethodKind::Superpixel, MethodKind::Ssaa];
 
 /// The section; empty where no growth was measured.
-pub fn section(curves: &[Curve]) -> String {
+pub fn section(curves: &[ScalingCurve]) -> String {
     if curves.is_empty() {
         return String::new();
     }
@@ -33,7 +33,7 @@ pub fn section(curves: &[Curve]) -> String {
     )
 }
 
-fn chart(curve: &Curve) -> String {
+fn chart(curve: &ScalingCurve) -> String {
     let values = curve.points.iter().map(|point| point.value);
     // Shares begin at zero, for which a logarithmic axis has no place.
     let x = if values.clone().any(|value| value == 0.0) {
@@ -76,7 +76,7 @@ fn chart(curve: &Curve) -> String {
     svg
 }
 
-fn table(curve: &Curve) -> String {
+fn table(curve: &ScalingCurve) -> String {
     let ratio = |point: &Point, above, below| Some(point.ms(above)? / point.ms(below)?);
     let row = |point: &Point| {
         let cells: String = METHODS
@@ -131,7 +131,7 @@ mod tests {
             superpixel_fraction: None,
             times,
         };
-        let curve = Curve {
+        let curve = ScalingCurve {
             quantity: "superpixels, %".to_owned(),
             points: vec![
                 point(

@@ -3,7 +3,7 @@
 use super::{anchor, escape, short, times};
 use crate::cli::bench::front::{TARGETS, time_to_error};
 use crate::cli::bench::results::{Row, SceneResults};
-use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
+use crate::cli::bench::summary::{self, AtSamples, Ratio, Summary, TimeToMatch};
 use crate::cli::bench::table::{decibels, share, within};
 
 /// Table of the ratios over all scenes that have textures, or all that have none.
@@ -40,7 +40,7 @@ pub fn summary(summary: &Summary) -> String {
 
 /// Table of the time in which superpixels reach the error of supersampling; empty if that was not measured.
 pub fn reach(summary: &Summary) -> String {
-    let row = |reach: &Reach| {
+    let row = |reach: &TimeToMatch| {
         let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
         format!(
             "<tr><th>{}</th><td class=\"key\">{}</td><td>{} of {}</td></tr>",
