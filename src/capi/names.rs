@@ -133,7 +133,7 @@ pub(super) fn in_c(error: &HostError) -> String {
 }
 
 /// The member of C's that the engine calls `what`.
-fn c_name<'a>(what: &'a str) -> &'a str {
+fn c_name(what: &str) -> &str {
     let known = NAMES.iter().find(|(name, _)| *name == what);
     known.map_or(what, |(_, member)| member)
 }
