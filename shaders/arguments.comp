@@ -24,8 +24,8 @@ void main() {
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
     } else if (push.after == AFTER_GROUPS) {
-        for (uint list = 0u; list < 4u; list++)
-            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < 2u ? push.subgroups_first : push.subgroups));
+        for (uint list = 0u; list < TILE_LISTS; list++)
+            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < TILE_LIST_BLENDED ? push.subgroups_first : push.subgroups));
     } else if (push.after == AFTER_PROBE) {
         arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * push.subgroups);
         arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);

@@ -90,7 +90,7 @@ void main() {
     Footprint f = footprint_of(k.v0, k.v1, k.v2);
     ivec2 corner = ivec2(split(tile, frame.tiles.x)) * ivec2(8, 4);
     uvec2 low = uvec2(clamp(f.low - corner, ivec2(0), ivec2(7, 3))), high = uvec2(clamp(f.high - corner, ivec2(0), ivec2(7, 3)));
-    uint base = tile * LOAD, after = morton_of(high) + 1u, tile_end = loads[base + FIRST] + loads[base + COUNT];
+    uint base = tile * LOAD_WORDS, after = morton_of(high) + 1u, tile_end = loads[base + LOAD_FIRST] + loads[base + LOAD_COUNT];
     uint first = loads[base + bit_at(morton_of(low))], end = after < 32u ? loads[base + bit_at(after)] : tile_end;
     end = exists && shown_count > 0 ? end : 0u;
     uint n = first + i % INVOCATIONS_OF_PAIR;

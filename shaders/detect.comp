@@ -14,7 +14,6 @@
 layout(local_size_x = 64) in;
 
 layout(constant_id = DETECT_CONSTANT_MODE) const uint MODE = 0u;
-const uint CONTRAST = 0u, EDGES = 1u, EXACT = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = DETECT_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
 layout(constant_id = DETECT_CONSTANT_THIN) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
 layout(constant_id = DETECT_CONSTANT_TRANSPARENT) const bool TRANSPARENT = false;  // colours differ in alpha too
@@ -33,9 +32,9 @@ uint blend_at(ivec2 p) {
 
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint shadow_a, uint shadow_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b) || shadow_a != shadow_b;
-    if (MODE == EXACT) return other;
+    if (MODE == DETECT_EXACT) return other;
     bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
-    return contrast && (MODE == CONTRAST || other);
+    return contrast && (MODE == DETECT_CONTRAST || other);
 }
 
 void main() {
@@ -48,9 +47,9 @@ void main() {
 
     uint word = 0u, previous_row = 0u;
     uint amid = 0u, previous_beside = 0u, previous_same = 0u;   // pixels between two that show the same triangle
-    if (MODE == EVERY) {
+    if (MODE == DETECT_EVERY) {
         word = ~0u;
-    } else if (MODE == BLENDED) {
+    } else if (MODE == DETECT_BLENDED) {
         for (int i = 0; i < 32; i++) {
             ivec2 p = min(base + ivec2(i & 7, i >> 3), last);
             word |= blend_at(p) != 0u ? 1u << i : 0u;
@@ -61,8 +60,8 @@ void main() {
         [[unroll]] for (int i = 0; i < 10; i++) {
             above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; shadow[i] = 0u; above_shadow[i] = 0u; above_alpha[i] = 0;
         }
-        // The tile's rows and one beyond on both sides; what the first ones say is shifted out. Not unrolled: the code would
-        // take CPU drivers six times as long to compile.
+        // The tile's rows and one beyond on both sides; what the first ones say is shifted out. ROLLED, see
+        // workarounds.glsl.
         int r = -1;
         do {
             int y = clamp(base.y + r, 0, last.y);
@@ -72,7 +71,7 @@ void main() {
                 int place = p.y * int(frame.size.x) + p.x;
                 if (BLEND_IDS) blend[i] = blend_at(p);
                 shadow[i] = shadows_at(uint(place));
-                uint color_code = MODE == EXACT ? 0u : texelFetch(display, place).x;
+                uint color_code = MODE == DETECT_EXACT ? 0u : texelFetch(display, place).x;
                 code[i] = spread(color_code);
                 alpha[i] = int(color_code >> 24);
             }

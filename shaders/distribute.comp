@@ -22,7 +22,6 @@
 layout(local_size_x = 64) in;
 layout(constant_id = DISTRIBUTE_CONSTANT_STEP) const uint STEP = 0u;
 layout(constant_id = DISTRIBUTE_CONSTANT_POINTS) const bool POINTS = false;      // locations are sampled once each, and several share a cell
-const uint NUMBER = 0u, LAY_OUT = 1u, ARRANGE = 2u, ENCLOSE = 3u;
 
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_LOADS) buffer Loads { uint loads[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_RANKS) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
@@ -32,7 +31,7 @@ layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_GROUPS_OUT) writeonly
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_TILE_LOADS) writeonly buffer TileLoads { uvec2 tile_loads[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_MASKS) writeonly buffer Masks { uint masks[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_COUNTERS) buffer Counters { uint counters[]; };
-// Quicker to read on CPU devices.
+// Bound twice, BOUND_TWICE of workarounds.glsl.
 layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_LOCATIONS) uniform utextureBuffer locations;
 layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_ORDER) uniform utextureBuffer order;
 layout(push_constant) uniform Push {
@@ -75,7 +74,7 @@ void number(uint i) {
         && is_finite(extent.x) && is_finite(extent.y) && max(extent.x, extent.y) <= FARTHEST;
     valid = valid && all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(uvec2(pixel) >> uvec2(3u, 2u), push.tiles));
     ranks[i] = ~0u;
-    if (valid) ranks[i] = atomicAdd(loads[tile_of(pixel) * LOAD + bit_of(pixel)], 1u);
+    if (valid) ranks[i] = atomicAdd(loads[tile_of(pixel) * LOAD_WORDS + bit_of(pixel)], 1u);
     uint left_out = subgroupAdd(valid ? 0u : 1u);
     if (subgroupElect() && left_out != 0u) atomicAdd(counters[COUNTER_LEFT_OUT], left_out);
     if (POINTS) {
@@ -92,7 +91,7 @@ void number(uint i) {
 }
 
 void lay_out(uint tile) {
-    uint base = tile * LOAD, count = 0u, mask = 0u;
+    uint base = tile * LOAD_WORDS, count = 0u, mask = 0u;
     [[unroll]] for (uint place = 0u; place < 32u; place++) {
         uint more = loads[base + bit_at(place)];
         count += more;
@@ -109,9 +108,9 @@ void lay_out(uint tile) {
         loads[base + bit_at(place)] = next;
         next += more;
     }
-    loads[base + FIRST] = first;
-    loads[base + COUNT] = count;
-    loads[base + FIRST_GROUP] = atomicAdd(counters[COUNTER_GROUPS], groups);
+    loads[base + LOAD_FIRST] = first;
+    loads[base + LOAD_COUNT] = count;
+    loads[base + LOAD_FIRST_GROUP] = atomicAdd(counters[COUNTER_GROUPS], groups);
     atomicAdd(counters[COUNTER_PLACED], count);
     atomicAdd(counters[COUNTER_TILES], 1u);
     if (!POINTS) atomicAdd(counters[COUNTER_SUPERPIXELS], cells);
@@ -121,7 +120,7 @@ void arrange(uint i) {
     uint rank = ranks[i];
     if (rank == ~0u) return;
     ivec2 pixel = ivec2(texelFetch(locations, int(2u * i)).xy);
-    uint tile = tile_of(pixel), place = loads[tile * LOAD + bit_of(pixel)] + rank, cell = place / push.in_cell;
+    uint tile = tile_of(pixel), place = loads[tile * LOAD_WORDS + bit_of(pixel)] + rank, cell = place / push.in_cell;
     if (POINTS) order_out[place] = i;
     if (cell * push.in_cell == place) cells_out[2u * cell + 1u] = uvec4(POINTS ? place : i, tile, 0u, 0u);
 }
@@ -129,8 +128,8 @@ void arrange(uint i) {
 void enclose(uint cell) {
     if (cell >= counters[COUNTER_CELLS]) return;
     uvec2 held = cells_out[2u * cell + 1u].xy;
-    uint tile = held.y, base = tile * LOAD, first_cell = loads[base + FIRST] / push.in_cell, number = cell - first_cell;
-    uint count = loads[base + COUNT], cells = (count + push.in_cell - 1u) / push.in_cell;
+    uint tile = held.y, base = tile * LOAD_WORDS, first_cell = loads[base + LOAD_FIRST] / push.in_cell, number = cell - first_cell;
+    uint count = loads[base + LOAD_COUNT], cells = (count + push.in_cell - 1u) / push.in_cell;
     held.y = min(push.in_cell, count - number * push.in_cell);
     vec2 low = vec2(3.4e38), high = vec2(-3.4e38), at;
     uint member = 0u;
@@ -148,14 +147,14 @@ void enclose(uint cell) {
     cells_out[2u * cell + 1u] = uvec4(held, 0u, 0u);
     uint group = number / push.in_group;
     if (group * push.in_group == number)
-        groups_out[loads[base + FIRST_GROUP] + group] = uvec4(tile, cell, min(push.in_group, cells - number), number);
+        groups_out[loads[base + LOAD_FIRST_GROUP] + group] = uvec4(tile, cell, min(push.in_group, cells - number), number);
 }
 
 void main() {
     uint i = invocation_number();
     uint tile_count = push.tiles.x * push.tiles.y;
-    if (STEP == NUMBER && i < push.count) number(i);
-    if (STEP == LAY_OUT && i < tile_count) lay_out(i);
-    if (STEP == ARRANGE && i < push.count) arrange(i);
-    if (STEP == ENCLOSE) enclose(i);
+    if (STEP == DISTRIBUTE_NUMBER && i < push.count) number(i);
+    if (STEP == DISTRIBUTE_LAY_OUT && i < tile_count) lay_out(i);
+    if (STEP == DISTRIBUTE_ARRANGE && i < push.count) arrange(i);
+    if (STEP == DISTRIBUTE_ENCLOSE) enclose(i);
 }

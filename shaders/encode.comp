@@ -7,14 +7,13 @@
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = ENCODE_CONSTANT_FORMAT) const uint FORMAT = 0u;
-const uint RGBA8_SRGB = 0u, RGBA16F = 1u;
 layout(std430, set = SET_FRAME, binding = BINDING_ENCODED) writeonly buffer Encoded { uint encoded[]; };
 
 void main() {
     uint i = invocation_number();
     if (i >= frame.size.x * frame.size.y) return;
     vec4 c = color[i];
-    if (FORMAT == RGBA8_SRGB) {
+    if (FORMAT == ENCODE_RGBA8_SRGB) {
         encoded[i] = packUnorm4x8(vec4(srgb_encode(c.rgb), c.a));
     } else {
         encoded[2u * i] = packHalf2x16(c.rg);

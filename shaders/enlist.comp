@@ -27,8 +27,8 @@ void main() {
         uint list = list_of(tile);
         uvec2 added = uvec2(load.needs.x, load.needs.z);
         uvec2 at = uvec2(before.needs.x, before.needs.z) + subgroupExclusiveAdd(added);
-        uint length_ = list == 3u ? 0u : tile.x;
-        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (list == 3u ? 0u : TILE_LISTED);
+        uint length_ = list == TILE_LIST_UNLISTED ? 0u : tile.x;
+        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (list == TILE_LIST_UNLISTED ? 0u : TILE_LISTED);
         if (busy) tiles[index] = uvec4(tile.x, at, flags | length_ << TILE_COUNT_SHIFT);
         // Lengths of all lists in one scan, a byte each.
         uvec4 lengths = load.entries << uvec4(0u, 8u, 16u, 24u);
@@ -40,7 +40,7 @@ void main() {
         added = subgroupAdd(added);
         before.needs += uvec4(added.x, 0u, added.y, 0u);
         before.entries += (uvec4(subgroupAdd(together)) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu;
-        unlisted += subgroupBallotBitCount(subgroupBallot(busy && list == 3u));
+        unlisted += subgroupBallotBitCount(subgroupBallot(busy && list == TILE_LIST_UNLISTED));
         i += LANES;
     } while (i < STRETCH);
     if (unlisted != 0u && subgroupElect()) atomicAdd(counters[COUNTER_UNLISTED_TOTAL], unlisted);

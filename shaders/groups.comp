@@ -16,7 +16,7 @@ void main() {
     bool needless = POINTS && !OCCLUDERS && tiles[tile].x == 0u;
     bool placed = i < count && in_round(tile) && !needless;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;
-    for (uint list = 0u; list < 4u; list++) {
+    for (uint list = 0u; list < TILE_LISTS; list++) {
         bool mine = placed && needs == list;
         uvec4 together = subgroupBallot(mine);
         uint n = subgroupBallotBitCount(together), base = 0u;

@@ -28,7 +28,6 @@ layout(push_constant) uniform Push {
     uint weight_count;
     uint flags;
 } part;
-const uint FLAT = 1u, INSIDE_OUT = 2u, TANGENTS = 4u;   // normals of triangles; mirrored; the geometry has tangents
 
 // A vertex's position (0), normal (1) or tangent (2), displaced.
 vec3 morphed(uint v, uint stream) {
@@ -80,7 +79,7 @@ vec3 face_normal(uint v) {
     uint first = v - v % 3u;
     vec3 a = position_at(blended(first), first), b = position_at(blended(first + 1u), first + 1u), c = position_at(blended(first + 2u), first + 2u);
     vec3 normal = unit_or(cross(b - a, c - a), vec3(0.0, 0.0, 1.0));
-    return (part.flags & INSIDE_OUT) != 0u ? -normal : normal;
+    return (part.flags & POSE_INSIDE_OUT) != 0u ? -normal : normal;
 }
 
 void main() {
@@ -95,10 +94,10 @@ void main() {
     float side = dot(rows.x.xyz, cofactors) < 0.0 ? -1.0 : 1.0;
     vec3 n = morphed(v, 1u);
     n = side * vec3(dot(cofactors, n), dot(cross(rows.z.xyz, rows.x.xyz), n), dot(cross(rows.x.xyz, rows.y.xyz), n));
-    bool is_flat = (part.flags & FLAT) != 0u;
+    bool is_flat = (part.flags & POSE_FLAT) != 0u;
     vec3 normal = is_flat ? face_normal(v) : unit_or(n, vec3(0.0, 0.0, 1.0));
     imageStore(normals_out, to, vec4(normal, pow(abs(dot(rows.x.xyz, cofactors)), 1.0 / 3.0)));
-    if ((part.flags & TANGENTS) == 0u) return;
+    if ((part.flags & POSE_TANGENTS) == 0u) return;
     vec3 t = morphed(v, 2u);
     t = unit_or(vec3(dot(rows.x.xyz, t), dot(rows.y.xyz, t), dot(rows.z.xyz, t)), vec3(1.0, 0.0, 0.0));
     imageStore(tangents_out, to, vec4(t, side * texelFetch(resting, int((part.first_resting + v) * 3u + 2u)).w));

@@ -27,9 +27,8 @@ layout(push_constant) uniform Push {
     uvec2 size;         // of that part, in pixels
     float range;        // how far the light of a local one reaches
     uint step_;         // of the light: its bit; 32 more in the first step of all, which begins the words; of a probe, 64 times its number from 1 on
-    uint face;          // which of the six planes of a cube this is, as `face_of` numbers them; SINGLE is no cube's
+    uint face;          // which of the six planes of a cube this is, as `face_of` numbers them; SINGLE_PLANE is no cube's
 } push;
-const uint SINGLE = 6u;
 // Places of probes in their pixels. Growth finds what lies within two pixels of a place that a shadow covers: of a line a fifth of a
 // pixel wide, all but 1 % on average over its directions, and all but 14 % in the worst. Centres alone miss 22 % and 78 %.
 const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), vec2(0.46875, -0.296875));
@@ -86,7 +85,7 @@ void main() {
 
     vec4 at = to_clip(push.to_plane, vec4(position, 1.0));
     vec2 uv = at.xy / at.w, low = floor(uv);
-    bool asked = reached && !turned && at.w > 0.0 && (push.face == SINGLE || face_of(-to_light) == push.face);
+    bool asked = reached && !turned && at.w > 0.0 && (push.face == SINGLE_PLANE || face_of(-to_light) == push.face);
     // Rounding takes what lies on the part's rim off it.
     ivec2 pixel = ivec2(clamp(low, -8388608.0, 8388607.0)) - push.low, last = ivec2(push.size) - 1;
     vec2 within = uv - low;

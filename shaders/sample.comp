@@ -25,7 +25,7 @@
 // OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
 // Header of a cell's block: first record, number of records (LAYERED: leaves).
 //
-// Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
+// Loops are do-while with guarded bodies: DO_WHILE of workarounds.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -40,12 +40,10 @@ layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     //
 layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // where a block has all samples of a cell
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
 layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
-const uint WHOLE = 0u, PROBE = 1u, REST = 2u;           // RUN: all samples at once; few; all, in the cells that are left
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
-const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
 const uint LONGEST = APART ? LONGEST_LIST_APART : LONGEST_LIST;     // list that MOST_TRIPS are enough for
 
 shared uint kept[3072];                                 // by cell, then entry
@@ -61,23 +59,23 @@ shared uint kept[3072];                                 // by cell, then entry
 
 void main() {
     if (in_other_subgroups(LANES)) return;
-    uint samples = RUN == PROBE ? PROBES : frame.sample_count;
-    uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
+    uint samples = RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count;
+    uint first_sample = RUN == RUN_PROBE ? frame.sample_count : 0u;
     uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
     // A subgroup's share of an entry: (blocks, cells).
     uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
     uvec2 work = split(workgroup_number(), spans * (LANES / CELLS_AT_ONCE));
-    if (work.y >= counters[RUN == REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
+    if (work.y >= counters[RUN == RUN_REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
     uvec2 share = split(work.x, spans);
     uint lane = gl_SubgroupInvocationID;
     // What marks are kept for: a tile's pixels, or a group's cells.
-    uint entry = tile_lists[first_entry(RUN == REST ? LIST + LEFT : LIST) + work.y], item = entry_item(entry);
+    uint entry = tile_lists[first_entry(RUN == RUN_REST ? LIST + LEFT : LIST) + work.y], item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     uint cells_word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint word = RUN == REST ? cells_word & marks[item] : cells_word;
+    uint word = RUN == RUN_REST ? cells_word & marks[item] : cells_word;
     uint cells = bitCount(word);
     uint first_cell = entry_part(entry) * LANES + share.y * CELLS_AT_ONCE;
     uint first_block = share.x * BLOCKS_AT_ONCE;
@@ -208,7 +206,7 @@ void main() {
         if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;
     } while (++block < blocks);
 
-    if (RUN == PROBE && unsettled != 0u && subgroupElect()) {
+    if (RUN == RUN_PROBE && unsettled != 0u && subgroupElect()) {
         atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(unsettled)));
         leave_cells(LIST, item, unsettled);
     }

@@ -7,7 +7,7 @@
 // the cell lie apart, the nearer one takes the samples that both cover; where not, depths are compared at each of these, in
 // a trip of its own. A cell is done when all its samples are covered and what is to come lies behind all that it sees.
 //
-// Loops end by votes, and have one body for both kinds of trips: on lavapipe no branch skips anything.
+// Loops end by votes, and have one body for both kinds of trips: see DO_WHILE of workarounds.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -20,7 +20,6 @@ layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false;
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
 
-const uint PROBES = 64u;            // offsets between those of a cell and the sums of runs of them
 const float ROUNDING = 1.0 / 64.0;  // as in sample.comp
 const int SLOTS = 6;                // triangles that a cell sees
 const int AHEAD = 8;                // candidates that are sorted at once

@@ -69,7 +69,7 @@ void main() {
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_WAITING] = tile_count() - next;
         counters[COUNTER_RECORDS] = 0u;
-        [[unroll]] for (uint list = 0u; list < 4u; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
+        [[unroll]] for (uint list = 0u; list < TILE_LISTS; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
         counters[COUNTER_PLAIN_LEFT] = 0u;
         counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;

@@ -30,9 +30,7 @@ layout(push_constant) uniform Push {
     float apart;        // least distance of edges from their ends, towards the camera, in pixels
     uint edges;
 } part;
-const uint LEFT = 0u, RIGHT = 1u, JOINT_CENTRE = 2u, JOINT_FIRST = 3u, JOINT_SECOND = 4u, DISC = 5u;
-const uint FACES_CAMERA = 1u << 31, KIND = 255u;   // of a corner
-const uint SMOOTH = 1u, DOUBLE_SIDED = 2u;          // of an edge
+const uint KIND = 255u;   // of a corner
 
 const float LONGEST_MITRE = 4.0;    // in widths of the line
 const float CREASE_END = 1.0, SMOOTH_END = 0.25, MOST_RISE = 16.0; // in halves of the width
@@ -67,13 +65,13 @@ vec2 corner(uint kind, vec4 at, vec4 other, vec4 beyond, bool goes_on, float hal
     bool has_joint = goes_on && own.z > 0.0 && next.z > 0.0;
     float l = dot(s, s), turn = e.x * f.y - e.y * f.x;
     bool mitred = has_joint && l * LONGEST_MITRE * LONGEST_MITRE >= 4.0 && half_width * abs(turn) <= 0.5 * l * min(own.z, next.z);
-    if (kind <= RIGHT) {
+    if (kind <= CORNER_RIGHT) {
         vec2 left = mitred ? left_of(s) * (2.0 / l) : left_of(e);
-        return kind == LEFT ? left : -left;
+        return kind == CORNER_LEFT ? left : -left;
     }
     // The outer corners of both segments, counter-clockwise.
-    vec2 side = (kind == JOINT_FIRST) != (turn > 0.0) ? left_of(e) : left_of(f);
-    return has_joint && !mitred && kind != JOINT_CENTRE ? (turn > 0.0 ? side : -side) : vec2(0.0);
+    vec2 side = (kind == CORNER_JOINT_FIRST) != (turn > 0.0) ? left_of(e) : left_of(f);
+    return has_joint && !mitred && kind != CORNER_JOINT_CENTRE ? (turn > 0.0 ? side : -side) : vec2(0.0);
 }
 
 // Towards the camera, from a position.
@@ -89,8 +87,8 @@ bool edge_shows(uvec2 ends, uvec2 opposite, uint flags) {
     vec3 c = texelFetch(positions, int(o.x)).xyz - a, d = texelFetch(positions, int(o.y)).xyz - a;
     bool front = dot(cross(along, c), view) > 0.0, front_beyond = dot(cross(d, along), view) > 0.0;
     bool exists = o.x != e.x && o.x != e.y, exists_beyond = o.y != e.x && o.y != e.y;
-    if ((flags & SMOOTH) != 0u) return front != front_beyond;
-    return (flags & DOUBLE_SIDED) != 0u || (exists && front) || (exists_beyond && front_beyond);
+    if ((flags & EDGE_SMOOTH) != 0u) return front != front_beyond;
+    return (flags & EDGE_DOUBLE_SIDED) != 0u || (exists && front) || (exists_beyond && front_beyond);
 }
 
 // How far the face of a third vertex rises towards the camera, to the side of the edge that it lies on, over a distance
@@ -117,16 +115,16 @@ void main() {
         flags = ends.w;
         opposite = is_first ? shape.xy : shape.yx;
         ends = is_first ? uvec4(ends.x + corner_of_edge, ends.y, ends.z, ends.y) : uvec4(ends.x + corner_of_edge, ends.z, ends.y, ends.z);
-        shape = uvec4((corner_of_edge & 1u) == 0u ? LEFT | FACES_CAMERA : RIGHT | FACES_CAMERA, uvec3(0u));
+        shape = uvec4((corner_of_edge & 1u) == 0u ? CORNER_LEFT | CORNER_FACES_CAMERA : CORNER_RIGHT | CORNER_FACES_CAMERA, uvec3(0u));
     }
     vec4 p = texelFetch(positions, int(ends.y)), q = texelFetch(positions, int(ends.z));
     vec4 at = to_clip(frame.transform, p), other = to_clip(frame.transform, q);
     vec4 beyond = to_clip(frame.transform, texelFetch(positions, int(ends.w)));
     uint kind = shape.x & KIND;
-    bool is_line = kind != DISC, goes_on = ends.w != ends.y;
+    bool is_line = kind != CORNER_DISC, goes_on = ends.w != ends.y;
     bool seen = !is_behind(at);
     vec3 end = p.xyz, along = q.xyz - end;
-    if (is_line && kind <= RIGHT && !seen && !is_behind(other)) {
+    if (is_line && kind <= CORNER_RIGHT && !seen && !is_behind(other)) {
         // The segment begins at the near plane.
         float t = to_near_plane(other, at);
         p = mix(q, p, t);
@@ -142,7 +140,7 @@ void main() {
             other = mix(at, other, t);
         }
         // On along the edge itself, whose depth the line keeps.
-        float beyond_end = half_width * ((flags & SMOOTH) != 0u ? SMOOTH_END : CREASE_END), span = other.w * way_from(at, other).z;
+        float beyond_end = half_width * ((flags & EDGE_SMOOTH) != 0u ? SMOOTH_END : CREASE_END), span = other.w * way_from(at, other).z;
         float share = span > 0.0 ? beyond_end * at.w / max(span - beyond_end * (at.w - other.w), 0.5 * span) : 0.0;
         p += (p - q) * share;
         at += (at - other) * share;
@@ -164,5 +162,5 @@ void main() {
         placed += sight * share;
     }
     imageStore(positions_out, int(ends.x), vec4(placed, 1.0));
-    if ((shape.x & FACES_CAMERA) != 0u) imageStore(normals_out, int(ends.x), vec4(-frame.view_direction.xyz, 0.0));
+    if ((shape.x & CORNER_FACES_CAMERA) != 0u) imageStore(normals_out, int(ends.x), vec4(-frame.view_direction.xyz, 0.0));
 }

@@ -24,12 +24,11 @@ layout(constant_id = THIN_CONSTANT_FARTHER_IS_LARGER) const bool FARTHER_IS_LARG
 
 layout(set = SET_FRAME, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
-const uint PER_INVOCATION = 8u;
 const float LONG = 64.0;            // pixels: a longer one is walked by a workgroup, not an invocation
 layout(push_constant) uniform Push { uint long_; } push;    // 1: of WALK, the long ones
 
 void select_thin() {
-    uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
+    uint first = workgroup_number() * 64u * THIN_PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;
@@ -45,7 +44,7 @@ void select_thin() {
         if (thin && !long_ && slot < frame.survivor_capacity) survivors[slot] = t;
         slot = append(COUNTER_THIN_LONG, thin && long_);
         if (thin && long_ && slot < frame.survivor_capacity) survivors[frame.survivor_capacity - 1u - slot] = t;
-    } while (++step_ < PER_INVOCATION);
+    } while (++step_ < THIN_PER_INVOCATION);
 }
 
 // `depths`: the farthest and the nearest of the triangle there.

@@ -11,12 +11,6 @@
 #include "material.glsl"
 #include "triangle.glsl"
 
-#define ALPHA_TEXTURED 1u
-#define ALPHA_NEAREST_MAG 2u
-#define ALPHA_NEAREST_MIN 4u
-#define ALPHA_NO_MIP 8u
-#define ALPHA_NEAREST_MIP 16u
-
 // A triangle's alpha over positions relative to some centre. The planes are to be divided by `weight`, which is
 // linear in the position as they are.
 struct AlphaTest {
@@ -83,12 +77,12 @@ float alpha_bilinear(uint first, uvec2 size, vec2 uv, bool nearest) {
     return mix(row.x, row.y, f.y);
 }
 
-// Folds a coordinate into 0 to 1 by the wrap mode: 0 repeat, 1 mirrored, 2 clamp.
+// Folds a coordinate into 0 to 1 by the wrap mode.
 float alpha_wrap(float u, uint mode) {
     float repeated = u - floor(u);
     float period = u * 0.5 - floor(u * 0.5);
     float mirrored = 1.0 - abs(period * 2.0 - 1.0);
-    float folded = mode == 0u ? repeated : mode == 1u ? mirrored : u;
+    float folded = mode == WRAP_REPEAT ? repeated : mode == WRAP_MIRRORED_REPEAT ? mirrored : u;
     return clamp(folded, 0.0, 1.0);
 }
 

@@ -139,7 +139,7 @@ void hold_nearby(Candidate t, bool some, float covered) {
 
 // The place that stands for some samples of a cell.
 uint place_of_part(vec2 sum_of_offsets, float samples, bool wide) {
-    return place_of_samples(sum_of_offsets, samples, float(RUN == PROBE ? PROBES : frame.sample_count), wide);
+    return place_of_samples(sum_of_offsets, samples, float(RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count), wide);
 }
 
 uint place_of(vec2 sum_of_offsets, float samples) {

@@ -10,7 +10,7 @@ uint trips = 0u;            // of loops over lists of layers, by this invocation
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
     vec3 through = vec3(1.0);
-    // Not do-while: llvmpipe lets invocations that have left see what later trips make of variables of its body.
+    // The exception of DO_WHILE, see workarounds.glsl.
     while (node != ~0u) {
         vec4 layer = texelFetch(shaded, int(node));
         light += TINTED ? through * layer.rgb : through * layer.a * layer.rgb;

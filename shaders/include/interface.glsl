@@ -276,6 +276,81 @@
 #define AFTER_PROBE 7u
 #define AFTER_PAIRS 8u
 
+// What makes a pixel a superpixel, in `detect`.
+#define DETECT_CONTRAST 0u
+#define DETECT_EDGES 1u
+#define DETECT_EXACT 2u
+#define DETECT_BLENDED 3u
+#define DETECT_EVERY 4u
+
+// Steps of `distribute`, in their order.
+#define DISTRIBUTE_NUMBER 0u
+#define DISTRIBUTE_LAY_OUT 1u
+#define DISTRIBUTE_ARRANGE 2u
+#define DISTRIBUTE_ENCLOSE 3u
+
+// Formats that `encode` writes.
+#define ENCODE_RGBA8_SRGB 0u
+#define ENCODE_RGBA16F 1u
+
+// Lists of tiles, by what a kernel of `sample` has to know of a tile's triangles. Counters and arguments of lists have this order.
+#define TILE_LIST_PLAIN 0u
+#define TILE_LIST_MASKED 1u
+#define TILE_LIST_BLENDED 2u
+#define TILE_LIST_UNLISTED 3u
+#define TILE_LISTS 4u
+
+// Runs of `sample`: with all samples of a cell at once; with few; with all, in the cells that the run with few left.
+#define RUN_WHOLE 0u
+#define RUN_PROBE 1u
+#define RUN_REST 2u
+
+// Samples of a cell in the run with few.
+#define PROBE_SAMPLES 64u
+
+// Flags of the vertices that `pose` moves: they have normals of triangles; the transform is mirrored; the geometry has tangents.
+#define POSE_FLAT 1u
+#define POSE_INSIDE_OUT 2u
+#define POSE_TANGENTS 4u
+
+// Kinds of a corner of a line or point, and the flag of a corner that is lit as if it faced the camera.
+#define CORNER_LEFT 0u
+#define CORNER_RIGHT 1u
+#define CORNER_JOINT_CENTRE 2u
+#define CORNER_JOINT_FIRST 3u
+#define CORNER_JOINT_SECOND 4u
+#define CORNER_DISC 5u
+#define CORNER_FACES_CAMERA 0x80000000u
+
+// Flags of an edge of a mesh.
+#define EDGE_SMOOTH 1u
+#define EDGE_DOUBLE_SIDED 2u
+
+// Flag of an instance that mirrors its triangles.
+#define INSTANCE_MIRRORED 1u
+
+// Flags of an alpha map, and the wrap modes in the two bits of each axis.
+#define ALPHA_TEXTURED 1u
+#define ALPHA_NEAREST_MAG 2u
+#define ALPHA_NEAREST_MIN 4u
+#define ALPHA_NO_MIP 8u
+#define ALPHA_NEAREST_MIP 16u
+#define WRAP_REPEAT 0u
+#define WRAP_MIRRORED_REPEAT 1u
+#define WRAP_CLAMP_TO_EDGE 2u
+
+// The plane of a light that needs one alone; smaller numbers are those of the faces of a cube.
+#define SINGLE_PLANE 6u
+
+// Words that `distribute` has for a tile: a word for each pixel, then the first place, the number of places and the first group.
+#define LOAD_WORDS 35u
+#define LOAD_FIRST 32u
+#define LOAD_COUNT 33u
+#define LOAD_FIRST_GROUP 34u
+
+// Indices of triangles that an invocation of the first dispatch of `thin` takes.
+#define THIN_PER_INVOCATION 8u
+
 // Vectors of a material, see material.glsl.
 #define MATERIAL_BASE_COLOR 0u
 #define MATERIAL_EMISSIVE_METALLIC 1u

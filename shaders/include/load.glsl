@@ -49,11 +49,10 @@ void keep_load(uint stretch, Load load) {
     tiles[at + 1u] = load.entries;
 }
 
-// Number of the work list of a tile that has superpixels: PLAIN, MASKED (alpha tests), BLENDED (lists of layers) or UNLISTED
-// (a list that outgrows its buffer).
+// Number of the work list of a tile that has superpixels, one of TILE_LIST_.
 uint list_of(uvec4 tile) {
     bool listed = (tile.w & TILE_OVERFLOW) == 0u && tile.x <= frame.list_capacity;
-    return !listed ? 3u : (tile.w & TILE_HAS_BLEND) != 0u ? 2u : (tile.w & TILE_HAS_MASK) != 0u ? 1u : 0u;
+    return !listed ? TILE_LIST_UNLISTED : (tile.w & TILE_HAS_BLEND) != 0u ? TILE_LIST_BLENDED : (tile.w & TILE_HAS_MASK) != 0u ? TILE_LIST_MASKED : TILE_LIST_PLAIN;
 }
 
 // What tile `index` needs as `bin` left it.
@@ -62,7 +61,7 @@ Load load_of(uint index, uvec4 tile) {
     uint cells = LOCATIONS ? located.x : uint(bitCount(masks[index]));
     uint samples = LOCATIONS ? located.y : cells * frame.sample_count;
     uint list = list_of(tile);
-    bool busy = cells != 0u, listed = list != 3u, per_sample = push.per_sample != 0u;
+    bool busy = cells != 0u, listed = list != TILE_LIST_UNLISTED, per_sample = push.per_sample != 0u;
     bool layered = (tile.w & TILE_HAS_BLEND) != 0u || (!listed && frame.first_blend < frame.triangle_count);
     uint candidates_ = listed ? tile.x : frame.triangle_count;
     // Different lists of layers that a block is admitted with, too; most need less than half of these records. Both grow

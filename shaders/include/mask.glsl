@@ -61,7 +61,7 @@ vec2 sum_of_offsets(uvec2 mask) {
 // eight samples from number `first` on takes two.
 vec2 sum_of_run(uint first, uint samples) {
     uint four = first >> 2, bits = samples << (first & 3u);
-    int at = int(frame.sample_count + PROBES + four * 16u);
+    int at = int(frame.sample_count + PROBE_SAMPLES + four * 16u);
     return texelFetch(pattern_offsets, at + int(bits & 15u)).xy + texelFetch(pattern_offsets, at + 16 + int(bits >> 4)).xy;
 }
 

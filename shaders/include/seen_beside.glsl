@@ -6,7 +6,7 @@
 // Marks the neighbours of a superpixel that are none and contrast with its colour, a bit a pixel.
 void mark_contrasting_neighbours(uvec2 pixel, uint code) {
     uint tile_count = frame.tiles.x * frame.tiles.y;
-    // Not unrolled: the code would take CPU drivers much longer to compile.
+    // ROLLED, see workarounds.glsl.
     ivec2 way = ivec2(-1);
     do {
         ivec2 there = ivec2(pixel) + way;

@@ -66,7 +66,7 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
     [[unroll]] for (int g = 0; g < ROWS; g++)
         sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
-    // Mesa 25 does not unroll a loop around another one, and would index the rows in memory.
+    // Written out: UNROLLED of workarounds.glsl.
     sum_rows(sums, 0u);
     sum_rows(sums, 1u);
     sum_rows(sums, 2u);
@@ -178,7 +178,7 @@ float weigh(Surfaces s, uint samples, out bool settled) {
     float share = max(1.0 - whole_area, 0.0) / max(left, 1.0);
     bool agrees = abs(whole_area - whole_samples / float(samples)) <= AGREEMENT;
     bool exact = known && agrees && !(small && sharing > 1.0);
-    settled = RUN != PROBE || (exact && sharing <= 1.0);
+    settled = RUN != RUN_PROBE || (exact && sharing <= 1.0);
     float cell_weight = float(frame.sample_count);
     return exact ? cell_weight * (s.whole ? float(s.area) * (1.0 / AREA_UNIT) * mend : s.samples * share)
         : cell_weight / float(samples) * s.samples;
@@ -227,7 +227,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
     held.parts = merge_bits(held.parts, shaded_in);
     bool single = holds && !several;
     // What is shaded in many places takes all samples to choose them from.
-    settled = settled && (RUN != PROBE || !subgroupAny(several));
+    settled = settled && (RUN != RUN_PROBE || !subgroupAny(several));
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, HELD);
     uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
@@ -248,7 +248,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
-    if (BY_PART && RUN != PROBE) {
+    if (BY_PART && RUN != RUN_PROBE) {
         float each = weight / max(held.samples, 1.0);
         uint pending = subgroupBallot(several).x;
         do {

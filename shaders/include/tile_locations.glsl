@@ -1,10 +1,8 @@
-// The words of a tile in the buffer that `distribute` sorts a list's locations by: for each pixel how many there are, later its first
+// The LOAD_WORDS words of a tile in the buffer that `distribute` sorts a list's locations by: for each pixel how many there are, later its first
 // place in the order; then the tile's first place, its locations, and its first group.
 #ifndef TILE_LOCATIONS_GLSL
 #define TILE_LOCATIONS_GLSL
-
-const uint LOAD = 35u;
-const uint FIRST = 32u, COUNT = 33u, FIRST_GROUP = 34u;
+#include "interface.glsl"
 
 // A tile's locations follow a Morton curve through its pixels. The number in its tile, row by row, of the pixel at a place of it.
 uint bit_at(uint place) { return (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1; }

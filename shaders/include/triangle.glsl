@@ -11,7 +11,6 @@
 
 layout(constant_id = CONSTANT_INSTANCED) const bool INSTANCED = false;  // indices are those of instances, not of records
 
-const uint MIRRORED = 1u;
 // Vectors of an instance: (what leads from an index to a record, end of its indices, flags, 0), four columns to clip
 // space, three rows to the geometry's space.
 const int INSTANCE_VECTORS = 8;
@@ -35,7 +34,7 @@ vec4 to_clip(mat4 matrix, vec4 p) {
 // Corners and word of the triangle that an instance, by its first vector, has at an index.
 uvec4 triangle_in(uvec4 instance, uint index) {
     uvec4 record = texelFetch(triangles, int(min(index, instance.y - 1u) + instance.x));
-    record.yz = (instance.z & MIRRORED) != 0u ? record.zy : record.yz;
+    record.yz = (instance.z & INSTANCE_MIRRORED) != 0u ? record.zy : record.yz;
     record.yz = index < instance.y ? record.yz : record.xx;
     return record;
 }

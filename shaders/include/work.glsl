@@ -5,12 +5,10 @@
 #define WORK_GLSL
 #include "lanes.glsl"
 #include "locations.glsl"
+#include "workarounds.glsl"
 
 const uint LEFT = 4u;               // from the list of a kind to that of the cells left
 const uint PARTS_OF_TILE = 32u / LANES;
-// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more than these is reported as
-// STALLED instead.
-const uint MOST_TRIPS = 50000u;
 
 // First entry of a list.
 uint first_entry(uint list) {

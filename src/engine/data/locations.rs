@@ -1,7 +1,7 @@
 //! Sampling locations on the device, which take the place of pixels.
 
 use super::{BoundTexels, Resources, SampleSet};
-use crate::engine::passes::spirv::distribute_set;
+use crate::engine::passes::spirv::{LOAD_WORDS, distribute_set};
 use crate::engine::passes::{Distribute, ListLength, ListRegion};
 use crate::engine::pipelines::own_layout::{BoundBuffer, whole};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
@@ -148,7 +148,7 @@ pub struct LocationBuffers {
 
 impl LocationBuffers {
     /// Number of words of a tile in `loads`: see `shaders/include/tile_locations.glsl`.
-    const LOAD: u64 = 35;
+    const LOAD: u64 = LOAD_WORDS as u64;
 
     pub(crate) fn new(
         memory: &Memory,

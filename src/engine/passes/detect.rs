@@ -7,17 +7,18 @@ use std::sync::Arc;
 
 /// Rule that makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum DetectMode {
     /// A neighbour with a contrasting colour.
-    Contrast,
+    Contrast = spirv::DETECT_CONTRAST,
     /// A neighbour with another triangle and a contrasting colour.
-    Edges,
+    Edges = spirv::DETECT_EDGES,
     /// A neighbour with another triangle.
-    Exact,
+    Exact = spirv::DETECT_EXACT,
     /// A BLEND triangle at its centre.
-    Blended,
+    Blended = spirv::DETECT_BLENDED,
     /// Every pixel is a superpixel.
-    Every,
+    Every = spirv::DETECT_EVERY,
 }
 
 /// Options of [`Detect`].

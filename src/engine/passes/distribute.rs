@@ -9,12 +9,13 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Number of steps of the shader.
-const STEPS: u32 = 4;
-/// Index of the step that goes over the tiles.
-const LAY_OUT: u32 = 1;
-/// Index of the step that goes over the cells; all others go over the locations.
-const ENCLOSE: u32 = 3;
+/// Steps of the shader, in their order.
+const STEPS: [u32; 4] = [
+    spirv::DISTRIBUTE_NUMBER,
+    spirv::DISTRIBUTE_LAY_OUT,
+    spirv::DISTRIBUTE_ARRANGE,
+    spirv::DISTRIBUTE_ENCLOSE,
+];
 
 /// A list of sampling locations, and the region of the plane in which they count: pixels from (0, 0) on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +72,7 @@ impl Distribute {
             let points = cells.are_points();
             own_layout.compute(layout, &spirv::Distribute { step, points })
         };
-        let steps = (0..STEPS).map(step).collect::<Result<_, _>>()?;
+        let steps = STEPS.into_iter().map(step).collect::<Result<_, _>>()?;
         let set = set_layout.allocate()?;
         // SAFETY: the set is new; the caller guarantees the list, and the other buffers live as long as the resources.
         unsafe {
@@ -97,11 +98,11 @@ impl Distribute {
             samples: self.sizes.samples,
         };
         self.layout.bind(recorder, &[self.set.raw], &push);
-        for (step, pipeline) in (0..).zip(&self.steps) {
+        for (step, pipeline) in STEPS.into_iter().zip(&self.steps) {
             let tiles = region.tiles[0] * region.tiles[1];
             let invocations = match (step, length) {
-                (LAY_OUT, _) => tiles,
-                (ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
+                (spirv::DISTRIBUTE_LAY_OUT, _) => tiles,
+                (spirv::DISTRIBUTE_ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
                 (_, ListLength::Known) => region.count,
                 (_, ListLength::Counted(arguments, argument)) => {
                     recorder.dispatch_indirect(pipeline, arguments, argument as u32);

@@ -9,15 +9,16 @@ use std::sync::Arc;
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum TileList {
     /// Tiles with opaque triangles only.
-    Plain,
+    Plain = spirv::TILE_LIST_PLAIN,
     /// Tiles that also have alpha-tested triangles.
-    Masked,
+    Masked = spirv::TILE_LIST_MASKED,
     /// Tiles that also have BLEND triangles.
-    Blended,
+    Blended = spirv::TILE_LIST_BLENDED,
     /// Tiles whose list of candidates outgrew its buffer.
-    Unlisted,
+    Unlisted = spirv::TILE_LIST_UNLISTED,
 }
 
 impl TileList {
@@ -75,10 +76,11 @@ pub enum RecordRate {
 
 /// Samples that a kernel processes, in the order of `RUN` in `shaders/sample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 enum Run {
-    Whole,
-    Probe,
-    Rest,
+    Whole = spirv::RUN_WHOLE,
+    Probe = spirv::RUN_PROBE,
+    Rest = spirv::RUN_REST,
 }
 
 /// Kernels: one for each kind of tile that the scene can have, followed by those of a second run over cells that the
@@ -175,7 +177,7 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
 
 impl Sample {
     /// Number of samples of the first of two runs; their offsets follow those of the cell.
-    pub const PROBES: u32 = 64;
+    pub const PROBES: u32 = spirv::PROBE_SAMPLES;
     /// Preferred number of samples of a block; it is larger only where this would leave invocations idle.
     const BLOCK: u32 = 64;
 

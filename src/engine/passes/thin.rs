@@ -55,7 +55,10 @@ impl Thin {
     ) {
         recorder.clear(marks);
         recorder.barrier();
-        recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
+        recorder.dispatch(
+            &self.select,
+            u64::from(indices.div_ceil(64 * spirv::THIN_PER_INVOCATION)),
+        );
         self.arguments.record(recorder);
         for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
             recorder.push(self.layout, &spirv::ThinPush { long });

@@ -50,7 +50,10 @@ impl Encode {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, encoding: Encoding) -> Result<Self, VulkanError> {
-        let format = u32::from(encoding == Encoding::Rgba16Float);
+        let format = match encoding {
+            Encoding::Rgba16Float => spirv::ENCODE_RGBA16F,
+            Encoding::Rgba8 | Encoding::Rgba32Float => spirv::ENCODE_RGBA8_SRGB,
+        };
         Ok(Self {
             pipeline: layout.compute(&spirv::Encode { format }, None)?,
         })

@@ -7,11 +7,6 @@ use crate::scene::Moment;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Flag: the same number as in `shaders/pose.comp`.
-const FLAT: u32 = 1;
-const INSIDE_OUT: u32 = 2;
-const TANGENTS: u32 = 4;
-
 /// Applies morph targets, skins and transforms to meshes.
 pub struct Pose {
     layout: Arc<FrameLayout>,
@@ -42,13 +37,15 @@ impl Pose {
             return;
         };
         let tangents = if scene.geometry.has_tangents {
-            TANGENTS
+            spirv::POSE_TANGENTS
         } else {
             0
         };
         for (part, at) in motion.parts.iter().zip(&moment.parts) {
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-            let flags = flag(FLAT, part.is_flat) | flag(INSIDE_OUT, part.mirrored) | tangents;
+            let flags = flag(spirv::POSE_FLAT, part.is_flat)
+                | flag(spirv::POSE_INSIDE_OUT, part.mirrored)
+                | tangents;
             let push = spirv::PosePush {
                 count: part.vertex_count,
                 first_vertex: part.first_vertex,

@@ -14,7 +14,7 @@ pub use crate::engine::passes::spirv::ReceiversPush as LightPlane;
 
 impl LightPlane {
     /// Face of a plane that does not belong to a cube.
-    pub const SINGLE: u32 = 6;
+    pub const SINGLE: u32 = spirv::SINGLE_PLANE;
     /// Flag in `step`: the pass initialises the words.
     pub const BEGINS: u32 = 32;
     /// Further places in a pixel that are probed, relative to its centre. `shaders/receivers.comp` explains the

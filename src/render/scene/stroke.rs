@@ -1,5 +1,7 @@
 //! Points and lines. Their size is in pixels, so that they have another shape for each camera.
 
+use crate::engine::passes::spirv;
+
 /// Vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of
 /// a line. The other vertices that it refers to are positions in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,12 +90,12 @@ impl StrokePart {
     /// The kind of corner in `shaders/stroke.comp`.
     pub(crate) fn code(self) -> u32 {
         match self {
-            Self::Left => 0,
-            Self::Right => 1,
-            Self::JointCentre => 2,
-            Self::JointFirst => 3,
-            Self::JointSecond => 4,
-            Self::Disc(_) => 5,
+            Self::Left => spirv::CORNER_LEFT,
+            Self::Right => spirv::CORNER_RIGHT,
+            Self::JointCentre => spirv::CORNER_JOINT_CENTRE,
+            Self::JointFirst => spirv::CORNER_JOINT_FIRST,
+            Self::JointSecond => spirv::CORNER_JOINT_SECOND,
+            Self::Disc(_) => spirv::CORNER_DISC,
         }
     }
 

@@ -16,6 +16,7 @@ pub(in crate::render) use moving::{GpuMotion, GpuStrokes, MovingVertices};
 pub(in crate::render) use placed::PlacedInstances;
 
 use crate::engine::data::upload::Uploader;
+use crate::engine::passes::spirv;
 use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
 use crate::vulkan::{BufferView, VulkanError};
 use ash::vk;
@@ -46,14 +47,15 @@ struct Place {
     bounds: [DVec3; 2],
 }
 
-/// Flag: the place mirrors its triangles.
-const MIRRORED: u32 = 1;
-
 impl Place {
     fn of(instance: &Instance, bounds: [DVec3; 2]) -> Self {
         let offset = instance.first_triangle.wrapping_sub(instance.first_index);
         let end = instance.first_index + instance.triangle_count;
-        let flags = if instance.mirrored() { MIRRORED } else { 0 };
+        let flags = if instance.mirrored() {
+            spirv::INSTANCE_MIRRORED
+        } else {
+            0
+        };
         Self {
             words: [offset, end, flags, 0],
             transform: instance.transform,

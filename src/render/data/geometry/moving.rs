@@ -3,6 +3,7 @@
 
 use super::GpuGeometry;
 use crate::engine::data::upload::Uploader;
+use crate::engine::passes::spirv;
 use crate::scene::{Edge, Moment, Motion, MotionPart, Stroke};
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -54,12 +55,6 @@ pub(in crate::render) struct GpuStrokes {
     pub(in crate::render) edge_count: u32,
 }
 
-/// Flag of a corner: the same number as in `shaders/stroke.comp`.
-const FACES_CAMERA: u32 = 1 << 31;
-/// Flag of an edge: the same number as in `shaders/stroke.comp`.
-const SMOOTH: u32 = 1;
-const DOUBLE_SIDED: u32 = 2;
-
 impl GpuStrokes {
     /// Allocates and fills the buffer.
     pub(in crate::render) fn new(
@@ -70,14 +65,15 @@ impl GpuStrokes {
         let flag = |bit: u32, set: bool| if set { bit } else { 0 };
         let of_corner = |stroke: &Stroke| {
             let [x, y] = stroke.part.offset().map(f32::to_bits);
-            let shape = stroke.part.code() | flag(FACES_CAMERA, stroke.faces_camera);
+            let shape = stroke.part.code() | flag(spirv::CORNER_FACES_CAMERA, stroke.faces_camera);
             [
                 [stroke.vertex, stroke.at, stroke.other, stroke.beyond],
                 [shape, x, y, 0],
             ]
         };
         let of_edge = |edge: &Edge| {
-            let flags = flag(SMOOTH, edge.is_smooth) | flag(DOUBLE_SIDED, edge.is_double_sided);
+            let flags = flag(spirv::EDGE_SMOOTH, edge.is_smooth)
+                | flag(spirv::EDGE_DOUBLE_SIDED, edge.is_double_sided);
             let ([from, to], [a, b]) = (edge.ends, edge.opposite);
             [[edge.first_vertex, from, to, flags], [a, b, 0, 0]]
         };
