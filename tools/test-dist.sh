@@ -29,8 +29,7 @@ for release in "${releases[@]}"; do
     # Settings of the machine's apt, such as proxies.
     cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
     mount -t proc proc "$root/proc"
-    cp "$dist"/*.deb "$dist"/*.tar.xz "$root/tmp/"
-    # Linked into the C library's example, whose shaders are compiled already.
+    cp "$dist"/*.deb "$dist"/*.tar.xz tests/hosts/linked.c "$root/tmp/"
     chroot "$root" bash -euo pipefail <<'INSIDE'
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 cd /tmp
@@ -58,19 +57,13 @@ apt-get -qq install -y --no-install-recommends gcc libc6-dev pkg-config libvulka
 tar -xJf libgpc-*.tar.xz
 cd libgpc-*/
 export PKG_CONFIG_PATH="$PWD/lib/pkgconfig" LD_LIBRARY_PATH="$PWD/lib"
-cat >/tmp/use.c <<'C'
-#include <gpc.h>
-#include <stdio.h>
-int main(void) {
-    /* Without a device there is an error, and no crash. */
-    GpcAntialiaser *antialiaser = NULL;
-    GpcResult result = gpc_antialiaser_create(NULL, &antialiaser);
-    printf("gpc_antialiaser_create without a device: %d\n", (int)result);
-    return result == 0;
+link() { # OPTIONS...
+    gcc /tmp/linked.c -o /tmp/linked "$@"
+    /tmp/linked
 }
-C
-gcc /tmp/use.c -o /tmp/use $(pkg-config --cflags --libs gpc)
-/tmp/use
+link $(pkg-config --cflags --libs gpc)
+link -static $(pkg-config --cflags --static --libs gpc)
+test -e share/doc/gpc/embedding.md -a -e share/doc/gpc/THIRD-PARTY.txt
 INSIDE
     umount "$root/proc"
     rm -rf "$root"
