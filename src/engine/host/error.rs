@@ -6,6 +6,7 @@ use ash::vk;
 
 /// An error of antialiasing a host's frames.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum HostError {
     /// The options are impossible, memory runs out, or the driver refuses something.
     #[error(transparent)]

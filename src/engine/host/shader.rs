@@ -4,6 +4,7 @@ use crate::engine::passes::spirv::GPC_SHADER_VERSION;
 
 /// Why the library does not take a shader.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ShaderError {
     /// The words are no module of SPIR-V.
     #[error("the shader is not SPIR-V: {0}")]

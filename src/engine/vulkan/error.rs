@@ -5,6 +5,7 @@ use ash::vk;
 
 /// Error of the Vulkan layer.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum VulkanError {
     /// Vulkan loader that can't be loaded; holds the reason.
     #[error("no Vulkan loader: {0}. {help}", help = super::MISSING_DRIVER_HELP)]

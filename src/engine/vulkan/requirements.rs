@@ -8,6 +8,7 @@ pub const MISSING_DRIVER_HELP: &str = "Install a Vulkan 1.3 driver; without a GP
 
 /// A requirement that a device lacks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Missing {
     /// API version that is too low.
     #[error("Vulkan 1.3 (it has {major}.{minor})")]
