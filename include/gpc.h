@@ -119,6 +119,8 @@ enum GpcStructType
     GPC_STRUCT_TYPE_LIST_OUTCOME = 10,
     // A GpcMemoryRequest.
     GPC_STRUCT_TYPE_MEMORY_REQUEST = 11,
+    // A GpcImageKinds.
+    GPC_STRUCT_TYPE_IMAGE_KINDS = 12,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -491,56 +493,24 @@ typedef struct GpcGeometry {
     const struct GpcAlphaMap *alpha_maps;
 } GpcGeometry;
 
-// State of an image, as in VkImageMemoryBarrier2.
-typedef struct GpcImageState {
-    // Its layout.
-    VkImageLayout layout;
-    // Stages that use it.
-    VkPipelineStageFlags2 stage;
-    // How they use it.
-    VkAccessFlags2 access;
-} GpcImageState;
-
-// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
-typedef struct GpcImage {
-    // The image.
-    VkImage image;
-    // A two-dimensional view of it, of one aspect.
-    VkImageView view;
-    // The aspects of the image; of a format with stencil, that too, although it is not read.
-    VkImageAspectFlags aspects;
-    // Its state when the recording begins.
-    struct GpcImageState before;
-    // Its state when the recording is done.
-    struct GpcImageState after;
-} GpcImage;
-
-// What the application has drawn, one sample a pixel, and where its picture goes.
-typedef struct GpcImages {
-    // sizeof(GpcImages).
+// The kinds of images that a frame is recorded with.
+typedef struct GpcImageKinds {
+    // sizeof(GpcImageKinds).
     uint32_t size;
-    // GPC_STRUCT_TYPE_IMAGES.
+    // GPC_STRUCT_TYPE_IMAGE_KINDS.
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // The format of color.view: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
+    // VK_TRUE if triangle IDs are lent; VK_FALSE if the library draws IDs and depth for itself.
+    VkBool32 ids;
+    // VK_TRUE if depth is lent, which goes with IDs and is needed there by GpcOptions.thin.
+    VkBool32 depth;
+    // The format of the views of colours: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
     VkFormat color_format;
-    // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image holds
+    // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image of colours holds
     // linear light, or encodes it itself.
     VkBool32 color_encoded;
-    // Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
-    // order of the frame's draws, 0 where there is none. Where image and view are VK_NULL_HANDLE, here and of depth, the
-    // library draws both for itself.
-    struct GpcImage ids;
-    // Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
-    // Without GpcOptions.thin, image and view may be VK_NULL_HANDLE.
-    struct GpcImage depth;
-    // Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT.
-    struct GpcImage color;
-    // Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
-    // library neither reads nor writes what lies around it.
-    uint32_t corner[2];
-} GpcImages;
+} GpcImageKinds;
 
 // How a frame is antialiased; gpc_init_options gives defaults.
 typedef struct GpcOptions {
@@ -596,6 +566,52 @@ typedef struct GpcOptions {
     // Bound on the device memory of a frame in bytes, 0 for none.
     uint64_t max_memory;
 } GpcOptions;
+
+// State of an image, as in VkImageMemoryBarrier2.
+typedef struct GpcImageState {
+    // Its layout.
+    VkImageLayout layout;
+    // Stages that use it.
+    VkPipelineStageFlags2 stage;
+    // How they use it.
+    VkAccessFlags2 access;
+} GpcImageState;
+
+// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
+typedef struct GpcImage {
+    // The image.
+    VkImage image;
+    // A two-dimensional view of it, of one aspect.
+    VkImageView view;
+    // The aspects of the image; of a format with stencil, that too, although it is not read.
+    VkImageAspectFlags aspects;
+    // Its state when the recording begins.
+    struct GpcImageState before;
+    // Its state when the recording is done.
+    struct GpcImageState after;
+} GpcImage;
+
+// What the application has drawn, one sample a pixel, and where its picture goes: images of the kinds that the frame was created
+// for.
+typedef struct GpcImages {
+    // sizeof(GpcImages).
+    uint32_t size;
+    // GPC_STRUCT_TYPE_IMAGES.
+    uint32_t type;
+    // NULL, or a structure that extends this one.
+    const void *next;
+    // Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
+    // order of the frame's draws, 0 where there is none. Without GpcImageKinds.ids, image and view are VK_NULL_HANDLE.
+    struct GpcImage ids;
+    // Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
+    // Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
+    struct GpcImage depth;
+    // Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT: superpixels are drawn into it.
+    struct GpcImage color;
+    // Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
+    // library neither reads nor writes what lies around it.
+    uint32_t corner[2];
+} GpcImages;
 
 // Visibility samples of a round, sorted by shading key, on the device.
 typedef struct GpcVisibilitySamples {
@@ -766,29 +782,41 @@ GpcResult gpc_init_scenery(struct GpcScenery *scenery, size_t size);
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_outcome(struct GpcOutcome *outcome, size_t size);
 
-// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes new
-// ones where a size or a handle changes.
+// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number of
+// its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that the library's passes hand to
+// each other, where its size suffices for several, so that the commands of all frames of an antialiaser are executed on one queue.
 //
 // Threads: any; several frames may be created at once.
-// Lifetime: the buffers and views lent outlive the frame. The structs are read during the call alone.
+// Lifetime: the buffers and alpha maps lent outlive the frame. The structs are read during the call alone.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 // GPC_RESULT_VULKAN. `*frame` is then NULL.
 GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
                            const struct GpcGeometry *geometry,
-                           const struct GpcImages *images,
+                           const struct GpcImageKinds *kinds,
                            const struct GpcOptions *options,
                            struct GpcFrame **frame);
 
-// Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
+// Makes a frame like this one, for the same buffers and kinds of images, with more of what its last recording lacked. Where it
 // lacked nothing, the new one has as much. The old one is still to be destroyed.
 //
-// Threads: no other call uses the frame at the time. Lifetime: the buffers and views lent outlive the new frame too.
+// Threads: no other call uses the frame at the time. Lifetime: the buffers and alpha maps lent outlive the new frame too.
 // Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 GpcResult gpc_frame_grow(const struct GpcFrame *frame,
                          struct GpcFrame **grown);
 
-// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
-// the device and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
+// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes smaller
+// keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+//
+// Threads: no other call uses the frame at the time.
+// Lifetime: the commands of the frame's last recording are done, or will never be executed.
+// Errors: as gpc_frame_create; the frame is then as it was.
+GpcResult gpc_frame_resize(struct GpcFrame *frame,
+                           uint32_t width,
+                           uint32_t height);
+
+// Records the antialiasing of what the application has drawn, in any images of the kinds and the size that the frame was created
+// for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates nothing on the device. It updates
+// descriptor sets of the frame's own, for which the last recording has to be done. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
 // lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
 // no memory of the library but by gpc_store.
 //
@@ -798,6 +826,7 @@ GpcResult gpc_frame_grow(const struct GpcFrame *frame,
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 GpcResult gpc_frame_record(struct GpcFrame *frame,
                            VkCommandBuffer commands,
+                           const struct GpcImages *images,
                            const struct GpcScenery *scenery,
                            GpcShade shade,
                            void *user);
@@ -815,6 +844,11 @@ GpcResult gpc_frame_outcome(const struct GpcFrame *frame,
 // Threads: any.
 uint64_t gpc_frame_memory_bytes(const struct GpcFrame *frame);
 
+// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them; 0 for NULL.
+//
+// Threads: any.
+uint64_t gpc_frame_shared_memory_bytes(const struct GpcFrame *frame);
+
 // Destroys a frame, whose commands are done. NULL does nothing.
 //
 // Threads: no other call uses the frame at the time.
@@ -825,6 +859,12 @@ void gpc_frame_destroy(struct GpcFrame *frame);
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_geometry(struct GpcGeometry *geometry, size_t size);
+
+// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): colours alone are lent. Their format is still to be set.
+//
+// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+GpcResult gpc_init_image_kinds(struct GpcImageKinds *kinds,
+                               size_t size);
 
 // Fills a GpcImages of `size` bytes, which is sizeof(GpcImages): no image is lent.
 //

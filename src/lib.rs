@@ -56,13 +56,13 @@
 //! the aliased ones. `examples/visibility` is a complete application, and `docs/embedding.md` the manual.
 //!
 //! ```no_run
-//! # fn shown(host: gpc::vulkan::Host, geometry: gpc::host::Geometry, images: gpc::host::Images, commands: ash::vk::CommandBuffer,
+//! # fn shown(host: gpc::vulkan::Host, geometry: gpc::host::Geometry, kinds: gpc::host::ImageKinds, images: gpc::host::Images, commands: ash::vk::CommandBuffer,
 //! #     draws: &[gpc::host::Draw], projection: [[f32; 4]; 4], materials: &dyn gpc::host::ShadeSamples) -> Result<(), Box<dyn std::error::Error>> {
 //! use gpc::host::{Antialiaser, Options, Scenery};
 //!
 //! let antialiaser = unsafe { Antialiaser::new(host) }?;
-//! let mut frame = unsafe { antialiaser.prepare(&geometry, &images, &Options::new(1280, 720)) }?; // one for each frame in flight
-//! unsafe { frame.record(commands, &Scenery { draws, projection }, materials) }?; // after the application has drawn
+//! let mut frame = unsafe { antialiaser.prepare(&geometry, &kinds, &Options::new(1280, 720)) }?; // one for each frame in flight
+//! unsafe { frame.record(commands, &images, &Scenery { draws, projection }, materials) }?; // after the application has drawn
 //! # Ok(())
 //! # }
 //! ```

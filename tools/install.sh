@@ -18,7 +18,7 @@ install -m 644 include/gpc.h "$root/include/"
 install -m 755 "$built/libgpc.so" "$root/lib/libgpc.so.$version"
 ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
-install -m 644 docs/embedding.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
+install -m 644 docs/embedding.md docs/swapchains.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
 
 # The static library is one object, of which only the interface is visible: programs may have another library written in Rust.
 mapfile -t interface < <(nm --extern-only --defined-only "$built/libgpc.a" 2>/dev/null | sed -n 's/^.* T \(gpc_[a-z_]*\)$/-u\1/p' | sort)

@@ -6,8 +6,9 @@
 //     out/forward examples/forward/shaders/spirv out/forward.ppm
 //
 // What the library added to it: an attachment of triangle IDs, positions that its vertex shader computes by the library's
-// function, a compute shader that shades the library's samples, and what is marked by `gpc` below. At the end, the picture is
-// compared with the renderer's own brute force.
+// function, a compute shader that shades the library's samples, and what is marked by `gpc` below. Frames are drawn into a ring of
+// three images, as a swapchain has them, and into larger ones. At the end, the picture is compared with the renderer's own brute
+// force.
 
 #include "device.hpp"
 #include "world.hpp"
@@ -22,6 +23,8 @@ namespace {
 constexpr VkExtent2D SIZE{240, 135};
 // Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
 constexpr uint32_t BRUTE = 8, REFERENCE = 32;
+// Images of colours that the antialiased frames take turns with, as those of a swapchain do.
+constexpr size_t RING = 3;
 constexpr VkFormat COLOR = VK_FORMAT_R8G8B8A8_SRGB, IDS = VK_FORMAT_R32_UINT, DEPTH = VK_FORMAT_D32_SFLOAT_S8_UINT;
 constexpr VkImageAspectFlags DEPTH_STENCIL = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
 // The background, in linear light.
@@ -210,6 +213,25 @@ struct Meshes {
           indices(device, world.indices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT) {}
 };
 
+// What a renderer draws into: a ring of images of colours, as a swapchain has them, and what goes with the one at hand.
+struct Targets {
+    std::vector<std::unique_ptr<Image>> colors;
+    Image ids, depth;
+    Buffer read_back;
+
+    Targets(const Device &device, VkExtent2D size, size_t ring)
+        : ids(device, size, IDS, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
+              VK_IMAGE_ASPECT_COLOR_BIT),
+          depth(device, size, DEPTH, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, DEPTH_STENCIL,
+                VK_IMAGE_ASPECT_DEPTH_BIT),
+          read_back(device, VkDeviceSize(4) * size.width * size.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+        const VkImageUsageFlags usage =
+            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        while (colors.size() < ring)
+            colors.push_back(std::make_unique<Image>(device, size, COLOR, usage, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT));
+    }
+};
+
 // sRGB codes from 0 to 1, three a pixel.
 using Picture = std::vector<double>;
 
@@ -230,14 +252,7 @@ class Renderer {
              const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading)
         : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
           objects(device, world.parts.size() * sizeof(Object), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-          color(device, size, COLOR,
-                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT),
-          ids(device, size, IDS, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-              VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT),
-          depth(device, size, DEPTH, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, DEPTH_STENCIL,
-                VK_IMAGE_ASPECT_DEPTH_BIT),
-          read_back(device, VkDeviceSize(4) * size.width * size.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+          targets(std::make_unique<Targets>(device, size, antialiaser ? RING : 1)) {
         VkCommandBufferAllocateInfo commands_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         commands_info.commandPool = device.pool;
         commands_info.commandBufferCount = 1;
@@ -272,8 +287,21 @@ class Renderer {
         vkFreeCommandBuffers(device.raw, device.pool, 1, &commands);
     }
 
-    // Draws a moment and waits for it.
+    // gpc: goes on in images of another size. Nothing is in flight.
+    void resize(VkExtent2D to) {
+        targets = std::make_unique<Targets>(device, to, RING);
+        size = to;
+        check(gpc_frame_resize(frame, size.width, size.height));
+    }
+
+    // Bytes that the library takes for this renderer's frame, and those of them that all frames share.
+    std::pair<uint64_t, uint64_t> memory() const {
+        return {gpc_frame_memory_bytes(frame), gpc_frame_shared_memory_bytes(frame)};
+    }
+
+    // Draws a moment into the next image of the ring and waits for it.
     void draw(float time) {
+        ++drawn;
         const Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
         const Mat4 camera = projection * looking({EYE[0], EYE[1], EYE[2]}, {0, 0.6f, 0});
         const std::vector<Object> shown = world.objects(time, camera);
@@ -282,7 +310,7 @@ class Renderer {
         check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
         record_forward();
         if (frame) record_antialiasing(shown, projection);
-        else change(color, COLOR_DRAWN, COPIED);
+        else change(canvas(), COLOR_DRAWN, COPIED);
         record_read_back();
         check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
         VkSubmitInfo submitted{VK_STRUCTURE_TYPE_SUBMIT_INFO};
@@ -304,7 +332,7 @@ class Renderer {
     Picture picture(uint32_t side) const {
         double linear[256];
         for (int code = 0; code < 256; ++code) linear[code] = decoded(code / 255.0);
-        const auto *bytes = static_cast<const uint8_t *>(read_back.mapped);
+        const auto *bytes = static_cast<const uint8_t *>(targets->read_back.mapped);
         Picture picture;
         for (uint32_t y = 0; y < SIZE.height; ++y)
             for (uint32_t x = 0; x < SIZE.width; ++x)
@@ -325,14 +353,19 @@ class Renderer {
     const Pipelines &pipelines;
     VkExtent2D size;
     Buffer objects;
-    Image color, ids, depth;
-    Buffer read_back;
+    std::unique_ptr<Targets> targets;
+    size_t drawn{};
     VkCommandBuffer commands{};
     VkDescriptorPool pool{};
     VkDescriptorSet set{};
     GpcFrame *frame{};
 
-    // gpc: what is lent for this size, once.
+    // The image of colours at hand.
+    const Image &canvas() const {
+        return *targets->colors[drawn % targets->colors.size()];
+    }
+
+    // gpc: what is lent in every frame, once.
     void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading) {
         GpcGeometry geometry;
         check(gpc_init_geometry(&geometry, sizeof geometry));
@@ -348,12 +381,10 @@ class Renderer {
         geometry.triangle_capacity = world.triangle_count;
         geometry.draw_capacity = uint32_t(world.parts.size());
         geometry.keys = KEYS;
-        GpcImages images;
-        check(gpc_init_images(&images, sizeof images));
-        images.color_format = COLOR;
-        images.ids = {ids.raw, ids.view, ids.aspects, COLOR_DRAWN, COLOR_DRAWN};
-        images.depth = {depth.raw, depth.view, depth.aspects, DEPTH_DRAWN, DEPTH_DRAWN};
-        images.color = {color.raw, color.view, color.aspects, COLOR_DRAWN, COPIED};
+        GpcImageKinds kinds;
+        check(gpc_init_image_kinds(&kinds, sizeof kinds));
+        kinds.ids = kinds.depth = VK_TRUE;
+        kinds.color_format = COLOR;
         GpcOptions options;
         check(gpc_init_options(&options, sizeof options));
         options.width = size.width;
@@ -362,7 +393,7 @@ class Renderer {
         options.shading = shading;
         // Next to no contrast is left where all is shaded.
         if (shading == GPC_SHADING_SAMPLE) options.contrast = 2;
-        check(gpc_frame_create(antialiaser, &geometry, &images, &options, &frame));
+        check(gpc_frame_create(antialiaser, &geometry, &kinds, &options, &frame));
     }
 
     // gpc: the draws of this frame, in the order of their IDs.
@@ -386,10 +417,16 @@ class Renderer {
         scenery.draw_stride = sizeof(GpcDraw);
         scenery.draws = draws.data();
         std::memcpy(scenery.projection, projection.data(), sizeof scenery.projection);
+        GpcImages images;
+        check(gpc_init_images(&images, sizeof images));
+        const Image &ids = targets->ids, &depth = targets->depth, &color = canvas();
+        images.ids = {ids.raw, ids.view, ids.aspects, COLOR_DRAWN, COLOR_DRAWN};
+        images.depth = {depth.raw, depth.view, depth.aspects, DEPTH_DRAWN, DEPTH_DRAWN};
+        images.color = {color.raw, color.view, color.aspects, COLOR_DRAWN, COPIED};
         const auto shade = [](void *user, VkCommandBuffer, const GpcVisibilitySamples *samples) noexcept {
             static_cast<const Renderer *>(user)->record_samples(*samples);
         };
-        check(gpc_frame_record(frame, commands, &scenery, shade, this));
+        check(gpc_frame_record(frame, commands, &images, &scenery, shade, this));
     }
 
     // gpc: shading of samples by the renderer's materials.
@@ -420,6 +457,7 @@ class Renderer {
 
     // Colours and, for gpc, IDs of triangles.
     void record_forward() const {
+        const Image &color = canvas(), &ids = targets->ids, &depth = targets->depth;
         change(color, UNDEFINED, COLOR_DRAWN);
         change(ids, UNDEFINED, COLOR_DRAWN);
         change(depth, UNDEFINED, DEPTH_DRAWN);
@@ -463,7 +501,7 @@ class Renderer {
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.imageExtent = {size.width, size.height, 1};
-        vkCmdCopyImageToBuffer(commands, color.raw, COPIED.layout, read_back.raw, 1, &region);
+        vkCmdCopyImageToBuffer(commands, canvas().raw, COPIED.layout, targets->read_back.raw, 1, &region);
         VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
         barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -544,6 +582,13 @@ void run(const std::string &shaders, const char *out) {
     std::printf("error of superpixels, each of these samples shaded: %.6f\n",
                 error(last(1, made, GPC_SHADING_SAMPLE), truth));
     std::printf("share of superpixels: %.4f\n", double(outcome.superpixels) / (SIZE.width * SIZE.height));
+    const auto [all, shared] = renderer.memory();
+    std::printf("memory of a frame: %.1f MB, of another one: %.1f MB\n", double(all) / 1e6, double(all - shared) / 1e6);
+    renderer.resize({SIZE.width + 80, SIZE.height + 45});
+    renderer.draw(moments[1]);
+    renderer.resize(SIZE);
+    renderer.draw(moments[2]);
+    std::printf("after two resizes: %s\n", renderer.picture(1) == antialiased ? "the same picture" : "another picture");
     save(antialiased, out);
 }
 

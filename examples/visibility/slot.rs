@@ -7,7 +7,7 @@ use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Materials, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
-    Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
+    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images,
     LentImage, Options, PositionSpace, Scenery,
 };
 
@@ -34,7 +34,14 @@ pub struct Slot<'a> {
     read_back: Buffer<'a>,
 }
 
-/// Linear colour of the background. The host draws it and tells it to the lens, which has no image of it.
+/// The kinds of images that the library is lent.
+const KINDS: ImageKinds = ImageKinds {
+    ids: true,
+    depth: true,
+    color_format: COLOR,
+    color_encoded: false,
+};
+/// The background that the host draws, and tells the lens, which has no image of it.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 
 /// State of an image that the host has drawn and samples.
@@ -149,9 +156,9 @@ impl<'a> Slot<'a> {
             read_back,
         };
         if let Some((antialiaser, options)) = antialiasing {
-            let (geometry, images) = (slot.geometry(world), slot.images());
-            // SAFETY: buffers and images have the stated contents, and live as long as the slot.
-            let frame = unsafe { antialiaser.prepare(&geometry, &images, options) }?;
+            let geometry = slot.geometry(world);
+            // SAFETY: buffers and alpha maps are as they say, and live as long as the slot.
+            let frame = unsafe { antialiaser.prepare(&geometry, &KINDS, options) }?;
             slot.antialiasing = Some(Antialiasing {
                 frame,
                 projection: Mat4::IDENTITY,
@@ -201,11 +208,7 @@ impl<'a> Slot<'a> {
         Images {
             ids: Some(lent(&self.ids, SHOWN, SHOWN)),
             depth: Some(lent(&self.depth, DEPTH_DRAWN, SHOWN)),
-            color: ColorImage {
-                lent: lent(&self.color, COLOR_DRAWN, COPIED),
-                format: COLOR,
-                encoded: false,
-            },
+            color: lent(&self.color, COLOR_DRAWN, COPIED),
             corner: [0, 0],
         }
     }
@@ -248,13 +251,13 @@ impl<'a> Slot<'a> {
             self.record_pose(world, pipelines);
             self.record_ids(world, pipelines);
             self.record_screen(pipelines);
-            let materials = self.materials(pipelines);
+            let (materials, images) = (self.materials(pipelines), self.images());
             if let Some(Antialiasing { frame, projection }) = &mut self.antialiasing {
                 let scenery = Scenery {
                     draws: &world.draws,
                     projection: projection.to_cols_array_2d(),
                 };
-                frame.record(commands, &scenery, &materials)?;
+                frame.record(commands, &images, &scenery, &materials)?;
             } else {
                 self.change(&self.color, COLOR_DRAWN, COPIED);
             }

@@ -3,7 +3,7 @@
 use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::geometry::{GpcDraw, GpcGeometry};
-use super::images::GpcImages;
+use super::images::{GpcImageKinds, GpcImages};
 use super::input::{
     Element, GpcStructType, Struct, hand_over, init, object, place, read, shown, sizes, take_back,
     write,
@@ -155,18 +155,19 @@ pub unsafe extern "C" fn gpc_init_outcome(outcome: *mut GpcOutcome, size: usize)
     unsafe { init(outcome, size) }
 }
 
-/// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes new
-/// ones where a size or a handle changes.
+/// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number of
+/// its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that the library's passes hand to
+/// each other, where its size suffices for several, so that the commands of all frames of an antialiaser are executed on one queue.
 ///
 /// Threads: any; several frames may be created at once.
-/// Lifetime: the buffers and views lent outlive the frame. The structs are read during the call alone.
+/// Lifetime: the buffers and alpha maps lent outlive the frame. The structs are read during the call alone.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 /// GPC_RESULT_VULKAN. `*frame` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_create(
     antialiaser: *const GpcAntialiaser,
     geometry: *const GpcGeometry,
-    images: *const GpcImages,
+    kinds: *const GpcImageKinds,
     options: *const GpcOptions,
     frame: *mut *mut GpcFrame,
 ) -> GpcResult {
@@ -175,9 +176,9 @@ pub unsafe extern "C" fn gpc_frame_create(
         let inner = unsafe {
             let antialiaser = object(antialiaser, "antialiaser")?;
             let geometry = read(geometry)?.geometry()?;
-            let images = read(images)?.images()?;
+            let kinds = read(kinds)?.kinds()?;
             let options = read(options)?.options()?;
-            antialiaser.inner.prepare(&geometry, &images, &options)
+            antialiaser.inner.prepare(&geometry, &kinds, &options)
         }?;
         Ok(GpcFrame { inner })
     };
@@ -185,10 +186,10 @@ pub unsafe extern "C" fn gpc_frame_create(
     unsafe { hand_over(frame, "frame", make) }
 }
 
-/// Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
+/// Makes a frame like this one, for the same buffers and kinds of images, with more of what its last recording lacked. Where it
 /// lacked nothing, the new one has as much. The old one is still to be destroyed.
 ///
-/// Threads: no other call uses the frame at the time. Lifetime: the buffers and views lent outlive the new frame too.
+/// Threads: no other call uses the frame at the time. Lifetime: the buffers and alpha maps lent outlive the new frame too.
 /// Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_grow(
@@ -204,8 +205,28 @@ pub unsafe extern "C" fn gpc_frame_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
-/// the device and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
+/// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes smaller
+/// keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+///
+/// Threads: no other call uses the frame at the time.
+/// Lifetime: the commands of the frame's last recording are done, or will never be executed.
+/// Errors: as gpc_frame_create; the frame is then as it was.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_resize(
+    frame: *mut GpcFrame,
+    width: u32,
+    height: u32,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        unsafe { place(frame, "frame")?.inner.resize([width, height]) }?;
+        Ok(())
+    })
+}
+
+/// Records the antialiasing of what the application has drawn, in any images of the kinds and the size that the frame was created
+/// for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates nothing on the device. It updates
+/// descriptor sets of the frame's own, for which the last recording has to be done. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
 /// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
 /// no memory of the library but by gpc_store.
 ///
@@ -217,13 +238,17 @@ pub unsafe extern "C" fn gpc_frame_grow(
 pub unsafe extern "C" fn gpc_frame_record(
     frame: *mut GpcFrame,
     commands: vk::CommandBuffer,
+    images: *const GpcImages,
     scenery: *const GpcScenery,
     shade: GpcShade,
     user: *mut c_void,
 ) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
-        let (frame, scenery) = unsafe { (place(frame, "frame")?, read(scenery)?) };
+        let (frame, images, scenery) = unsafe {
+            let frame = place(frame, "frame")?;
+            (frame, read(images)?.images(), read(scenery)?)
+        };
         if commands == vk::CommandBuffer::null() {
             return Err(Error::Null("commands"));
         }
@@ -244,7 +269,7 @@ pub unsafe extern "C" fn gpc_frame_record(
         unsafe {
             frame
                 .inner
-                .record(commands, &scenery, &Callback { shade, user })
+                .record(commands, &images, &scenery, &Callback { shade, user })
         }?;
         Ok(())
     })
@@ -289,6 +314,15 @@ pub unsafe extern "C" fn gpc_frame_outcome(
 pub unsafe extern "C" fn gpc_frame_memory_bytes(frame: *const GpcFrame) -> u64 {
     // SAFETY: passed on to the caller.
     unsafe { frame.as_ref() }.map_or(0, |frame| frame.inner.memory_bytes())
+}
+
+/// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them; 0 for NULL.
+///
+/// Threads: any.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_shared_memory_bytes(frame: *const GpcFrame) -> u64 {
+    // SAFETY: passed on to the caller.
+    unsafe { frame.as_ref() }.map_or(0, |frame| frame.inner.shared_memory_bytes())
 }
 
 /// Destroys a frame, whose commands are done. NULL does nothing.

@@ -34,6 +34,8 @@ pub enum GpcStructType {
     ListOutcome = 10,
     /// A GpcMemoryRequest.
     MemoryRequest = 11,
+    /// A GpcImageKinds.
+    ImageKinds = 12,
 }
 
 /// What C hands over by its size.

@@ -16,8 +16,16 @@ pub(super) fn in_c(error: &HostError) -> String {
             remedy,
         })) => format!("GpcDevice.{member} is VK_TRUE and there is no {function}: {remedy}"),
         HostError::NoDepth => {
-            "thin triangles are found by depth: lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
+            "thin triangles are found by depth: set GpcImageKinds.depth and lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
         }
+        HostError::MissingImage { what } => format!(
+            "there is no image of {what}: set GpcImages.{0}, or create the frame without GpcImageKinds.{0}",
+            what.to_lowercase()
+        ),
+        HostError::UnexpectedImage { what } => format!(
+            "an image of {what} is lent, and the frame was created without: set GpcImageKinds.{}",
+            what.to_lowercase()
+        ),
         HostError::NoCoordinates => {
             "there are alpha maps and no texture coordinates: lend GpcGeometry.coordinates".to_owned()
         }
@@ -70,10 +78,10 @@ pub(super) fn in_c(error: &HostError) -> String {
             capacity,
         } => format!("{found} {what}; {} is {capacity}", capacity_name(what)),
         HostError::Format(found) => format!(
-            "GpcImages.color_format is VK_FORMAT_{found:?}; it can have 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or be VK_FORMAT_B10G11R11_UFLOAT_PACK32"
+            "GpcImageKinds.color_format is VK_FORMAT_{found:?}; it can have 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or be VK_FORMAT_B10G11R11_UFLOAT_PACK32"
         ),
         HostError::Encoded(found) => format!(
-            "GpcImages.color_encoded is VK_TRUE and GpcImages.color_format is VK_FORMAT_{found:?}, which holds linear light: set color_encoded to VK_FALSE"
+            "GpcImageKinds.color_encoded is VK_TRUE and GpcImageKinds.color_format is VK_FORMAT_{found:?}, which holds linear light: set color_encoded to VK_FALSE"
         ),
         HostError::Layout { what, when, found } => format!(
             "{}.{when}.layout is VK_IMAGE_LAYOUT_{found:?}; it can be any that keeps what the image holds",
@@ -98,7 +106,7 @@ pub(super) fn in_c(error: &HostError) -> String {
             format!("GpcGeometry.alpha_maps[{map}].cutoff is not finite")
         }
         HostError::NoIds => {
-            "GpcImages.depth is lent without GpcImages.ids: lend both, or neither to have both drawn".to_owned()
+            "GpcImageKinds.depth is VK_TRUE without GpcImageKinds.ids: lend both, or neither to have both drawn".to_owned()
         }
         HostError::Key { draw, key, keys } => {
             let last = keys.saturating_sub(1);

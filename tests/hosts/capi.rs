@@ -196,6 +196,7 @@ fn a_standard_without_what_the_header_needs_is_refused_by_name() {
 fn the_manual_and_the_licences_are_installed() {
     for (file, source) in [
         ("embedding.md", "docs/embedding.md"),
+        ("swapchains.md", "docs/swapchains.md"),
         ("LICENSE-MIT", "LICENSE-MIT"),
         ("LICENSE-APACHE", "LICENSE-APACHE"),
         ("CHANGELOG.md", "CHANGELOG.md"),
@@ -251,6 +252,10 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
             .arg(prefix().join("forward.ppm")),
     );
     assert!(said.contains(" 0 left over"), "{said}");
+    assert!(
+        said.contains("after two resizes: the same picture"),
+        "{said}"
+    );
     let brute = figure(&said, "error of brute force: ");
     assert!(
         figure(&said, "error of one sample: ") > 20.0 * brute,

@@ -125,7 +125,7 @@ static void without_a_device(void) {
     EXPECT(gpc_frame_memory_bytes(NULL) == 0, "the memory of nothing");
     ANSWERS(gpc_frame_grow(NULL, NULL), GPC_RESULT_NULL, "grown is NULL");
     ANSWERS(gpc_frame_outcome(NULL, NULL), GPC_RESULT_NULL, "frame is NULL");
-    ANSWERS(gpc_frame_record(NULL, NULL, NULL, NULL, NULL), GPC_RESULT_NULL, "frame is NULL");
+    ANSWERS(gpc_frame_record(NULL, NULL, NULL, NULL, NULL, NULL), GPC_RESULT_NULL, "frame is NULL");
     gpc_frame_destroy(NULL);
     gpc_antialiaser_destroy(NULL);
 }
@@ -322,12 +322,13 @@ static void shade_nothing(void *user, VkCommandBuffer commands, const GpcVisibil
     ++*(int *)user;
 }
 
-static void recordings(GpcFrame *frame) {
+static void recordings(GpcFrame *frame, GpcImages images) {
     VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
     VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandBufferCount = 1};
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     VkCommandBuffer commands;
     GpcDraw draws[2] = {{.triangle_count = 2, .vertex_count = 3}, {.first_index = 6, .triangle_count = 2, .vertex_count = 3}};
+    const GpcImage ids = images.ids, none = {.view = VK_NULL_HANDLE};
     GpcScenery scenery;
     GpcOutcome outcome;
     GpcFrame *grown = NULL;
@@ -343,10 +344,11 @@ static void recordings(GpcFrame *frame) {
     ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_NOT_READY, "nothing was recorded yet");
     outcome.size = 0;
 
-#define RECORD gpc_frame_record(frame, commands, &scenery, shade_nothing, &calls)
-    ANSWERS(gpc_frame_record(frame, commands, NULL, shade_nothing, NULL), GPC_RESULT_NULL, "GpcScenery is NULL");
-    ANSWERS(gpc_frame_record(frame, NULL, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
-    ANSWERS(gpc_frame_record(frame, commands, &scenery, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+#define RECORD gpc_frame_record(frame, commands, &images, &scenery, shade_nothing, &calls)
+    ANSWERS(gpc_frame_record(frame, commands, &images, NULL, shade_nothing, NULL), GPC_RESULT_NULL, "GpcScenery is NULL");
+    ANSWERS(gpc_frame_record(frame, commands, NULL, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "GpcImages is NULL");
+    ANSWERS(gpc_frame_record(frame, NULL, &images, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
+    ANSWERS(gpc_frame_record(frame, commands, &images, &scenery, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
     scenery.draws = NULL;
     ANSWERS(RECORD, GPC_RESULT_NULL, "GpcScenery.draws is NULL");
     scenery.draws = draws;
@@ -389,6 +391,30 @@ static void recordings(GpcFrame *frame) {
     scenery.projection[1][1] = 0;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcScenery.projection has a scale of 0 along y");
     scenery.projection[1][1] = 1;
+    images.corner[1] = 0xffffffffu;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "the frame's part of the images ends at");
+    images.corner[1] = 0;
+    images.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcImages.color.before.layout is VK_IMAGE_LAYOUT_UNDEFINED");
+    images.color.before.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.after.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcImages.color.after.layout is VK_IMAGE_LAYOUT_UNDEFINED");
+    images.color.after.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.aspects = 0;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcImages.color.aspects is 0x0; it can have COLOR");
+    images.color.aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+    images.depth = ids;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcImages.depth.aspects is 0x1");
+    images.depth.aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "an image of depth is lent, and the frame was created without: set GpcImageKinds.depth");
+    images.depth.view = VK_NULL_HANDLE;
+    ANSWERS(RECORD, GPC_RESULT_NULL, "GpcImages.depth.view is VK_NULL_HANDLE");
+    images.depth = none;
+    images.ids.image = VK_NULL_HANDLE;
+    ANSWERS(RECORD, GPC_RESULT_NULL, "GpcImages.ids.image is VK_NULL_HANDLE");
+    images.ids = none;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "there is no image of IDs: set GpcImages.ids, or create the frame without GpcImageKinds.ids");
+    images.ids = ids;
     EXPECT(calls == 0, "what is refused records nothing");
     EXPECT(RECORD == GPC_RESULT_SUCCESS && calls > 0, "a recording");
     ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_STRUCT_SIZE, "GpcOutcome.size is 0");
@@ -471,6 +497,7 @@ static void frames(void) {
     VkBuffer positions = make_buffer(16 * VERTICES, &memory[0]), indices = make_buffer(4 * INDICES, &memory[1]);
     GpcImage ids = make_image(VK_FORMAT_R32_UINT, &memory[2]), color = make_image(VK_FORMAT_R8G8B8A8_UNORM, &memory[3]);
     GpcGeometry geometry;
+    GpcImageKinds kinds;
     GpcImages images;
     GpcOptions options;
     GpcAlphaMap map = {.width = SIDE, .height = SIDE, .levels = 1, .cutoff = 0.5f};
@@ -478,8 +505,9 @@ static void frames(void) {
     GpcFrame *frame = (GpcFrame *)&frame;
     const float locations[2][2] = {{-0.25f, 0.25f}, {0.25f, -0.25f}};
 
-#define CREATE gpc_frame_create(antialiaser, &geometry, &images, &options, &frame)
+#define CREATE gpc_frame_create(antialiaser, &geometry, &kinds, &options, &frame)
     MUST((VkResult)gpc_init_geometry(&geometry, sizeof geometry));
+    MUST((VkResult)gpc_init_image_kinds(&kinds, sizeof kinds));
     MUST((VkResult)gpc_init_images(&images, sizeof images));
     MUST((VkResult)gpc_init_options(&options, sizeof options));
     geometry.vertex_capacity = VERTICES;
@@ -489,12 +517,13 @@ static void frames(void) {
     geometry.index_capacity = INDICES;
     geometry.triangle_capacity = 4;
     geometry.draw_capacity = 2;
-    images.color_format = VK_FORMAT_R8G8B8A8_UINT;
+    kinds.color_format = VK_FORMAT_R8G8B8A8_UINT;
+    kinds.ids = VK_TRUE;
     images.ids = ids;
     images.color = color;
     options.width = options.height = SIDE;
-    ANSWERS(gpc_frame_create(antialiaser, &geometry, &images, &options, NULL), GPC_RESULT_NULL, "frame is NULL");
-    ANSWERS(gpc_frame_create(NULL, &geometry, &images, &options, &frame), GPC_RESULT_NULL, "antialiaser is NULL");
+    ANSWERS(gpc_frame_create(antialiaser, &geometry, &kinds, &options, NULL), GPC_RESULT_NULL, "frame is NULL");
+    ANSWERS(gpc_frame_create(NULL, &geometry, &kinds, &options, &frame), GPC_RESULT_NULL, "antialiaser is NULL");
     EXPECT(frame == NULL, "what failed gives nothing");
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.positions is VK_NULL_HANDLE");
     geometry.positions = positions;
@@ -565,11 +594,8 @@ static void frames(void) {
     geometry.y_up = 3;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.y_up is 3");
     geometry.y_up = VK_TRUE;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "set GpcImageKinds.depth and lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE");
     options.thin = VK_FALSE;
-    images.corner[1] = 0xffffffffu;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "the frame's part of the images ends at");
-    images.corner[1] = 0;
     geometry.blended = 2;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended is 2; it can be VK_FALSE (0), VK_TRUE (1)");
     geometry.blended = VK_TRUE;
@@ -581,34 +607,21 @@ static void frames(void) {
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.flat_background is 2");
     options.flat_background = VK_FALSE;
     geometry.blended = VK_FALSE;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImages.color_format is VK_FORMAT_R8G8B8A8_UINT");
-    images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
-    images.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImages.color.before.layout is VK_IMAGE_LAYOUT_UNDEFINED");
-    images.color.before.layout = VK_IMAGE_LAYOUT_GENERAL;
-    images.color.after.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImages.color.after.layout is VK_IMAGE_LAYOUT_UNDEFINED");
-    images.color.after.layout = VK_IMAGE_LAYOUT_GENERAL;
-    images.color.aspects = 0;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImages.color.aspects is 0x0; it can have COLOR");
-    images.color.aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.color_format is VK_FORMAT_R8G8B8A8_UINT");
+    kinds.color_format = VK_FORMAT_R8G8B8A8_UNORM;
     options.has_background = VK_TRUE;
     options.background[1] = zero / zero;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.background is [0.0, NaN, 0.0]: its light must be finite");
     options.background[1] = 0;
     options.has_background = VK_FALSE;
-    images.depth.image = ids.image;
-    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcImages.depth.view is VK_NULL_HANDLE");
-    images.depth.view = color.view;
-    images.depth.aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
-    images.depth.before.layout = images.depth.after.layout = VK_IMAGE_LAYOUT_GENERAL;
-    images.ids.image = VK_NULL_HANDLE;
-    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcImages.ids.image is VK_NULL_HANDLE");
-    images.ids.view = VK_NULL_HANDLE;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImages.depth is lent without GpcImages.ids");
-    images.ids = ids;
-    images.depth.image = VK_NULL_HANDLE;
-    images.depth.view = VK_NULL_HANDLE;
+    kinds.ids = VK_FALSE;
+    kinds.depth = VK_TRUE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.depth is VK_TRUE without GpcImageKinds.ids");
+    kinds.ids = VK_TRUE;
+    kinds.depth = VK_FALSE;
+    kinds.color_encoded = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.color_encoded is 2");
+    kinds.color_encoded = VK_FALSE;
     options.pattern = 7;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 7; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
     options.pattern = GPC_PATTERN_LIST;
@@ -633,7 +646,11 @@ static void frames(void) {
     EXPECT(frame == NULL, "what failed gives nothing");
     MUST((VkResult)CREATE);
     EXPECT(gpc_frame_memory_bytes(frame) > 0, "the memory of a frame");
-    recordings(frame);
+    EXPECT(gpc_frame_shared_memory_bytes(frame) > 0 && gpc_frame_shared_memory_bytes(NULL) == 0, "the memory that frames share");
+    ANSWERS(gpc_frame_resize(NULL, SIDE, SIDE), GPC_RESULT_NULL, "frame is NULL");
+    ANSWERS(gpc_frame_resize(frame, SIDE, 0), GPC_RESULT_VALUE, "an image of 64 x 0 pixels");
+    MUST((VkResult)gpc_frame_resize(frame, SIDE, SIDE));
+    recordings(frame, images);
     lists(&geometry, &options);
 
     gpc_antialiaser_destroy(antialiaser); /* before its frame */

@@ -191,7 +191,8 @@ impl Resources {
     /// If there is no room for them, or the driver did not map the buffer.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         let bytes = count * size_of::<ListedLocation>();
-        let listed = self.locations.locations.as_mut().ok_or(UNMAPPED)?;
+        let scratch = self.own_scratch().ok_or(UNMAPPED)?;
+        let listed = scratch.locations.locations.as_mut().ok_or(UNMAPPED)?;
         Ok(bytemuck::cast_slice_mut(mapped(&mut listed.buffer, bytes)?))
     }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// What fills triangle IDs, depth and colours of all pixels.
 pub(super) struct Base {
     /// Of a host that has no IDs.
-    raster: Option<(Raster, RasterTargets)>,
+    raster: Option<Raster>,
     colors: Colors,
 }
 
@@ -26,8 +26,8 @@ enum Colors {
 }
 
 impl Base {
-    /// Makes the pipelines; `image` is there where the host has drawn colours, `targets` where it lends no IDs, `output` are the
-    /// colour constants.
+    /// Makes the pipelines; `image` is there where the host has drawn colours, `draws_ids` says that it lends no IDs, `output` are
+    /// the colour constants.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -35,13 +35,12 @@ impl Base {
         shared: &Shared,
         content: &dyn Content,
         image: Option<&Arc<HostImage>>,
-        targets: Option<RasterTargets>,
+        draws_ids: bool,
         output: &ColorConstants,
     ) -> Result<Self, HostError> {
         let layout = &shared.frame;
         let single = vk::SampleCountFlags::TYPE_1;
-        let with_raster =
-            |targets| Ok::<_, HostError>((Raster::new(layout, single, content)?, targets));
+        let raster = || Raster::new(layout, single, content);
         let colors = match image {
             Some(image) => Colors::Drawn(Take::new(layout, image, output)?),
             None => Colors::Shaded {
@@ -50,7 +49,7 @@ impl Base {
             },
         };
         Ok(Self {
-            raster: targets.map(with_raster).transpose()?,
+            raster: draws_ids.then(raster).transpose()?,
             colors,
         })
     }
@@ -64,16 +63,17 @@ impl Base {
         }
     }
 
-    /// Records it, for draws that the set's uniform block is of.
+    /// Records it, for draws that the set's uniform block is of; IDs and depth are drawn into `targets`, where the host lends none.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         (resources, set): (&Resources, &SampleSet),
         (uniform, placed): (&FrameUniform, &PlacedDraws),
+        targets: Option<&RasterTargets>,
         shading: &dyn RecordShading,
     ) {
         let [width, height] = uniform.size;
-        if let Some((raster, targets)) = &self.raster {
+        if let Some((raster, targets)) = self.raster.as_ref().zip(targets) {
             let runs = runs(placed, &uniform.transform);
             let drawn = [[0, 0], uniform.size];
             let set = set.descriptor();

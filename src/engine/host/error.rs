@@ -105,6 +105,22 @@ pub enum HostError {
     /// Depth is of no use without IDs.
     #[error("depth is lent without IDs: lend both, or neither to have both drawn")]
     NoIds,
+    /// The frame was prepared with an image that a recording does not lend.
+    #[error(
+        "there is no image of {what}: lend it, or prepare the frame without it in ImageKinds::{}", .what.to_lowercase()
+    )]
+    MissingImage {
+        /// IDs or depth.
+        what: &'static str,
+    },
+    /// A recording lends an image that the frame was prepared without.
+    #[error(
+        "an image of {what} is lent, and the frame was prepared without: set ImageKinds::{}", .what.to_lowercase()
+    )]
+    UnexpectedImage {
+        /// IDs or depth.
+        what: &'static str,
+    },
     /// A frame has more of something than it was prepared for.
     #[error("{found} {what}; the frame was prepared for {capacity}")]
     Capacity {

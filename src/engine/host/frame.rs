@@ -3,11 +3,12 @@
 use super::base::Base;
 use super::draw::PlacedDraws;
 use super::lending::Lending;
+use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
-use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
-use crate::engine::data::{FrameUniform, IdViews, Offsets, Resources};
-use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
+use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
+use crate::engine::data::{Content, FrameUniform, IdViews, Offsets, Resources, SampleSet};
+use crate::engine::passes::{HostImage, ListLength, Patch, Patched, RasterTargets};
 use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
@@ -41,38 +42,36 @@ pub struct Outcome {
 /// Pipelines and memory to antialias one frame in flight of a host.
 pub struct Frame {
     lending: Lending,
-    images: Images,
+    work: Work,
+    kinds: ImageKinds,
     options: Options,
+    /// Last: layouts go after what was made with them.
+    shared: Arc<Shared>,
+}
+
+/// What a frame has for images of its size.
+struct Work {
     settings: Settings,
     plan: Plan,
     resources: Resources,
     sampler: Sampler,
     base: Base,
+    /// The host's image of colours, where these are read.
+    image: Option<Arc<HostImage>>,
     patch: Patch,
     visibility_set: OwnSet,
     timings: Timings,
+    /// Whether a recording with the upload was executed.
+    is_uploaded: bool,
     memory: Memory,
-    /// Last: layouts go after what was made with them.
-    shared: Arc<Shared>,
+    scratch: Arc<FrameScratch>,
 }
 
-impl Frame {
-    /// # Safety
-    /// As [`super::Antialiaser::prepare`].
-    pub(super) unsafe fn new(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
-        images: &Images,
-        options: &Options,
-    ) -> Result<Self, HostError> {
-        // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, images, options, Capacity::default()) }
-    }
-
-    unsafe fn with_capacity(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
-        images: &Images,
+impl Work {
+    fn new(
+        shared: &Shared,
+        lending: &Lending,
+        kinds: &ImageKinds,
         options: &Options,
         capacity: Capacity,
     ) -> Result<Self, HostError> {
@@ -80,46 +79,30 @@ impl Frame {
         let layout = &shared.frame;
         let settings = options.settings();
         settings.check(gpu.limits())?;
-        geometry.check(gpu)?;
-        if geometry.blended && options.shade_all {
-            return Err(HostError::BlendedCentres);
-        }
-        if geometry.blended && options.shows_drawn() {
-            return Err(HostError::BlendedBackground);
-        }
-        images.check(options, gpu.limits().max_image_side)?;
         check_size(settings.size)?;
         let [width, height] = settings.size;
-        let memory = Memory::new(gpu.clone(), settings.max_memory);
-        // SAFETY: passed on to the caller.
-        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
         let content = &lending.content;
-        let taken = memory.used();
-        let plan = Plan::whole(&settings, content, gpu.limits(), capacity, taken)?;
+        let plan = Plan::whole(&settings, content, gpu.limits(), capacity, lending.bytes())?;
+        let allowed = |taken| settings.max_memory.map(|most| most.saturating_sub(taken));
+        let scratch = shared.scratch.get(
+            layout,
+            &ScratchRequest {
+                sizes: plan.sizes,
+                bin_count: content.bin_count(),
+                targets: !kinds.ids,
+                allowed: allowed(lending.bytes()),
+            },
+        )?;
+        let memory = Memory::new(gpu.clone(), allowed(lending.bytes() + scratch.bytes()));
         let offsets = settings.method.offsets()?;
         let count = offsets.len() as u32;
         let offsets = with_probes(offsets)?;
-        let own_targets = || {
-            let single = vk::SampleCountFlags::TYPE_1;
-            RasterTargets::new(&memory, width, height, single, false)
-        };
-        let own = images.ids.is_none().then(own_targets).transpose()?;
-        let lent = |ids: LentImage| IdViews {
-            ids: ids.view,
-            blend_ids: None,
-            depth: images.depth.map(|depth| depth.view),
-            placeholder: None,
-        };
-        let own_views = own.as_ref().map(RasterTargets::views);
-        let Some(views) = images.ids.map(lent).or(own_views) else {
-            return Err(HostError::NoIds);
-        };
-        let resources = Resources::new(
+        let resources = Resources::with_scratch(
             layout,
             &memory,
+            &scratch.passes,
             content,
             (&content.texels(), content.lights()),
-            &views,
             plan.sizes,
             &[Offsets {
                 all: &offsets,
@@ -128,16 +111,12 @@ impl Frame {
         )?;
         let output = settings.color_constants(content);
         let image = (!options.shade_all)
-            .then(|| shared.host_image.image(images.color.encoded))
+            .then(|| shared.host_image.image(kinds.color_encoded))
             .transpose()?
             .map(Arc::new);
-        if let Some(image) = &image {
-            // SAFETY: the image's set is new; the view outlives the frame, as the caller says.
-            unsafe { image.show(images.color.lent.view) };
-        }
         let cells = PixelCells {
             behind: image.clone().filter(|_| options.shows_drawn()),
-            farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
+            farther_is_larger: kinds.ids && !lending.geometry.clip.reversed_depth,
             blend_ids: false,
             ..PixelCells::superpixels(&settings)
         };
@@ -154,7 +133,7 @@ impl Frame {
         if let Some(most) = options.max_rounds {
             sampler.limit_rounds(most);
         }
-        // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
+        // SAFETY: the set goes with the frame, as does what it shows.
         let visibility_set = unsafe { lending.visibility_set(shared, &resources, None) }?;
         let growths = sampler.growths() as u32;
         let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
@@ -164,18 +143,83 @@ impl Frame {
             (false, _) => Patched::Grown,
         };
         Ok(Self {
-            base: Base::new(shared, content, image.as_ref(), own, &output)?,
-            patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
+            base: Base::new(shared, content, image.as_ref(), !kinds.ids, &output)?,
+            patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
             timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
-            lending,
-            images: *images,
-            options: options.clone(),
             settings,
             plan,
             resources,
             sampler,
+            image,
             visibility_set,
+            is_uploaded: false,
             memory,
+            scratch,
+        })
+    }
+
+    /// Has the passes read a host's images.
+    ///
+    /// # Safety
+    /// The commands of the last recording are done, or will never be executed; the images outlive those of the next one.
+    unsafe fn show(&self, set: &SampleSet, images: &Images) {
+        let lent = |ids: LentImage| IdViews {
+            ids: ids.view,
+            blend_ids: None,
+            depth: images.depth.map(|depth| depth.view),
+            placeholder: None,
+        };
+        let drawn = || self.scratch.targets().map(RasterTargets::views);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            if let Some(views) = images.ids.map(lent).or_else(drawn) {
+                self.resources.show_ids(set, &views);
+            }
+            if let Some(image) = &self.image {
+                image.show(images.color.view);
+            }
+        }
+    }
+}
+
+impl Frame {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        kinds: &ImageKinds,
+        options: &Options,
+    ) -> Result<Self, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, kinds, options, Capacity::default()) }
+    }
+
+    unsafe fn with_capacity(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        kinds: &ImageKinds,
+        options: &Options,
+        capacity: Capacity,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        options.settings().check(gpu.limits())?;
+        geometry.check(gpu)?;
+        if geometry.blended && options.shade_all {
+            return Err(HostError::BlendedCentres);
+        }
+        if geometry.blended && options.shows_drawn() {
+            return Err(HostError::BlendedBackground);
+        }
+        kinds.check(options)?;
+        let memory = Memory::new(gpu.clone(), options.max_memory);
+        // SAFETY: passed on to the caller.
+        let lending = unsafe { Lending::new(shared, memory, geometry) }?;
+        Ok(Self {
+            work: Work::new(shared, &lending, kinds, options, capacity)?,
+            lending,
+            kinds: *kinds,
+            options: options.clone(),
             shared: shared.clone(),
         })
     }
@@ -186,13 +230,40 @@ impl Frame {
         &self.options
     }
 
-    /// Bytes of device memory that it takes, beside what the host lends.
+    /// Bytes of device memory that it takes, beside what the host lends: its own, and those that it shares.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.memory.used()
+        self.lending.bytes() + self.work.memory.used() + self.shared_memory_bytes()
     }
 
-    /// A frame like this one, for the same buffers and images, with more of what the last recording lacked: memory for lists.
+    /// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them.
+    #[must_use]
+    pub fn shared_memory_bytes(&self) -> u64 {
+        self.work.scratch.bytes()
+    }
+
+    /// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes
+    /// smaller keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+    ///
+    /// # Errors
+    /// As [`super::Antialiaser::prepare`]; the frame is then as it was.
+    ///
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`]; the commands of the last recording are done, or will never be executed.
+    pub unsafe fn resize(&mut self, size: [u32; 2]) -> Result<(), HostError> {
+        let options = Options {
+            size,
+            ..self.options.clone()
+        };
+        let capacity = self.work.sampler.capacity();
+        let (shared, lending) = (&self.shared, &self.lending);
+        self.work = Work::new(shared, lending, &self.kinds, &options, capacity)?;
+        self.options = options;
+        self.lending.forget_recording();
+        Ok(())
+    }
+
+    /// A frame like this one, for the same buffers and kinds of images, with more of what the last recording lacked: memory for lists.
     /// Where it lacked nothing, it is made with as much; [`Options::max_rounds`] stays what it is.
     ///
     /// # Errors
@@ -201,31 +272,34 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.sampler.capacity().more(self.shortfall()?);
+        let capacity = self.work.sampler.capacity().more(self.shortfall()?);
         // SAFETY: passed on to the caller.
         unsafe {
             Self::with_capacity(
                 &self.shared,
                 &self.lending.geometry,
-                &self.images,
+                &self.kinds,
                 &self.options,
                 capacity,
             )
         }
     }
 
-    /// Records the antialiasing of a frame, of which the host has drawn what it lends. It submits nothing, waits for nothing,
-    /// allocates nothing on the device and updates no descriptor.
+    /// Records the antialiasing of a frame, of which the host has drawn what it lends: in any images of the kinds and the size
+    /// that the frame was prepared for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates
+    /// nothing on the device. It updates descriptor sets of the frame's own, for which the last recording has to be done.
     ///
     /// # Errors
-    /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
+    /// If images or scenery do not fit what the frame was prepared for. Nothing is recorded then.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
-    /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
-    ///   host has drawn of the same draws and positions.
+    /// - The commands are executed on the queue that those of all frames of the antialiaser are executed on.
+    /// - Images and views are alive, of this device, of the size and formats that the frame was prepared for, made with the usage flags
+    ///   that [`Images`] names, and in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold
+    ///   what the host has drawn of the same draws and positions.
     /// - In the frame's recordings, up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue
     ///   or made visible to it.
     /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
@@ -234,6 +308,7 @@ impl Frame {
     pub unsafe fn record(
         &mut self,
         commands: vk::CommandBuffer,
+        images: &Images,
         scenery: &Scenery<'_>,
         shading: &dyn ShadeSamples,
     ) -> Result<(), HostError> {
@@ -249,33 +324,47 @@ impl Frame {
         if scenery.projection[1][1] == 0.0 {
             return Err(HostError::FlatProjection);
         }
-        let uniform = self.uniform(&placed, &scenery.projection);
         let gpu = self.shared.gpu.clone();
-        let resources = &self.resources;
-        let Some(set) = resources.set(0) else {
+        images.check(&self.kinds, &self.options, gpu.limits().max_image_side)?;
+        let uniform = self.uniform(&placed, scenery, images);
+        let work = &mut self.work;
+        let Some(set) = work.resources.set(0) else {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        unsafe { work.show(set, images) };
+        let resources = &work.resources;
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &mut recorder;
-        self.lending
-            .record_begin(recorder, placed.triangles, |recorder| {
+        // The commands of another frame, before on the queue, use the same memory.
+        recorder.barrier();
+        let lending = &mut self.lending;
+        lending.record_begin(
+            recorder,
+            placed.triangles,
+            &mut work.is_uploaded,
+            |recorder| {
                 resources.record_upload(recorder);
-            });
+            },
+        );
         let lending = &self.lending;
-        self.images.record_begin(recorder);
+        images.record_begin(recorder);
         lending.record_triangles(recorder, &placed);
-        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
-        let footprints = Footprints::new(&self.settings, self.settings.method.samples());
-        let boxes = self.settings.filters_boxes();
-        let at_centres = lending.visible(&self.settings, footprints.centre, false);
-        let at_places = lending.visible(&self.settings, footprints.place, boxes);
+        let shading = lending.shading(shading, &work.visibility_set, (resources, set));
+        let settings = &work.settings;
+        let footprints = Footprints::new(settings, settings.method.samples());
+        let boxes = settings.filters_boxes();
+        let at_centres = lending.visible(settings, footprints.centre, false);
+        let at_places = lending.visible(settings, footprints.place, boxes);
         let shades_all = self.options.shade_all;
         let first = if shades_all { at_centres } else { at_places };
         lending.record_visible(recorder, &first);
         resources.record_begin(recorder, set, &uniform);
         let seen = (&uniform, &placed);
-        self.base.record(recorder, (resources, set), seen, &shading);
+        let targets = work.scratch.targets();
+        work.base
+            .record(recorder, (resources, set), seen, targets, &shading);
         if shades_all {
             lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.
@@ -288,23 +377,24 @@ impl Frame {
             list: (0, ListLength::Known),
             index: 0,
         };
-        self.sampler.record(recorder, &run, &shading);
+        work.sampler.record(recorder, &run, &shading);
         recorder.barrier();
-        self.images.record_draw(recorder);
-        let view = self.images.color.lent.view;
-        let part = self.images.part(self.settings.size);
-        self.patch.record(recorder, set.descriptor(), view, part);
+        images.record_draw(recorder);
+        let part = images.part(settings.size);
+        work.patch
+            .record(recorder, set.descriptor(), images.color.view, part);
         recorder.mark("patch");
-        self.images.record_end(recorder);
-        self.lending.record_end(recorder);
+        images.record_end(recorder);
+        lending.record_end(recorder);
         Ok(())
     }
 
     fn shortfall(&self) -> Result<Shortfall, HostError> {
         self.lending.check_done()?;
         let mut shortfall = Shortfall::default();
-        let tiles = self.plan.sizes.tiles();
-        self.sampler.add_shortfall([tiles], &mut shortfall)?;
+        let work = &self.work;
+        let tiles = work.plan.sizes.tiles();
+        work.sampler.add_shortfall([tiles], &mut shortfall)?;
         Ok(shortfall)
     }
 
@@ -316,8 +406,8 @@ impl Frame {
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(
-            (&self.sampler, &self.plan.sizes),
-            (&self.timings, &self.memory),
+            (&self.work.sampler, &self.work.plan.sizes),
+            (&self.work.timings, self.memory_bytes()),
             &shortfall,
         )?;
         Ok(Outcome {
@@ -326,14 +416,19 @@ impl Frame {
         })
     }
 
-    fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
-        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+    fn uniform(
+        &self,
+        placed: &PlacedDraws,
+        scenery: &Scenery<'_>,
+        images: &Images,
+    ) -> FrameUniform {
+        let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
         let plane = PlaneBlock {
-            gap: gap(projection, settings.size[1]),
+            gap: gap(&scenery.projection, settings.size[1]),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
             alike: u32::from(settings.superpixels().threshold()).div_ceil(4),
-            seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
-            color_corner: self.images.corner,
+            seen_corner: images.ids.map_or([0, 0], |_| images.corner),
+            color_corner: images.corner,
             ..plane_block(geometry, settings.size)
         };
         let footprints = Footprints::new(settings, settings.method.samples());
@@ -342,7 +437,7 @@ impl Frame {
             &plane,
             settings,
             (settings.method.samples(), &footprints),
-            &self.plan.sizes,
+            &self.work.plan.sizes,
         )
     }
 }

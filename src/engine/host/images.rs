@@ -5,7 +5,7 @@ use crate::engine::sampler::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// An image that is read: single-sampled, one level, one layer, of the size in [`Options`](super::Options) or larger.
+/// An image: single-sampled, one level, one layer, of the size in [`Options`](super::Options) or larger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LentImage {
     /// The image.
@@ -20,19 +20,22 @@ pub struct LentImage {
     pub after: ImageState,
 }
 
-/// The image that superpixels are drawn into.
+/// The kinds of images that a frame is recorded with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ColorImage {
-    /// The image, made with `SAMPLED` and `COLOR_ATTACHMENT`.
-    pub lent: LentImage,
-    /// The view's format.
-    pub format: vk::Format,
-    /// Whether the host's shaders write sRGB codes into a format of plain numbers; otherwise the image holds linear light,
-    /// or encodes it itself.
-    pub encoded: bool,
+pub struct ImageKinds {
+    /// Whether triangle IDs are lent; otherwise the library draws IDs and depth for itself.
+    pub ids: bool,
+    /// Whether depth is lent, which goes with IDs.
+    pub depth: bool,
+    /// The format of views of colours.
+    pub color_format: vk::Format,
+    /// Whether the host's shaders write sRGB codes into a format of plain numbers; otherwise the image of colours holds linear
+    /// light, or encodes it itself.
+    pub color_encoded: bool,
 }
 
-/// What the host has drawn, one sample a pixel, and where its picture goes.
+/// What the host has drawn, one sample a pixel, and where its picture goes: images of the [kinds](ImageKinds) that the frame was
+/// prepared for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Images {
     /// Triangle IDs, `R32_UINT`, made with `SAMPLED`: 1 + the index of the nearest triangle in the order of the frame's
@@ -40,8 +43,8 @@ pub struct Images {
     pub ids: Option<LentImage>,
     /// Depth of the nearest triangle, of any depth format, made with `SAMPLED`; the view shows depth alone.
     pub depth: Option<LentImage>,
-    /// Colours.
-    pub color: ColorImage,
+    /// Colours, made with `SAMPLED` and `COLOR_ATTACHMENT`: superpixels are drawn into it.
+    pub color: LentImage,
     /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in
     /// [`Options`](super::Options); the library neither reads nor writes what lies around it.
     pub corner: [u32; 2],
@@ -124,10 +127,32 @@ impl LentImage {
     }
 }
 
+impl ImageKinds {
+    pub(super) fn check(&self, options: &Options) -> Result<(), HostError> {
+        match (self.ids, self.depth) {
+            (true, false) if options.thin => return Err(HostError::NoDepth),
+            (false, true) => return Err(HostError::NoIds),
+            _ => {}
+        }
+        if !FORMATS.contains(&self.color_format) {
+            return Err(HostError::Format(self.color_format));
+        }
+        if self.color_encoded && ENCODING.contains(&self.color_format) {
+            return Err(HostError::Encoded(self.color_format));
+        }
+        Ok(())
+    }
+}
+
 impl Images {
     /// `most` is the largest side of an image on the device.
-    pub(super) fn check(&self, options: &Options, most: u32) -> Result<(), HostError> {
-        let (thin, size) = (options.thin, options.size);
+    pub(super) fn check(
+        &self,
+        kinds: &ImageKinds,
+        options: &Options,
+        most: u32,
+    ) -> Result<(), HostError> {
+        let size = options.size;
         let end = [0, 1].map(|axis| u64::from(self.corner[axis]) + u64::from(size[axis]));
         if end.iter().any(|end| *end > u64::from(most)) {
             return Err(HostError::Part { end, most });
@@ -139,25 +164,18 @@ impl Images {
             let names = ("the image of depth", "the view of depth");
             depth.check(names, true, &DEPTH)?;
         }
-        match (&self.ids, &self.depth) {
-            (Some(_), None) if thin => return Err(HostError::NoDepth),
-            (None, Some(_)) => return Err(HostError::NoIds),
-            _ => {}
+        for (what, lent, expected) in [
+            ("IDs", self.ids.is_some(), kinds.ids),
+            ("depth", self.depth.is_some(), kinds.depth),
+        ] {
+            match (lent, expected) {
+                (true, false) => return Err(HostError::UnexpectedImage { what }),
+                (false, true) => return Err(HostError::MissingImage { what }),
+                _ => {}
+            }
         }
-        let ColorImage {
-            lent,
-            format,
-            encoded,
-        } = &self.color;
         let names = ("the image of colours", "the view of colours");
-        lent.check(names, !options.shade_all, &COLOR)?;
-        if !FORMATS.contains(format) {
-            return Err(HostError::Format(*format));
-        }
-        if *encoded && ENCODING.contains(format) {
-            return Err(HostError::Encoded(*format));
-        }
-        Ok(())
+        self.color.check(names, !options.shade_all, &COLOR)
     }
 
     fn read(&self) -> impl Iterator<Item = &LentImage> {
@@ -166,7 +184,7 @@ impl Images {
 
     /// Readies all of them for reading.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
-        for image in self.read().chain([&self.color.lent]) {
+        for image in self.read().chain([&self.color]) {
             image.record(recorder, image.before, ImageState::READ);
         }
     }
@@ -182,8 +200,8 @@ impl Images {
 
     /// Readies the colours for drawing.
     pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
-        let color = &self.color.lent;
-        color.record(recorder, ImageState::READ, ImageState::DRAWN);
+        self.color
+            .record(recorder, ImageState::READ, ImageState::DRAWN);
     }
 
     /// Hands all of them back.
@@ -191,8 +209,8 @@ impl Images {
         for image in self.read() {
             image.record(recorder, ImageState::READ, image.after);
         }
-        let color = &self.color.lent;
-        color.record(recorder, ImageState::DRAWN, color.after);
+        self.color
+            .record(recorder, ImageState::DRAWN, self.color.after);
     }
 }
 
@@ -216,18 +234,21 @@ mod tests {
                 aspects: vk::ImageAspectFlags::DEPTH,
                 ..lent
             }),
-            color: ColorImage {
-                lent,
-                format: vk::Format::B8G8R8A8_UNORM,
-                encoded: true,
-            },
+            color: lent,
             corner: [0, 0],
         }
     }
 
+    const KINDS: ImageKinds = ImageKinds {
+        ids: true,
+        depth: true,
+        color_format: vk::Format::B8G8R8A8_UNORM,
+        color_encoded: true,
+    };
+
     #[test]
     fn what_is_missing_or_does_not_fit_is_named() {
-        let check = |images: &Images| images.check(&Options::new(64, 32), 1024);
+        let check = |images: &Images| images.check(&KINDS, &Options::new(64, 32), 1024);
         assert!(check(&images()).is_ok());
         let refused = |spoil: &dyn Fn(&mut Images)| {
             let mut images = images();
@@ -239,33 +260,37 @@ mod tests {
             ids.unwrap().image = vk::Image::null();
         });
         assert_eq!(ids, "the image of IDs is VK_NULL_HANDLE");
-        let view = refused(&|images| images.color.lent.view = vk::ImageView::null());
+        let view = refused(&|images| images.color.view = vk::ImageView::null());
         assert_eq!(view, "the view of colours is VK_NULL_HANDLE");
         let depth = refused(&|images| images.depth = None);
-        assert!(depth.starts_with("thin triangles are found by depth"));
+        assert!(depth.starts_with("there is no image of depth"));
         let alone = refused(&|images| images.ids = None);
-        assert!(alone.starts_with("depth is lent without IDs"));
+        assert!(alone.starts_with("there is no image of IDs"));
+        let bare = ImageKinds {
+            ids: false,
+            depth: false,
+            ..KINDS
+        };
+        let more = images().check(&bare, &Options::new(64, 32), 1024);
+        let more = more.unwrap_err().to_string();
+        assert!(more.starts_with("an image of IDs is lent"));
         let beyond = refused(&|images| images.corner = [961, 0]);
         assert!(beyond.starts_with("the frame's part of the images ends at 1025 x 32 pixels"));
-        let integers = refused(&|images| images.color.format = vk::Format::R8G8B8A8_UINT);
-        assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
-        let twice = refused(&|images| images.color.format = vk::Format::B8G8R8A8_SRGB);
-        assert!(twice.ends_with("it can't be encoded as well"));
-        let lost = refused(&|images| images.color.lent.after.layout = vk::ImageLayout::UNDEFINED);
+        let lost = refused(&|images| images.color.after.layout = vk::ImageLayout::UNDEFINED);
         assert_eq!(
             lost,
             "the image of colours is in the layout UNDEFINED after the recording; it can be any that keeps what the image holds"
         );
-        let empty = refused(&|images| images.color.lent.before.layout = vk::ImageLayout::UNDEFINED);
+        let empty = refused(&|images| images.color.before.layout = vk::ImageLayout::UNDEFINED);
         assert!(empty.starts_with("the image of colours is in the layout UNDEFINED before"));
         let mut shaded = images();
-        shaded.color.lent.before.layout = vk::ImageLayout::UNDEFINED;
+        shaded.color.before.layout = vk::ImageLayout::UNDEFINED;
         let options = Options {
             shade_all: true,
             ..Options::new(64, 32)
         };
-        assert!(shaded.check(&options, 1024).is_ok());
-        let aspects = refused(&|images| images.color.lent.aspects = vk::ImageAspectFlags::DEPTH);
+        assert!(shaded.check(&KINDS, &options, 1024).is_ok());
+        let aspects = refused(&|images| images.color.aspects = vk::ImageAspectFlags::DEPTH);
         assert_eq!(
             aspects,
             "the image of colours has the aspects DEPTH; it can have COLOR"
@@ -275,5 +300,32 @@ mod tests {
             depth.unwrap().aspects = vk::ImageAspectFlags::empty();
         });
         assert!(none.starts_with("the image of depth has the aspects"));
+    }
+
+    #[test]
+    fn kinds_that_do_not_fit_are_named() {
+        let refused = |kinds: ImageKinds| {
+            let checked = kinds.check(&Options::new(64, 32));
+            checked.unwrap_err().to_string()
+        };
+        assert!(KINDS.check(&Options::new(64, 32)).is_ok());
+        let shallow = ImageKinds {
+            depth: false,
+            ..KINDS
+        };
+        assert!(refused(shallow).starts_with("thin triangles are found by depth"));
+        let alone = ImageKinds {
+            ids: false,
+            ..KINDS
+        };
+        assert!(refused(alone).starts_with("depth is lent without IDs"));
+        let of = |color_format| ImageKinds {
+            color_format,
+            ..KINDS
+        };
+        let integers = refused(of(vk::Format::R8G8B8A8_UINT));
+        assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
+        let twice = refused(of(vk::Format::B8G8R8A8_SRGB));
+        assert!(twice.ends_with("it can't be encoded as well"));
     }
 }

@@ -27,8 +27,9 @@ pub(super) struct Lending {
     adoption: Adoption,
     visibility: Buffer,
     completion: Completion,
-    /// Whether a recording with the upload was executed.
-    is_uploaded: bool,
+    /// Whether a recording in which alpha maps are read was executed.
+    has_alpha: bool,
+    memory: Memory,
     /// Triangles of the last recording.
     triangles: u32,
 }
@@ -38,15 +39,15 @@ impl Lending {
     /// The host's buffers and views are as [`Geometry`] says and outlive this.
     pub unsafe fn new(
         shared: &Arc<Shared>,
-        memory: &Memory,
+        memory: Memory,
         geometry: &Geometry,
     ) -> Result<Self, HostError> {
         // SAFETY: passed on to the caller.
-        let content = unsafe { HostContent::new(&shared.gpu, memory, geometry) }?;
+        let content = unsafe { HostContent::new(&shared.gpu, &memory, geometry) }?;
         // SAFETY: passed on to the caller.
         let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
         // SAFETY: passed on to the caller.
-        let adoption = unsafe { Adoption::new(shared, memory, geometry, &content) }?;
+        let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
         let visibility = memory.buffer(
             "visibility uniform",
             size_of::<VisibilityUniform>() as u64,
@@ -60,7 +61,8 @@ impl Lending {
             adoption,
             visibility,
             completion: Completion::new(&shared.gpu)?,
-            is_uploaded: false,
+            has_alpha: false,
+            memory,
             triangles: 0,
         })
     }
@@ -86,22 +88,36 @@ impl Lending {
         Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed.
+    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed, as `is_uploaded` says
+    /// from then on.
     pub fn record_begin(
         &mut self,
         recorder: &mut Recorder<'_>,
         triangles: u32,
+        is_uploaded: &mut bool,
         upload: impl FnOnce(&Recorder<'_>),
     ) {
         self.triangles = triangles;
-        self.is_uploaded |= self.completion.begin(recorder);
-        if !self.is_uploaded {
+        let was_executed = self.completion.begin(recorder);
+        *is_uploaded |= was_executed;
+        self.has_alpha |= was_executed;
+        if !*is_uploaded {
             upload(recorder);
         }
         recorder.begin();
-        if !self.is_uploaded {
+        if !self.has_alpha {
             self.alpha.record(recorder, &self.content);
         }
+    }
+
+    /// Forgets the last recording, whose commands are done or will never be executed.
+    pub fn forget_recording(&mut self) {
+        self.has_alpha |= self.completion.forget();
+    }
+
+    /// Bytes that it takes.
+    pub fn bytes(&self) -> u64 {
+        self.memory.used()
     }
 
     /// Ends a recording.
@@ -163,12 +179,12 @@ impl Lending {
     pub fn statistics(
         &self,
         (sampler, sizes): (&Sampler, &ResourceSizes),
-        (timings, memory): (&Timings, &Memory),
+        (timings, memory_bytes): (&Timings, u64),
         shortfall: &Shortfall,
     ) -> Result<Statistics, HostError> {
         let mut statistics = Statistics {
             regions: 1,
-            memory_bytes: memory.used(),
+            memory_bytes,
             ..Statistics::default()
         };
         statistics.triangles.total = u64::from(self.triangles);

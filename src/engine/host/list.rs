@@ -71,6 +71,7 @@ pub struct List {
     visibility_set: OwnSet,
     timings: Timings,
     memory: Memory,
+    is_uploaded: bool,
     _locations: TexelView,
     /// Last: layouts go after what was made with them.
     shared: Arc<Shared>,
@@ -154,7 +155,7 @@ impl List {
         list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
-        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
+        let lending = unsafe { Lending::new(shared, memory.clone(), geometry) }?;
         let content = &lending.content;
         let cells = ListCells {
             cells: if settings.method.samples() == 1 {
@@ -222,6 +223,7 @@ impl List {
             sampler,
             visibility_set,
             memory,
+            is_uploaded: false,
             _locations: locations,
             shared: shared.clone(),
         })
@@ -296,11 +298,15 @@ impl List {
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let recorder = &mut recorder;
         recorder.barrier();
-        self.lending
-            .record_begin(recorder, placed.triangles, |recorder| {
+        self.lending.record_begin(
+            recorder,
+            placed.triangles,
+            &mut self.is_uploaded,
+            |recorder| {
                 resources.record_upload(recorder);
                 self.targets.record_unused(recorder);
-            });
+            },
+        );
         let lending = &self.lending;
         lending.record_triangles(recorder, &placed);
         let boxes = self.settings.filters_boxes();
@@ -340,7 +346,7 @@ impl List {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(
             (&self.sampler, self.resources.sizes()),
-            (&self.timings, &self.memory),
+            (&self.timings, self.memory.used()),
             &shortfall,
         )?;
         Ok(ListOutcome {

@@ -28,6 +28,7 @@ mod images;
 mod lending;
 mod list;
 mod options;
+mod scratch;
 mod shader;
 mod shading;
 mod uniform;
@@ -38,7 +39,7 @@ pub use draw::Draw;
 pub use error::HostError;
 pub use frame::{Frame, Outcome, Scenery};
 pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
-pub use images::{ColorImage, Images, LentImage};
+pub use images::{ImageKinds, Images, LentImage};
 pub use list::{List, ListOutcome, Location, LocationList};
 pub use options::Options;
 pub use shader::{ShaderError, check_shader};
@@ -49,9 +50,11 @@ use crate::engine::passes::{self, Adopt, AlphaMaps, HostImageLayout, Transform};
 use crate::engine::pipelines::{FrameLayout, SetLayout};
 use crate::vulkan::{Gpu, Host, VulkanError};
 use ash::vk;
+use scratch::ScratchPool;
 use std::sync::Arc;
 
-/// What frames of one device share: layouts, and the pipelines made so far.
+/// What frames share that are executed on one queue: layouts, the pipelines made so far, and the memory that passes hand to each
+/// other. An application that antialiases on several queues has one for each.
 pub struct Antialiaser {
     shared: Arc<Shared>,
 }
@@ -65,6 +68,7 @@ pub(crate) struct Shared {
     alpha_maps: AlphaMaps,
     host_image: Arc<HostImageLayout>,
     visibility: SetLayout,
+    scratch: ScratchPool,
 }
 
 impl Antialiaser {
@@ -95,6 +99,7 @@ impl Antialiaser {
                 alpha_maps: AlphaMaps::new(&gpu)?,
                 host_image: HostImageLayout::new(&frame)?,
                 visibility: visibility_layout(&gpu)?,
+                scratch: ScratchPool::default(),
                 frame,
                 gpu,
             }),
@@ -114,19 +119,21 @@ impl Antialiaser {
         self.shared.visibility.raw
     }
 
-    /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes
-    /// new ones where a size or a handle changes.
+    /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number
+    /// of its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that passes hand to each
+    /// other, where its size suffices for several: it takes no more room for many frames than for one.
     ///
     /// # Errors
     /// [`HostError`] names what can't be had; nothing is left behind.
     ///
     /// # Safety
-    /// - The buffers and views are alive, of this device, of the sizes and formats named, made with the usage flags that
-    ///   [`Geometry`] and [`Images`] name, and outlive the frame.
+    /// - The buffers and alpha maps are alive, of this device, of the sizes named, made with the usage flags that [`Geometry`]
+    ///   names, and outlive the frame.
+    /// - What is recorded with the frames of this antialiaser is executed on one queue.
     pub unsafe fn prepare(
         &self,
         geometry: &Geometry,
-        images: &Images,
+        images: &ImageKinds,
         options: &Options,
     ) -> Result<Frame, HostError> {
         // SAFETY: passed on to the caller.

@@ -53,7 +53,16 @@ impl Completion {
         was_done
     }
 
-    /// Ends a recording; the CPU may read its results once it has run.
+    /// Forgets the last recording, whose commands are done or will never be executed.
+    ///
+    /// Whether they were executed.
+    pub fn forget(&mut self) -> bool {
+        let was_done = self.check().is_ok();
+        self.is_recorded = false;
+        was_done
+    }
+
+    /// Ends a recording, whose results the CPU may read once it is done.
     pub fn end(&self, recorder: &Recorder<'_>) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
         let to_cpu = [vk::MemoryBarrier2::default()

@@ -2,7 +2,7 @@
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
-use crate::engine::data::{Cells, ListedLocation, Offsets, Resources};
+use crate::engine::data::{Cells, ListedLocation, Offsets};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
@@ -178,13 +178,11 @@ impl LocationSampler {
 
     /// Values at the `locations` locations of the last run.
     pub fn values(&self, locations: usize) -> Result<LocationValues<'_>, VulkanError> {
-        let Resources {
-            color, attributes, ..
-        } = &self.run.resources;
+        let resources = &self.run.resources;
         Ok(LocationValues {
-            colors: color.buffer.read(locations)?,
-            attributes: match self.run.resources.sizes().attributes {
-                true => attributes.read(locations)?,
+            colors: resources.color.buffer.read(locations)?,
+            attributes: match resources.sizes().attributes {
+                true => resources.attributes.read(locations)?,
                 false => &[],
             },
         })

@@ -5,9 +5,9 @@ use crate::submit::{discard, submit, submit_and};
 use ash::vk;
 use gpc::host::HostError;
 use gpc::host::{
-    AlphaMap, Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
-    LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace, Scenery,
-    ShadeSamples, VisibilitySamples,
+    AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState,
+    Images, LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace,
+    Scenery, ShadeSamples, VisibilitySamples,
 };
 use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
@@ -103,6 +103,63 @@ impl ShadeSamples for Gated<'_> {
             self.inner.device.cmd_wait_events2(commands, &gates, &info);
         }
         self.inner.record(commands, found);
+    }
+}
+
+/// An image that the library makes all of.
+struct Canvas {
+    color: Image,
+    read_back: Buffer,
+    size: [u32; 2],
+}
+
+/// What a frame shows.
+pub struct Shown {
+    pub colors: Vec<[f32; 4]>,
+    pub memory_bytes: u64,
+    pub shared_bytes: u64,
+}
+
+impl Canvas {
+    fn images(&self) -> Images {
+        Images {
+            ids: None,
+            depth: None,
+            color: LentImage {
+                image: self.color.handle(),
+                view: self.color.view(),
+                aspects: vk::ImageAspectFlags::COLOR,
+                before: UNDEFINED,
+                after: COPIED,
+            },
+            corner: [0, 0],
+        }
+    }
+
+    fn shown(&self, frame: &Frame) -> Shown {
+        let pixels = self.size[0] as usize * self.size[1] as usize;
+        Shown {
+            colors: self.read_back.read(pixels).unwrap().to_vec(),
+            memory_bytes: frame.memory_bytes(),
+            shared_bytes: frame.shared_memory_bytes(),
+        }
+    }
+}
+
+/// Those of a canvas.
+const KINDS: ImageKinds = ImageKinds {
+    ids: false,
+    depth: false,
+    color_format: vk::Format::R32G32B32A32_SFLOAT,
+    color_encoded: false,
+};
+
+/// Those of a canvas of a size.
+fn of_size([width, height]: [u32; 2]) -> Options {
+    Options {
+        background: Some(SKY),
+        shade_all: true,
+        ..Options::new(width, height)
     }
 }
 
@@ -372,12 +429,14 @@ impl<'a> Machine<'a> {
         let images = Images {
             ids: (base.ids()).map(|_| lend(&ids, plain, WRITTEN, WRITTEN)),
             depth: (base.ids()).map(|_| lend(&depth, deep, WRITTEN, WRITTEN)),
-            color: ColorImage {
-                lent: lend(&color, plain, before, COPIED),
-                format: vk::Format::R32G32B32A32_SFLOAT,
-                encoded: false,
-            },
+            color: lend(&color, plain, before, COPIED),
             corner: way.corner,
+        };
+        let kinds = ImageKinds {
+            ids: images.ids.is_some(),
+            depth: images.depth.is_some(),
+            color_format: vk::Format::R32G32B32A32_SFLOAT,
+            color_encoded: false,
         };
         let options = Options {
             background: options.background.or(Some(SKY)),
@@ -387,7 +446,7 @@ impl<'a> Machine<'a> {
         // SAFETY: lent objects have the stated contents, and outlive the frame.
         let mut frame = unsafe {
             self.antialiaser
-                .prepare(&lending.geometry, &images, &options)
+                .prepare(&lending.geometry, &kinds, &options)
         }
         .unwrap();
         let dispatched = self.read_back(4 * CALLS);
@@ -400,7 +459,7 @@ impl<'a> Machine<'a> {
             assert!(is_not_recorded(frame.outcome().err()));
             discard(&self.gpu, |commands| {
                 // SAFETY: the commands are never submitted.
-                unsafe { frame.record(commands, &scenery, &shading) }.unwrap();
+                unsafe { frame.record(commands, &images, &scenery, &shading) }.unwrap();
             });
             assert!(is_not_done(frame.outcome().err()));
             // SAFETY: lent objects outlive all frames.
@@ -410,7 +469,7 @@ impl<'a> Machine<'a> {
         self.run(
             size,
             &mut frame,
-            &scenery,
+            (&images, &scenery),
             &shading,
             &pictures,
             (&color, &read_back),
@@ -424,6 +483,95 @@ impl<'a> Machine<'a> {
                 .to_vec(),
             outcome,
             dispatched: (dispatched.read(shading.calls.get() as usize).unwrap()).to_vec(),
+        }
+    }
+
+    /// Pictures of draws that the library makes alone: in frames of their own, whose commands follow each other without a barrier
+    /// of the host's.
+    pub fn see_at_once(&self, way: &Way, lent: &Lent, shown: &[&[Draw]]) -> Vec<Shown> {
+        let size = SIZE;
+        let lending = Lending::new(self, way, lent);
+        let (corners, dispatched) = self.kept(lent);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        let canvases: Vec<_> = shown.iter().map(|_| self.canvas(size)).collect();
+        // SAFETY: what is lent is as it says, and outlives the frames.
+        let prepared = || unsafe {
+            let options = of_size(size);
+            self.antialiaser
+                .prepare(&lending.geometry, &KINDS, &options)
+        };
+        let mut frames: Vec<_> = shown.iter().map(|_| prepared().unwrap()).collect();
+        submit(&self.gpu, |commands| {
+            for ((frame, draws), canvas) in frames.iter_mut().zip(shown).zip(&canvases) {
+                let scenery = Scenery {
+                    draws,
+                    projection: self.world.projection,
+                };
+                // SAFETY: the commands are waited for; all handles outlive them.
+                unsafe { frame.record(commands, &canvas.images(), &scenery, &shading) }.unwrap();
+            }
+            for canvas in &canvases {
+                self.read(commands, canvas);
+            }
+        });
+        let frames = frames.iter().zip(&canvases);
+        frames.map(|(frame, canvas)| canvas.shown(frame)).collect()
+    }
+
+    /// Pictures of the world in images of sizes that one frame takes one after the other.
+    pub fn see_resized(&self, way: &Way, lent: &Lent, sizes: &[[u32; 2]]) -> Vec<Shown> {
+        let lending = Lending::new(self, way, lent);
+        let (corners, dispatched) = self.kept(lent);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        let options = of_size(sizes[0]);
+        let prepare = |geometry| {
+            // SAFETY: what is lent is as it says, and outlives the frame.
+            unsafe { self.antialiaser.prepare(geometry, &KINDS, &options) }
+        };
+        let mut frame = prepare(&lending.geometry).unwrap();
+        let scenery = Scenery {
+            draws: &lent.draws,
+            projection: self.world.projection,
+        };
+        let shown = sizes.iter().map(|&size| {
+            let canvas = self.canvas(size);
+            // SAFETY: the commands before are done.
+            unsafe { frame.resize(size) }.unwrap();
+            assert!(is_not_recorded(frame.outcome().err()));
+            submit(&self.gpu, |commands| {
+                // SAFETY: the commands are waited for; all handles outlive them.
+                unsafe { frame.record(commands, &canvas.images(), &scenery, &shading) }.unwrap();
+                self.read(commands, &canvas);
+            });
+            assert_eq!(frame.outcome().unwrap().left_over, 0);
+            canvas.shown(&frame)
+        });
+        shown.collect()
+    }
+
+    /// Places for corners of triangles and numbers of workgroups.
+    fn kept(&self, lent: &Lent) -> (Buffer, Buffer) {
+        let corners = self.read_back(48 * u64::from(lent.triangle_count));
+        (corners, self.read_back(4 * CALLS))
+    }
+
+    fn canvas(&self, size: [u32; 2]) -> Canvas {
+        let plain = vk::ImageAspectFlags::COLOR;
+        Canvas {
+            color: self.image(size, vk::Format::R32G32B32A32_SFLOAT, plain),
+            read_back: self.read_back(16 * u64::from(size[0] * size[1])),
+            size,
+        }
+    }
+
+    fn read(&self, commands: vk::CommandBuffer, canvas: &Canvas) {
+        let (color, read_back) = (canvas.color.handle(), canvas.read_back.handle());
+        let region = [copy(canvas.size, vk::ImageAspectFlags::COLOR, 0)];
+        let device = self.gpu.device();
+        // SAFETY: the commands are waited for; the image is in the layout named.
+        unsafe {
+            device.cmd_copy_image_to_buffer(commands, color, COPIED.layout, read_back, &region);
+            self.show_to_host(commands);
         }
     }
 
@@ -621,7 +769,7 @@ impl<'a> Machine<'a> {
         &self,
         size: [u32; 2],
         frame: &mut Frame,
-        scenery: &Scenery<'_>,
+        (images, scenery): (&Images, &Scenery<'_>),
         shading: &Shading<'_>,
         pictures: &[(&Image, vk::ImageAspectFlags, Buffer)],
         (shown, read_back): (&Image, &Buffer),
@@ -641,7 +789,7 @@ impl<'a> Machine<'a> {
                         &[copy(size, *aspect, 0)],
                     );
                 }
-                frame.record(commands, scenery, shading).unwrap();
+                frame.record(commands, images, scenery, shading).unwrap();
                 device.cmd_copy_image_to_buffer(
                     commands,
                     shown.handle(),

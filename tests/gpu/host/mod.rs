@@ -5,6 +5,7 @@ mod base;
 mod behind;
 mod blend;
 mod completion;
+mod frames;
 mod lent;
 mod list;
 mod machine;

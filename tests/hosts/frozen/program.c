@@ -188,16 +188,15 @@ int main(int count, char **arguments) {
     geometry.index_capacity = 3;
     geometry.triangle_capacity = 1;
     geometry.draw_capacity = 1;
-    GpcImages images;
-    MUST(gpc_init_images(&images, sizeof images));
-    images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
-    images.color = color;
+    GpcImageKinds kinds;
+    MUST(gpc_init_image_kinds(&kinds, sizeof kinds));
+    kinds.color_format = VK_FORMAT_R8G8B8A8_UNORM;
     GpcOptions options;
     MUST(gpc_init_options(&options, sizeof options));
     options.width = options.height = SIDE;
     options.shade_all = VK_TRUE;
     GpcFrame *frame;
-    MUST(gpc_frame_create(antialiaser, &geometry, &images, &options, &frame));
+    MUST(gpc_frame_create(antialiaser, &geometry, &kinds, &options, &frame));
     struct materials materials = make_materials(arguments[1], gpc_antialiaser_samples_layout(antialiaser));
 
     VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
@@ -208,13 +207,16 @@ int main(int count, char **arguments) {
     MUST(vkAllocateCommandBuffers(device, &info, &commands));
     MUST(vkBeginCommandBuffer(commands, &begin));
     GpcDraw draw = {.triangle_count = 1, .double_sided = VK_TRUE};
+    GpcImages images;
+    MUST(gpc_init_images(&images, sizeof images));
+    images.color = color;
     GpcScenery scenery;
     MUST(gpc_init_scenery(&scenery, sizeof scenery));
     scenery.draw_count = 1;
     scenery.draw_stride = sizeof draw;
     scenery.draws = &draw;
     for (int i = 0; i < 4; ++i) scenery.projection[i][i] = 1;
-    MUST(gpc_frame_record(frame, commands, &scenery, shade, &materials));
+    MUST(gpc_frame_record(frame, commands, &images, &scenery, shade, &materials));
     VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {SIDE, SIDE, 1}};
     VkMemoryBarrier to_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,

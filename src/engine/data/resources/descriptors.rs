@@ -23,13 +23,13 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes a newly allocated set. `texels` and `lights` belong to a scene or to a frame's view of it.
-    pub(crate) fn write_set(
+    /// Writes all but the images of triangle IDs and depth of a set that was just allocated; `texels` and `lights` belong to a
+    /// scene or to what a frame sees of it.
+    pub(super) fn write_set(
         &self,
         set: &SampleSet,
         scene: &dyn Content,
         (texels, lights): (&[BoundTexels], &Buffer),
-        shown: &IdViews,
     ) {
         let own_texels = [
             (frame_set::DISPLAY, &self.display),
@@ -84,9 +84,29 @@ impl Resources {
             (frame_set::PATTERN, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
-        // A set has either single-sampled or multisampled IDs. Pipelines that could read the single-sampled ones, but
-        // are specialised not to, get a placeholder. Without BLEND triangles, their binding has the opaque IDs, which
-        // are not read either.
+        let environment = scene.environment_map().map(|map| [map]);
+        let write = |binding| write(set, binding);
+        let texels = texels
+            .iter()
+            .map(|(binding, view)| write(*binding).texel_buffer_view(view));
+        let buffers = buffers
+            .iter()
+            .map(|(binding, info)| write(*binding).buffer_info(info));
+        let environment = environment
+            .as_ref()
+            .map(|map| write(frame_set::ENVIRONMENT_MAP).image_info(map));
+        let writes: Vec<_> = texels.chain(buffers).chain(environment).collect();
+        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
+        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    /// Has a set show images of triangle IDs and depth.
+    ///
+    /// # Safety
+    /// No commands that use the set are pending, and the views outlive those that are recorded with it from now on.
+    pub(crate) unsafe fn show_ids(&self, set: &SampleSet, shown: &IdViews) {
+        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
+        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
         let IdViews { ids, .. } = *shown;
         let blend_ids = shown.blend_ids.unwrap_or(ids);
         let images = match (shown.placeholder, shown.depth) {
@@ -112,31 +132,18 @@ impl Resources {
                 (binding, [info])
             })
             .collect();
-        let environment = scene.environment_map().map(|map| [map]);
-        let write = |binding: Binding| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(set.descriptor())
-                .dst_binding(binding.number)
-                .descriptor_type(binding.kind)
-        };
-        let texels = texels
+        let writes: Vec<_> = images
             .iter()
-            .map(|(binding, view)| write(*binding).texel_buffer_view(view));
-        let buffers = buffers
-            .iter()
-            .map(|(binding, info)| write(*binding).buffer_info(info));
-        let images = images
-            .iter()
-            .map(|(binding, info)| write(*binding).image_info(info));
-        let environment = environment
-            .as_ref()
-            .map(|map| write(frame_set::ENVIRONMENT_MAP).image_info(map));
-        let writes: Vec<_> = texels
-            .chain(buffers)
-            .chain(images)
-            .chain(environment)
+            .map(|(binding, info)| write(set, *binding).image_info(info))
             .collect();
-        // SAFETY: the set is new and no frame uses it; every handle is alive and outlives the set.
+        // SAFETY: passed on to the caller.
         unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
+}
+
+fn write(set: &SampleSet, binding: Binding) -> vk::WriteDescriptorSet<'static> {
+    vk::WriteDescriptorSet::default()
+        .dst_set(set.descriptor())
+        .dst_binding(binding.number)
+        .descriptor_type(binding.kind)
 }

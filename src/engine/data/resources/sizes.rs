@@ -54,7 +54,35 @@ impl ResourceSizes {
         (limits.max_storage_bytes / Self::CANDIDATE_BYTES).min(texels)
     }
 
-    /// Number of bytes of the largest storage buffer.
+    /// Whether memory of these sizes has room for a region of pixels of others.
+    pub(crate) fn suffice(&self, others: &Self) -> bool {
+        let of = |sizes: &Self| {
+            let [records, lists, pairs, survivors] = [
+                sizes.record_capacity,
+                sizes.list_capacity,
+                sizes.pair_capacity,
+                sizes.survivor_capacity,
+            ]
+            .map(u64::from);
+            [
+                sizes.colors(),
+                sizes.tiles().into(),
+                records,
+                lists,
+                pairs,
+                survivors,
+                sizes.filtered.into(),
+                sizes.all_shadow_words(),
+                sizes.attributes.into(),
+                sizes.encoded,
+            ]
+        };
+        let is_of_pixels = self.locations.is_none() && others.locations.is_none();
+        let mut pairs = of(self).into_iter().zip(of(others));
+        is_of_pixels && self.lanes == others.lanes && pairs.all(|(room, needed)| room >= needed)
+    }
+
+    /// Bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
         let colors = self.colors() * 16;
