@@ -83,11 +83,11 @@
 //! `glam` 0.30 and `gltf` 1.4 are part of the API.
 
 #![warn(missing_docs)]
-// The engine has what scenes of files need, too.
-#![cfg_attr(not(feature = "gltf"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "capi")]
 mod capi;
+// Scenes of files use all of the engine, hosts a part.
+#[cfg_attr(not(feature = "gltf"), allow(dead_code, unused_imports))]
 mod engine;
 #[cfg(feature = "gltf")]
 mod random;

@@ -29,10 +29,16 @@ impl FramePass {
                 Dispatched::Drawn => "drawn".to_owned(),
             },
             reads: interface.data(Access::Read),
-            writes: interface.data(Access::Write),
+            writes: match dispatch.size {
+                Dispatched::Drawn => ATTACHMENTS.to_vec(),
+                _ => interface.data(Access::Write),
+            },
         }
     }
 }
+
+/// What `raster`, the only pass of a frame that draws, draws into, by the names by which other shaders read it.
+const ATTACHMENTS: [&str; 3] = ["ids", "blend_ids", "raster_depth"];
 
 /// Name of an indirect dispatch.
 fn argument(index: u32) -> String {
@@ -53,9 +59,16 @@ impl Headless {
         frame: &mut Frame,
         camera: &Camera,
     ) -> Result<Vec<FramePass>, RenderError> {
-        let gpu = self.gpu().clone();
-        let (rendered, dispatches) = gpu.traced(|| self.render_once(frame, camera));
+        let (rendered, passes) = self.passes_of(|headless| headless.render_once(frame, camera));
         rendered?;
-        Ok(dispatches.iter().map(FramePass::new).collect())
+        Ok(passes)
+    }
+
+    /// Lists the passes of all that is recorded meanwhile on the device, in order. Of consecutive rounds, only the first is
+    /// listed.
+    pub fn passes_of<T>(&mut self, record: impl FnOnce(&mut Self) -> T) -> (T, Vec<FramePass>) {
+        let gpu = self.gpu().clone();
+        let (made, dispatches) = gpu.traced(|| record(self));
+        (made, dispatches.iter().map(FramePass::new).collect())
     }
 }

@@ -1,13 +1,13 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{help, plot, sets, table};
+use crate::{help, passes, plot, sets, table};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 9] = [
+const PARTS: [(&str, Make); 13] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
@@ -17,6 +17,10 @@ const PARTS: [(&str, Make); 9] = [
     ("variants", table::variants),
     ("growth", table::growth),
     ("help", help::every),
+    ("passes", passes::frame),
+    ("list-passes", passes::list),
+    ("shadow-passes", passes::shadows),
+    ("image-passes", passes::image),
 ];
 
 const PLOTS: [(&str, Make); 3] = [

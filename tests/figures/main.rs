@@ -1,5 +1,5 @@
-//! Checks that every table and plot of the documents agrees with the data in `docs/bench`, and every help text with
-//! the command.
+//! Checks that every table and plot of the documents agrees with the data in `docs/bench`, every help text with the
+//! command, and every drawing of passes with what the library records.
 //!
 //! `make figures` writes them: it runs this test with `GPC_FIGURES=write`.
 
@@ -7,6 +7,7 @@ mod checks;
 mod data;
 mod documents;
 mod help;
+mod passes;
 mod plot;
 mod sets;
 mod table;
@@ -31,6 +32,6 @@ fn documents_agree_with_their_data() {
     }
     assert!(
         stale.is_empty(),
-        "these differ from docs/bench or from the command's help; run `make figures`: {stale:?}"
+        "these differ from docs/bench, from the command's help or from the passes that the library records; run `make figures`: {stale:?}"
     );
 }

@@ -66,7 +66,7 @@ impl Centres {
             count,
         };
         recorder.push(self.layout.pipeline, &push);
-        recorder.dispatch(pipeline, u64::from(count.div_ceil(64)));
+        recorder.dispatch_each(pipeline, u64::from(count));
     }
 }
 

@@ -109,7 +109,7 @@ impl Distribute {
                     continue;
                 }
             };
-            recorder.dispatch(pipeline, u64::from(invocations.div_ceil(64)));
+            recorder.dispatch_each(pipeline, u64::from(invocations));
         }
     }
 }

@@ -23,6 +23,6 @@ impl Grow {
 
     /// Records the pass for a region of `tiles` tiles.
     pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
-        recorder.dispatch(&self.pipeline, u64::from(tiles.div_ceil(64)));
+        recorder.dispatch_each(&self.pipeline, u64::from(tiles));
     }
 }

@@ -1,11 +1,7 @@
 //! The passes of a frame: one file for each, with the name of its shader in `shaders/`. `tally` and `enlist` are in `schedule.rs`;
 //! passes that only the renderer needs are in `src/render/passes`.
 //!
-//! ```text
-//! pose ─▶ stroke ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ enlist ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!                      └─ pixel centres ─┘                          ▲                        └───────── a round, as often as memory needs it ─────────┘│
-//!                                                                   └───────────────────────────────────── grow ◀──────────────────────────────────────┘
-//! ```
+//! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 //! Some passes run only in some frames:
 //!
 //! - `prefilter` runs once for a scene with an environment, before the scene's first frame.

@@ -37,6 +37,6 @@ impl Take {
     /// Records the pass for a frame of `pixels` pixels. The frame's set is bound, and remains so.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
         self.image.bind(recorder);
-        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+        recorder.dispatch_each(&self.pipeline, u64::from(pixels));
     }
 }

@@ -55,10 +55,8 @@ impl Thin {
     ) {
         recorder.clear(marks);
         recorder.barrier();
-        recorder.dispatch(
-            &self.select,
-            u64::from(indices.div_ceil(64 * spirv::THIN_PER_INVOCATION)),
-        );
+        let invocations = indices.div_ceil(spirv::THIN_PER_INVOCATION);
+        recorder.dispatch_each(&self.select, u64::from(invocations));
         self.arguments.record(recorder);
         for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
             recorder.push(self.layout, &spirv::ThinPush { long });

@@ -64,6 +64,6 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
         invocations: u32,
     ) {
         self.layout.bind(recorder, &[set.raw], pushed);
-        recorder.dispatch(pipeline, u64::from(invocations.div_ceil(64)));
+        recorder.dispatch_each(pipeline, u64::from(invocations));
     }
 }

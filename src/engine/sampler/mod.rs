@@ -4,12 +4,7 @@
 //! locations, or a list of places that a light may reach ([`ListCells`] both). All else is the same for them: which triangles may show in
 //! a tile, how many tiles a round takes, and what becomes of the visibility samples.
 //!
-//! ```text
-//! pixels   thin ─▶ detect ─┐                          ┌─────────────────── a round ──────────────────┐
-//! a list   distribute ─────┴▶ cull ─▶ bin ─▶ tally ─▶ schedule (─▶ groups) ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve or points
-//!                              ▲                                                                                 │
-//! pixels                       └──────────────────────────────────── grow ◀──────────────────────────────────────┘
-//! ```
+//! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 
 /// Methods of an option struct that set one field each and take and return the struct.
 macro_rules! setters {

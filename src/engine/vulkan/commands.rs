@@ -179,6 +179,12 @@ impl<'a> Recorder<'a> {
         });
     }
 
+    /// Dispatches at least `invocations` invocations, in workgroups of the size that the pipeline's shader declares, and requests a
+    /// barrier after them.
+    pub fn dispatch_each(&self, pipeline: &Pipeline, invocations: u64) {
+        self.dispatch(pipeline, invocations.div_ceil(pipeline.workgroup()));
+    }
+
     /// Dispatches the number of workgroups in vector `index` of `arguments`, and requests a barrier after them.
     pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.dispatch_indirect_unordered(pipeline, arguments, index);
@@ -304,15 +310,21 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records without marks, labels and traces, which would cost more than skipped commands. The next mark includes
-    /// their time.
+    /// Records what was recorded before, without marks, labels and traces, which would cost more than skipped commands. The next
+    /// mark includes their time.
+    pub(crate) fn repeated(&mut self, record: impl FnOnce(&mut Self)) {
+        let traces = std::mem::replace(&mut self.traces, false);
+        self.untimed(record);
+        self.traces = traces;
+    }
+
+    /// Records without marks and labels. The next mark includes the time of what is recorded.
     pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
         let timings = self.timings.take();
-        let seen = (self.labels, self.traces);
-        (self.labels, self.traces) = (false, false);
+        let labels = std::mem::replace(&mut self.labels, false);
         record(self);
         self.timings = timings;
-        (self.labels, self.traces) = seen;
+        self.labels = labels;
     }
 
     /// Starts timing.

@@ -1,6 +1,6 @@
 //! Shader modules, specialisation and pipelines.
 
-use super::{Gpu, Interface, VulkanError};
+use super::{Gpu, Interface, Invocations, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -119,6 +119,14 @@ impl Pipeline {
     /// Interface of the shader, if it was set.
     pub(crate) fn interface(&self) -> Option<&'static Interface> {
         self.interface
+    }
+
+    /// Number of invocations of a workgroup, for shaders that declare it; 1 for others.
+    pub(crate) fn workgroup(&self) -> u64 {
+        match self.interface.map(|interface| interface.invocations) {
+            Some(Invocations::Fixed(invocations)) => invocations.into(),
+            _ => 1,
+        }
     }
 }
 

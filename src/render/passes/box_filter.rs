@@ -27,6 +27,6 @@ impl BoxFilter {
     /// Records the pass for a region that becomes `pixels` pixels, each the mean of `side` x `side`.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
         recorder.push(self.layout, &spirv::BoxFilterPush { side });
-        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+        recorder.dispatch_each(&self.pipeline, u64::from(pixels));
     }
 }

@@ -61,6 +61,6 @@ impl Encode {
 
     /// Records the pass for a region of `pixels` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
-        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+        recorder.dispatch_each(&self.pipeline, u64::from(pixels));
     }
 }

@@ -28,6 +28,6 @@ impl Neighbours {
 
     /// Records the pass for an output of `cells` cells.
     pub fn record(&self, recorder: &Recorder<'_>, cells: u32) {
-        recorder.dispatch(&self.pipeline, u64::from(cells.div_ceil(64)));
+        recorder.dispatch_each(&self.pipeline, u64::from(cells));
     }
 }

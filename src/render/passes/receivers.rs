@@ -101,7 +101,7 @@ impl Receivers {
         self.beside.bind(recorder, set, plane);
         match receiving {
             Receiving::Pixels(count) => {
-                recorder.dispatch(&self.of_pixels, u64::from(count.div_ceil(64)));
+                recorder.dispatch_each(&self.of_pixels, u64::from(count));
             }
             Receiving::Records => recorder.dispatch_indirect(
                 &self.of_records,

@@ -73,7 +73,7 @@ impl Stroke {
         recorder.push(self.layout.pipeline, &push);
         let corners = u64::from(strokes.corner_count)
             + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
-        recorder.dispatch(&self.pipeline, corners.div_ceil(64));
+        recorder.dispatch_each(&self.pipeline, corners);
     }
 }
 

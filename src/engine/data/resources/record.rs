@@ -63,8 +63,9 @@ impl Resources {
             self.record_round(recorder, &record);
         }
         if rounds > 1 {
-            recorder
-                .untimed(|recorder| (1..rounds).for_each(|_| self.record_round(recorder, &record)));
+            recorder.repeated(|recorder| {
+                (1..rounds).for_each(|_| self.record_round(recorder, &record))
+            });
             recorder.mark("rounds");
         }
     }

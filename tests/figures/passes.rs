@@ -1,0 +1,122 @@
+//! Drawings of what passes hand to each other, made from the passes that the library records.
+
+use crate::data::root;
+use gpc::camera::set::SamplingSet;
+use gpc::camera::{Camera, Pinhole};
+use gpc::render::{
+    FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, Settings, Shadows,
+    SuperpixelOptions,
+};
+use gpc::scene::{PoseRequest, Scene};
+use std::collections::BTreeSet;
+
+/// Size of the images whose passes are drawn, in pixels.
+const SIZE: [u32; 2] = [64, 48];
+
+/// Data that nearly all passes share: it would say nothing of the order of passes.
+const SHARED: [&str; 3] = ["frame", "counters", "arguments"];
+
+/// Passes of a frame.
+pub fn frame() -> String {
+    let (mut headless, scene, camera) = stage("letters", Shadows::None);
+    let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
+    let mut frame = headless.prepare(&scene, &settings).unwrap();
+    draw(&headless.passes(&mut frame, &camera).unwrap())
+}
+
+/// Passes of a list of locations that are sampled as superpixels.
+pub fn list() -> String {
+    let (mut headless, scene, camera) = stage("letters", Shadows::None);
+    let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
+    let locations = SamplingSet::planar(SIZE).unwrap().locations();
+    let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
+    let (sampled, passes) = headless
+        .passes_of(|headless| headless.sample_superpixels(&scene, &pinhole, &locations, &settings));
+    sampled.unwrap();
+    draw(&passes)
+}
+
+/// Passes by which an image of locations finds what aliases: among its cells, and beside its superpixels.
+pub fn image() -> String {
+    let (mut headless, scene, camera) = stage("letters", Shadows::None);
+    let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
+    let rig = [(pinhole, SamplingSet::planar(SIZE).unwrap().locations())];
+    let settings = Settings::new(SIZE[0], SIZE[1]);
+    let (rendered, passes) =
+        headless.passes_of(|headless| headless.render_locations(&scene, &rig, SIZE, &settings));
+    rendered.unwrap();
+    let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();
+    let found = place("crossings");
+    let before = passes[..found]
+        .iter()
+        .rposition(|pass| pass.name == "distribute");
+    let looks = &passes[before.unwrap()..=place("detect")];
+    let grows = &passes[place("neighbours")..=place("grow")];
+    draw(&[looks, grows].concat())
+}
+
+/// Passes by which a frame finds the shadows of one light on the pixels' centres.
+pub fn shadows() -> String {
+    let (mut headless, scene, camera) = stage("fence", Shadows::Exact);
+    let settings = Settings::new(SIZE[0], SIZE[1]).shadows(Shadows::Exact);
+    let mut frame = headless.prepare(&scene, &settings).unwrap();
+    // The first rendering finds how much memory the frame needs.
+    headless.render(&mut frame, &camera).unwrap();
+    let passes = headless.passes(&mut frame, &camera).unwrap();
+    let first = passes.iter().position(|pass| pass.name == "receivers");
+    let of_light = &passes[first.unwrap()..];
+    let last = of_light.iter().position(|pass| pass.name == "shadow");
+    draw(&of_light[..=last.unwrap()])
+}
+
+fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {
+    let scene = Scene::load(&root().join(format!("assets/{asset}.glb")))
+        .unwrap()
+        .scene;
+    let pose = scene.pose(&PoseRequest::default()).unwrap();
+    let camera = Camera::from_scene(&pose.cameras[0]);
+    let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
+    let request = SceneRequest::new(&scene, &pose).shadowed(shadows);
+    let prepared = headless.upload(request).unwrap();
+    (headless, prepared, camera)
+}
+
+/// A line for each pass: what it reads of what passes before it wrote, and what it writes. Passes that were all there before,
+/// at the end, are named only.
+fn draw(passes: &[FramePass]) -> String {
+    let is_again = |from: usize| {
+        let known: BTreeSet<_> = passes[..from].iter().map(|pass| pass.name).collect();
+        passes[from..].iter().all(|pass| known.contains(pass.name))
+    };
+    let end = (1..passes.len())
+        .find(|from| is_again(*from))
+        .unwrap_or(passes.len());
+    let mut text = "```text\n".to_owned();
+    let mut written = BTreeSet::new();
+    let mut last: Option<&str> = None;
+    for pass in &passes[..end] {
+        let shown = |data: &&&str| !SHARED.contains(*data);
+        let reads = pass.reads.iter().filter(shown);
+        let reads: Vec<&str> = reads
+            .filter(|data| written.contains(**data))
+            .copied()
+            .collect();
+        let writes: Vec<&str> = pass.writes.iter().filter(shown).copied().collect();
+        written.extend(writes.iter().copied());
+        // A pass that runs twice in a row is one; `arguments` only says how large dispatches are.
+        if pass.name != "arguments" && last.replace(pass.name) != Some(pass.name) {
+            let name = pass.name.trim_end_matches("_fragment");
+            let line = format!("{name:12} {} ─▶ {}", reads.join(", "), writes.join(", "));
+            text += &format!("{}\n", line.trim_end());
+        }
+    }
+    let again: Vec<_> = passes[end..]
+        .iter()
+        .map(|pass| pass.name)
+        .filter(|name| *name != "arguments")
+        .collect();
+    if let [first, .., last] = again[..] {
+        text += &format!("again        {first} to {last}\n");
+    }
+    text + "```"
+}
