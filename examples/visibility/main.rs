@@ -100,16 +100,9 @@ fn main() -> Result<(), Failure> {
 
     let own = slots[(FRAMES - 1) % IN_FLIGHT].pixels(1)?;
     // These samples are in the same places as those of supersampling.
-    let placed = Options {
-        pattern: Pattern::Grid,
-        ..options(SIZE)
-    };
+    let placed = options(SIZE).pattern(Pattern::Grid);
     // Like supersampling, this shades every sample; the low threshold leaves almost no contrast unsampled.
-    let each = Options {
-        shading: Shading::Sample,
-        contrast: Some(2),
-        ..placed.clone()
-    };
+    let each = placed.clone().shading(Shading::Sample).contrast(Some(2));
     let last = |side: u32, options: Option<&Options>| -> Result<Image, Failure> {
         let size = SIZE.map(|pixels| pixels * side);
         let antialiasing = options.map(|options| (&antialiaser, options));
@@ -138,10 +131,7 @@ fn main() -> Result<(), Failure> {
     if let Some(out) = lens_out {
         let shown = (&world, &pipelines, &slots[(FRAMES - 1) % IN_FLIGHT]);
         let lens = Lens::new(&device, &antialiaser, shown)?;
-        let points = Options {
-            samples: 1,
-            ..options(SIZE)
-        };
+        let points = options(SIZE).samples(1);
         let reference = lens.picture(&points, REFERENCE)?;
         let own = lens.picture(&options(SIZE), 1)?;
         let images = [
@@ -178,8 +168,5 @@ fn camera([width, height]: [u32; 2]) -> (Mat4, Mat4) {
 }
 
 fn options(size: [u32; 2]) -> Options {
-    Options {
-        background: Some(SKY),
-        ..Options::new(size[0], size[1])
-    }
+    Options::new(size[0], size[1]).background(Some(SKY))
 }

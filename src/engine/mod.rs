@@ -3,6 +3,22 @@
 //!
 //! Nothing in this folder depends on a file format, a material, a light or a feature.
 
+/// Methods of an option struct that set one field each and take and return the struct.
+macro_rules! setters {
+    ($options:ident { $($field:ident: $type:ty,)* }) => {
+        impl $options {
+            $(
+                #[doc = concat!("The same with another `", stringify!($field), "`.")]
+                #[must_use]
+                pub fn $field(mut self, $field: $type) -> Self {
+                    self.$field = $field;
+                    self
+                }
+            )*
+        }
+    };
+}
+
 pub mod color;
 pub(crate) mod data;
 pub mod host;

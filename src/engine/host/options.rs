@@ -7,6 +7,7 @@ use crate::sampling::Pattern;
 
 /// How a host's frames are antialiased.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Width and height in pixels of the images lent.
     pub size: [u32; 2],
@@ -97,5 +98,23 @@ impl Options {
             max_memory: self.max_memory,
             ..Settings::new(self.size[0], self.size[1])
         }
+    }
+}
+
+setters! {
+    Options {
+        samples: u32,
+        pattern: Pattern,
+        shading: Shading,
+        detection: Detection,
+        contrast: Option<u8>,
+        thin: bool,
+        background: Option<[f32; 3]>,
+        flat_background: bool,
+        high_dynamic_range: bool,
+        sharp: bool,
+        shade_all: bool,
+        max_memory: Option<u64>,
+        max_rounds: Option<u32>,
     }
 }

@@ -6,22 +6,6 @@
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 
-/// Methods of an option struct that set one field each and take and return the struct.
-macro_rules! setters {
-    ($options:ident { $($field:ident: $type:ty,)* }) => {
-        impl $options {
-            $(
-                #[doc = concat!("The same with another `", stringify!($field), "`.")]
-                #[must_use]
-                pub fn $field(mut self, $field: $type) -> Self {
-                    self.$field = $field;
-                    self
-                }
-            )*
-        }
-    };
-}
-
 pub(crate) mod color;
 mod counter_log;
 mod error;

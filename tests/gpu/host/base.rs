@@ -45,10 +45,7 @@ fn bands_of_centres_make_the_same_picture() {
     on_gpu(|gpu| {
         let world = World::new();
         let machine = Machine::new(gpu, &world);
-        let options = |max_memory| Options {
-            max_memory,
-            ..Options::new(512, 256)
-        };
+        let options = |max_memory| Options::new(512, 256).max_memory(max_memory);
         let see = |max_memory| {
             let lent = world.lent(&PLACED);
             machine.see_lent(&PLACED, &lent, Base::Nothing, options(max_memory))

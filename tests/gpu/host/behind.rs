@@ -49,12 +49,10 @@ fn samples_that_see_no_triangle_show_the_twins_colour() {
             ..PLACED
         };
         let see = |way: &Way, background, flat_background| {
-            let options = Options {
-                background: Some(background),
-                flat_background,
-                detection: Detection::Every,
-                ..Options::new(SIZE[0], SIZE[1])
-            };
+            let options = Options::new(SIZE[0], SIZE[1])
+                .background(Some(background))
+                .flat_background(flat_background)
+                .detection(Detection::Every);
             let lent = world.lent(way);
             let seen = machine.see_lent(way, &lent, Base::All(&drawn), options);
             assert_eq!(seen.outcome.left_over, 0);
@@ -132,10 +130,7 @@ fn backdrops_are_antialiased_as_by_brute_force() {
         let (machine, drawn) = (Machine::new(gpu, &world), drawn(&world));
         let [truth, brute] = [32, 8].map(|side| with_overlay(brute_force(&world, side)));
         let see = |flat_background| {
-            let options = Options {
-                flat_background,
-                ..Options::new(SIZE[0], SIZE[1])
-            };
+            let options = Options::new(SIZE[0], SIZE[1]).flat_background(flat_background);
             let lent = world.lent(&PLACED);
             let seen = machine.see_lent(&PLACED, &lent, Base::All(&drawn), options);
             rmse(&with_overlay(seen.colors), &truth)

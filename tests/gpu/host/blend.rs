@@ -125,13 +125,11 @@ fn blended_draws_are_composited_as_those_of_files() {
                     (object, Base::All(&drawn)),
                     (object, Base::Colors(&drawn)),
                 ] {
-                    let options = Options {
-                        thin: false,
-                        samples,
-                        shading,
-                        flat_background: true,
-                        ..Options::new(SIZE[0], SIZE[1])
-                    };
+                    let options = Options::new(SIZE[0], SIZE[1])
+                        .thin(false)
+                        .samples(samples)
+                        .shading(shading)
+                        .flat_background(true);
                     let found = machine.see_lent(&way, &world.lent(&way), base, options);
                     assert_eq!(found.outcome.left_over, 0);
                     let superpixels = found.outcome.statistics.superpixels;

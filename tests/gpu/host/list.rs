@@ -24,11 +24,9 @@ pub fn pixels() -> Vec<Location> {
 }
 
 fn options(samples: u32) -> Options {
-    Options {
-        samples,
-        detection: Detection::Every,
-        ..Options::new(SIZE[0], SIZE[1])
-    }
+    Options::new(SIZE[0], SIZE[1])
+        .samples(samples)
+        .detection(Detection::Every)
 }
 
 fn farthest(some: &[[f32; 4]], others: &[[f32; 4]]) -> f32 {
@@ -48,11 +46,7 @@ fn a_list_of_all_pixels_is_the_picture() {
         let (once, _) = machine.see_list(&PLACED, &pixels(), options(1));
         for (shading, most) in [(Shading::Sample, 1e-5), (Shading::Part, 3e-2)] {
             // Lists use points, so that the frame must too.
-            let options = Options {
-                shading,
-                pattern: Pattern::Sobol,
-                ..options(SAMPLES)
-            };
+            let options = options(SAMPLES).shading(shading).pattern(Pattern::Sobol);
             let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, options.clone());
             let (seen, outcome) = machine.see_list(&PLACED, &pixels(), options);
             assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
@@ -73,12 +67,10 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
         let lent = world.lent(&PLACED);
         let (seen, outcome) = machine.see_list(&PLACED, &pixels(), options(1));
         assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
-        let once = Options {
+        let once = Options::new(SIZE[0], SIZE[1])
             // No two codes differ by more than this threshold.
-            contrast: Some(u8::MAX),
-            thin: false,
-            ..Options::new(SIZE[0], SIZE[1])
-        };
+            .contrast(Some(u8::MAX))
+            .thin(false);
         let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, once);
         let differs =
             (seen.iter().zip(&picture.colors)).filter(|(a, b)| farthest(&[**a], &[**b]) > 1e-5);

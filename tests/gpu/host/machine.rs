@@ -156,11 +156,9 @@ const KINDS: ImageKinds = ImageKinds {
 
 /// Those of a canvas of a size.
 fn of_size([width, height]: [u32; 2]) -> Options {
-    Options {
-        background: Some(SKY),
-        shade_all: true,
-        ..Options::new(width, height)
-    }
+    Options::new(width, height)
+        .background(Some(SKY))
+        .shade_all(true)
 }
 
 /// Whether an error says that nothing was recorded.
@@ -387,10 +385,7 @@ impl<'a> Machine<'a> {
 
     /// Result of a frame over the images that the host has drawn, with buffers lent as `way` says.
     pub fn see(&self, way: &Way, base: Base<'_>) -> Seen {
-        let options = Options {
-            flat_background: true,
-            ..Options::new(SIZE[0], SIZE[1])
-        };
+        let options = Options::new(SIZE[0], SIZE[1]).flat_background(true);
         self.see_lent(way, &self.world.lent(way), base, options)
     }
 
@@ -438,11 +433,10 @@ impl<'a> Machine<'a> {
             color_format: vk::Format::R32G32B32A32_SFLOAT,
             color_encoded: false,
         };
-        let options = Options {
-            background: options.background.or(Some(SKY)),
-            shade_all: base.colors().is_none(),
-            ..options
-        };
+        let background = options.background.or(Some(SKY));
+        let options = options
+            .background(background)
+            .shade_all(base.colors().is_none());
         // SAFETY: lent objects have the stated contents, and outlive the frame.
         let mut frame = unsafe {
             self.antialiaser
@@ -594,10 +588,7 @@ impl<'a> Machine<'a> {
             colors: colors.handle(),
             colors_offset: 0,
         };
-        let options = Options {
-            background: Some(SKY),
-            ..options
-        };
+        let options = options.background(Some(SKY));
         let prepared = |geometry: &Geometry| {
             // SAFETY: lent objects have the stated contents, and outlive the list.
             unsafe { self.antialiaser.prepare_list(geometry, &list, &options) }.unwrap()

@@ -192,10 +192,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 (object, Base::Ids(&own), &expected_of_own),
             ] {
                 let lent = world.lent(&way);
-                let options = Options {
-                    thin: matches!(base, Base::Nothing),
-                    ..Options::new(SIZE[0], SIZE[1])
-                };
+                let options = Options::new(SIZE[0], SIZE[1]).thin(matches!(base, Base::Nothing));
                 let found = machine.see_lent(&way, &lent, base, options);
                 assert_eq!(found.outcome.left_over, 0);
                 let superpixels = found.outcome.statistics.superpixels;

@@ -14,10 +14,7 @@ fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
 
 /// Options with which all pixels are superpixels, with room for a visibility sample for each sample.
 fn options(size: [u32; 2]) -> Options {
-    Options {
-        detection: Detection::Every,
-        ..Options::new(size[0], size[1])
-    }
+    Options::new(size[0], size[1]).detection(Detection::Every)
 }
 
 fn finishes_in_little_memory(gpu: &mut Headless) {
@@ -26,11 +23,9 @@ fn finishes_in_little_memory(gpu: &mut Headless) {
     let lent = world.lent(&PLACED);
     let size = [256, 192];
     let see = |max_memory| {
-        let options = Options {
-            shading: Shading::Sample,
-            max_memory,
-            ..options(size)
-        };
+        let options = options(size)
+            .shading(Shading::Sample)
+            .max_memory(max_memory);
         machine.see_lent(&PLACED, &lent, Base::Nothing, options)
     };
     let roomy = see(None);
@@ -67,12 +62,10 @@ fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
     let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
     let lent = world.lent(&PLACED);
     let see = |max_rounds| {
-        let options = Options {
-            samples: 1024,
-            shading: Shading::Sample,
-            max_rounds,
-            ..options(SIZE)
-        };
+        let options = options(SIZE)
+            .samples(1024)
+            .shading(Shading::Sample)
+            .max_rounds(max_rounds);
         machine.see_lent(&PLACED, &lent, Base::All(&drawn), options)
     };
     let whole = see(None);
