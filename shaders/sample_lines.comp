@@ -501,7 +501,8 @@ void main() {
                 do {
                     // The first part that is left.
                     uint r = WORDS - 1u, fields = pending[WORDS - 1u];
-                    [[unroll]] for (uint q = WORDS - 1u; q-- > 0u;) {
+                    [[unroll]] for (uint i = 1u; i < WORDS; i++) {
+                        uint q = WORDS - 1u - i;
                         r = pending[q] != 0u ? q : r;
                         fields = pending[q] != 0u ? pending[q] : fields;
                     }
@@ -513,10 +514,12 @@ void main() {
                         [[unroll]] for (uint q = 0u; q < WORDS; q++) of_word = w == q ? bits[q] : of_word;
                         sums += sums_of_word(w, n < grid.lines ? of_word & field_bits(grid) << at_bit : 0u);
                     }
-                    [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) {
-                        uint apart = span * HALVES / WORDS;
-                        uvec3 others = uvec3(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart), subgroupShuffleXor(sums.z, apart));
-                        sums += grid.lines > span ? others : uvec3(0u);
+                    [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
+                        uint span = 1u << log, apart = span * HALVES / WORDS;
+                        if (span >= OWN_LINES && span < LINES) {
+                            uvec3 others = uvec3(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart), subgroupShuffleXor(sums.z, apart));
+                            sums += grid.lines > span ? others : uvec3(0u);
+                        }
                     }
                     if (writes && fields != 0u) records_out[at_own + step] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
                 } while (++step < steps);

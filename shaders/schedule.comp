@@ -13,7 +13,8 @@ layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 // Sums over the invocations up to this one.
 uvec4 sums_up_to(uvec4 needs) {
     uint lane = gl_SubgroupInvocationID;
-    [[unroll]] for (uint apart = 1u; apart < 32u; apart *= 2u) {
+    [[unroll]] for (uint log = 0u; log < 5u; log++) {
+        uint apart = 1u << log;
         if (apart < LANES) {
             uvec4 before = subgroupShuffle(needs, (lane - apart) & (LANES - 1u));
             needs = add(needs, lane >= apart ? before : uvec4(0u));

@@ -24,8 +24,8 @@ void main() {
         entries += exists ? load.entries : uvec4(0u);
         i += LANES;
     } while (i < STRETCH);
-    [[unroll]] for (uint apart = 1u; apart < 32u; apart *= 2u)
-        if (apart < LANES) needs = add(needs, subgroupShuffleXor(needs, apart));
+    [[unroll]] for (uint log = 0u; log < 5u; log++)
+        if (1u << log < LANES) needs = add(needs, subgroupShuffleXor(needs, 1u << log));
     entries = uvec4(lanes_add(entries.x), lanes_add(entries.y), lanes_add(entries.z), lanes_add(entries.w));
     if (subgroupElect()) keep_load(stretch, Load(needs, entries));
 }

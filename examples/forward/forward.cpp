@@ -561,7 +561,7 @@ void run(const std::string &shaders, const char *out) {
     const Pipelines pipelines(device, shaders, gpc_antialiaser_samples_layout(made));
 
     const float moments[] = {0, 0.5f, 1};
-    Renderer renderer(device, world, meshes, pipelines, 1, made, GPC_PATTERN_SOBOL, GPC_SHADING_PART);
+    Renderer renderer(device, world, meshes, pipelines, 1, made, GPC_PATTERN_LINES, GPC_SHADING_PART);
     for (float moment : moments) renderer.draw(moment);
     const GpcOutcome outcome = renderer.outcome();
     std::printf("%llu superpixels, %llu left over, %.1f ms of the library on the GPU, %.1f MB\n",

@@ -68,9 +68,9 @@ uint lanes_add(uint v) {
 uint lanes_before(uint v) {
     if (!BY_SHUFFLE) return subgroupExclusiveAdd(v);
     uint lane = gl_SubgroupInvocationID, sum = v;
-    [[unroll]] for (uint step = 1u; step < LANES; step *= 2u) {
-        uint below = subgroupShuffle(sum, max(lane, step) - step);
-        sum += lane >= step ? below : 0u;
+    [[unroll]] for (uint log = 0u; log < 3u; log++) {
+        uint step = 1u << log, below = subgroupShuffle(sum, max(lane, step) - step);
+        sum += lane >= step && step < LANES ? below : 0u;
     }
     return sum - v;
 }

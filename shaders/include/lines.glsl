@@ -9,6 +9,7 @@ const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
 const uint HALVES = BITS / 32u;                             // words of a line
 const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // those that an invocation has of one line
 const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines that an invocation has
+const uint LOG_LINES = 4u;                                  // of as many lines as there may be
 
 // The line and the half of it that a word of an invocation is.
 uint line_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) / HALVES; }
@@ -86,8 +87,32 @@ uint field_bits(Grid g) { return g.field >= 32u ? ~0u : (1u << g.field) - 1u; }
 // Of which bits of its number those invocations differ that have lines of one part.
 uint sharing_lanes(Grid g) {
     uint r = 0u;
-    [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) r |= g.lines > span ? span * HALVES / WORDS : 0u;
+    [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
+        uint span = 1u << log;
+        r |= span >= OWN_LINES && g.lines > span ? span * HALVES / WORDS : 0u;
+    }
     return r;
+}
+
+// Merges the fields of lines that are `span` apart into those of the first one: of lines that an invocation has by itself, ...
+void merge_own_lines(inout uint found[WORDS], Grid g, uint span) {
+    if (span < OWN_LINES) {
+        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+            bool merges = g.lines > span, second = (r / LINE_WORDS & span) != 0u;
+            uint other = found[min(r + span * LINE_WORDS, WORDS - 1u)];
+            found[r] = second ? (merges ? 0u : found[r]) : found[r] | (merges ? other : 0u);
+        }
+    }
+}
+
+// ... and of lines of several invocations, in each of them.
+void merge_lanes_lines(inout uint found[WORDS], Grid g, uint span) {
+    if (span >= OWN_LINES && span < LINES) {
+        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+            uint other = subgroupShuffleXor(found[r], span * HALVES / WORDS);
+            found[r] |= g.lines > span ? other : 0u;
+        }
+    }
 }
 
 // The fields of a triangle's bits that are shaded by themselves, by their lowest bits: those of which a line has half or
@@ -108,29 +133,35 @@ void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
         b |= g.field > 16u ? b >> 16 : 0u;
         found[r] = b & starts;
     }
-    [[unroll]] for (uint span = 1u; span < OWN_LINES; span *= 2u) {
+    // Written out for UNROLLED.
+    merge_own_lines(found, g, 1u);
+    merge_own_lines(found, g, 2u);
+    merge_own_lines(found, g, 4u);
+    merge_own_lines(found, g, 8u);
+    merge_lanes_lines(found, g, 1u);
+    merge_lanes_lines(found, g, 2u);
+    merge_lanes_lines(found, g, 4u);
+    merge_lanes_lines(found, g, 8u);
+}
+
+// What merge_own_lines merged goes to the second of the lines, too.
+void spread_own_lines(inout uint found[WORDS], Grid g, uint span) {
+    if (span < OWN_LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
-            bool merges = g.lines > span, second = (r / LINE_WORDS & span) != 0u;
-            if (!second) found[r] |= merges ? found[r + span * LINE_WORDS] : 0u;
-            if (second) found[r] = merges ? 0u : found[r];
-        }
-    }
-    [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) {
-        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
-            uint other = subgroupShuffleXor(found[r], span * HALVES / WORDS);
-            found[r] |= g.lines > span ? other : 0u;
+            bool second = (r / LINE_WORDS & span) != 0u;
+            uint other = found[max(r, span * LINE_WORDS) - span * LINE_WORDS];
+            found[r] |= second && g.lines > span ? other : 0u;
         }
     }
 }
 
 // The triangle's other bits.
 void find_rest(uint bits[WORDS], Grid g, uint found[WORDS], out uint rest[WORDS]) {
-    [[unroll]] for (uint span = 1u; span < OWN_LINES; span *= 2u) {
-        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
-            bool second = (r / LINE_WORDS & span) != 0u;
-            if (second) found[r] |= g.lines > span ? found[r - span * LINE_WORDS] : 0u;
-        }
-    }
+    // Written out for UNROLLED.
+    spread_own_lines(found, g, 1u);
+    spread_own_lines(found, g, 2u);
+    spread_own_lines(found, g, 4u);
+    spread_own_lines(found, g, 8u);
     [[unroll]] for (uint r = 0u; r < WORDS; r++) rest[r] = bits[r] & ~(found[r] * field_bits(g));
 }
 

@@ -22,8 +22,8 @@ uint entry_part(uint entry) { return entry & 7u; }
 // Bit number of a word's set bit number `cell`, from 0; 31 where it has no more than that.
 uint bit_of_cell(uint word, uint cell) {
     uint bit = 0u;
-    [[unroll]] for (uint size = 16u; size > 0u; size >>= 1u) {
-        uint below = uint(bitCount(word & ((1u << size) - 1u)));
+    [[unroll]] for (uint log = 0u; log < 5u; log++) {
+        uint size = 16u >> log, below = uint(bitCount(word & ((1u << size) - 1u)));
         bool above = cell >= below;
         cell -= above ? below : 0u;
         word = above ? word >> size : word;

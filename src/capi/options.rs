@@ -124,7 +124,7 @@ unsafe impl Element for GpcOptions {
         let defaults = Options::new(0, 0);
         Self {
             samples: defaults.samples,
-            pattern: GpcPattern::Sobol as u32,
+            pattern: GpcPattern::Lines as u32,
             shading: GpcShading::Part as u32,
             detection: GpcDetection::Contrast as u32,
             contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),

@@ -55,7 +55,7 @@ impl Options {
         Self {
             size: [width, height],
             samples: Settings::DEFAULT_SAMPLES,
-            pattern: Pattern::Sobol,
+            pattern: Pattern::Lines,
             shading: Shading::Part,
             detection: Detection::Contrast,
             contrast: None,

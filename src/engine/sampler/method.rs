@@ -130,7 +130,7 @@ impl SuperpixelOptions {
     pub fn new(samples: u32) -> Self {
         Self {
             samples,
-            pattern: Pattern::Sobol,
+            pattern: Pattern::Lines,
             coverage: Coverage::Area,
             shading: Shading::Part,
             detection: Detection::Contrast,

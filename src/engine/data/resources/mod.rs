@@ -19,7 +19,7 @@ use ash::vk;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// What passes hand to each other in a frame: [`Scratch`] memory, which other frames may use too, and what is the frame's alone.
+/// What passes hand to each other in a frame: scratch memory, which other frames may use too, and what is the frame's alone.
 pub struct Resources {
     sizes: ResourceSizes,
     /// A word for each [`Counter`].

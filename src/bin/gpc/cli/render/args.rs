@@ -74,7 +74,7 @@ pub struct SamplingArgs {
     #[arg(
         long,
         value_name = "P",
-        default_value = "sobol",
+        default_value = "lines",
         hide_short_help = true
     )]
     pub pattern: Pattern,
