@@ -5,7 +5,9 @@ use super::accuracy::squares;
 use crate::camera::Camera;
 use crate::compare::CompareError;
 use crate::output::{DecodedImage, Picture};
-use crate::render::{Headless, MethodKind, PixelAttributes, PreparedScene, RenderError, Settings};
+use crate::render::{
+    Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings, SuperpixelOptions,
+};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 use serde::Serialize;
@@ -68,7 +70,8 @@ impl PixelTriangles {
         settings: &Settings,
         mut progress: impl FnMut(),
     ) -> Result<Self, RenderError> {
-        let mut frame = headless.prepare(scene, &with_attributes(settings, MethodKind::None))?;
+        let plain = with_attributes(settings, Method::None);
+        let mut frame = headless.prepare(scene, &plain)?;
         let centres = headless.render(&mut frame, camera)?.attributes;
         let mut unseen = vec![false; centres.len()];
         let mut several = unseen.clone();
@@ -108,8 +111,14 @@ impl PixelTriangles {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<Vec<Cause>, RenderError> {
-        let mut frame =
-            headless.prepare(scene, &with_attributes(settings, MethodKind::Superpixel))?;
+        let superpixels = match &settings.method {
+            Method::Superpixel(options) => SuperpixelOptions {
+                samples: 1,
+                ..options.clone()
+            },
+            _ => SuperpixelOptions::new(1),
+        };
+        let mut frame = headless.prepare(scene, &with_attributes(settings, superpixels.into()))?;
         let centres = headless.render(&mut frame, camera)?.attributes;
         Ok(self.classify(&centres))
     }
@@ -129,11 +138,8 @@ impl PixelTriangles {
 }
 
 /// Settings for IDs and superpixels with one sample a pixel, which suffices for these.
-fn with_attributes(settings: &Settings, method: MethodKind) -> Settings {
-    settings
-        .clone()
-        .attributes(true)
-        .method(method.with_samples(1))
+fn with_attributes(settings: &Settings, method: Method) -> Settings {
+    settings.clone().attributes(true).method(method)
 }
 
 /// IDs at the centres of a pixel and its neighbours.

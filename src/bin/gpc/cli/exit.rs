@@ -39,6 +39,8 @@ pub fn code(error: &anyhow::Error) -> u8 {
                 Some(USAGE)
             } else if let Some(error) = cause.downcast_ref::<RenderError>() {
                 Some(of_render(error))
+            } else if let Some(error) = cause.downcast_ref::<EngineError>() {
+                Some(of_engine(error))
             } else if let Some(error) = cause.downcast_ref::<VulkanError>() {
                 Some(of_vulkan(error))
             } else {
@@ -50,7 +52,15 @@ pub fn code(error: &anyhow::Error) -> u8 {
 
 fn of_render(error: &RenderError) -> u8 {
     match error {
-        RenderError::Engine(EngineError::Vulkan(error)) => of_vulkan(error),
+        RenderError::Engine(error) => of_engine(error),
+        error if error.is_usage() => USAGE,
+        _ => FAILURE,
+    }
+}
+
+fn of_engine(error: &EngineError) -> u8 {
+    match error {
+        EngineError::Vulkan(error) => of_vulkan(error),
         error if error.is_usage() => USAGE,
         error if error.is_device_failure() => DEVICE_FAILURE,
         _ => FAILURE,
