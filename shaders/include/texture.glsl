@@ -50,9 +50,7 @@ struct Probes {
     float count, level;
 };
 
-// Below FINE_FROM samples, at two places at the most, of one mipmap level: other errors are larger there. Above, levels are blended.
-const uint FINE_FROM = 65u;
-const float MOST_PROBES = 2.0, MOST_FINE_PROBES = 8.0;
+const float MOST_PROBES = 8.0;
 // Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
 const float LEVEL_WIDTH = 0.57735;
 
@@ -63,12 +61,11 @@ Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
     float longest = sqrt(max(square_x, square_y));
     float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
     Probes r;
-    bool fine = frame.sample_count >= FINE_FROM;
-    r.count = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, fine ? MOST_FINE_PROBES : MOST_PROBES);
+    r.count = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
     r.step_ = (square_x > square_y ? dx : dy) / r.count;
     r.first = at - r.step_ * (0.5 * r.count - 0.5);
-    float level = log2(max(max(across, longest / r.count) * LEVEL_WIDTH, 1e-20));
-    r.level = fine ? level : round(level);
+    // A whole level reads one mipmap, not two.
+    r.level = round(log2(max(max(across, longest / r.count) * LEVEL_WIDTH, 1e-20)));
     return r;
 }
 

@@ -1,19 +1,15 @@
 //! Where a texture is read for a place that is shaded, so that it is averaged over the place's footprint.
 
-/// Number of samples of a pixel from which textures are read more finely.
-pub const FINE_FROM: u32 = 65;
-/// At how many places a texture is read along the longer axis of a footprint, at the most, below [`FINE_FROM`] samples.
-pub const MOST_PROBES: u32 = 2;
-/// The same from [`FINE_FROM`] samples on.
-pub const MOST_FINE_PROBES: u32 = 8;
+/// At how many places a texture is read along the longer axis of a footprint, at the most.
+pub const MOST_PROBES: u32 = 8;
 
 /// The places, and the mipmap level that is read there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probes {
     /// Number of places, from 1.
     pub count: u32,
-    /// Mipmap level, before it is clamped to those that the texture has. It is whole below [`FINE_FROM`] samples.
-    pub level: f64,
+    /// Mipmap level, before it is clamped to those that the texture has.
+    pub level: i32,
     /// Texture coordinates of the first place.
     pub first: [f64; 2],
     /// What leads from a place to the next one.
@@ -30,7 +26,7 @@ pub struct Probes {
 /// that width. There are two places where the footprint is more than 1.25 times as long as wide, three where it is more than 2.25
 /// times, and so on. Where it is longer than the most places make up for, the texels are wider than the footprint.
 #[must_use]
-pub fn probes(size: [u32; 2], at: [f64; 2], sides: [[f64; 2]; 2], samples: u32) -> Probes {
+pub fn probes(size: [u32; 2], at: [f64; 2], sides: [[f64; 2]; 2]) -> Probes {
     let texels = sides.map(|side| [0, 1].map(|axis| side[axis] * f64::from(size[axis])));
     let lengths = texels.map(|[u, v]| u.hypot(v));
     let [[a, b], [c, d]] = texels;
@@ -38,27 +34,23 @@ pub fn probes(size: [u32; 2], at: [f64; 2], sides: [[f64; 2]; 2], samples: u32) 
     let longest = lengths[longer];
     let across = (a * d - b * c).abs() / longest;
     let ratio = longest / across.max(1.0);
-    let fine = samples >= FINE_FROM;
-    let most = if fine { MOST_FINE_PROBES } else { MOST_PROBES };
-    let count = ((ratio - 0.25).ceil().max(1.0) as u32).min(most);
+    let count = ((ratio - 0.25).ceil().max(1.0) as u32).min(MOST_PROBES);
     let exact = (across.max(longest / f64::from(count)) / 3f64.sqrt()).log2();
-    let level = if fine { exact } else { exact.round() };
-    let boundary = (ratio - 0.25).round().clamp(1.0, f64::from(most - 1)) + 0.25;
+    let level = exact.round();
+    let boundary = (ratio - 0.25)
+        .round()
+        .clamp(1.0, f64::from(MOST_PROBES - 1))
+        + 0.25;
     let step = sides[longer].map(|change| change / f64::from(count));
     let axes = if count > 1 {
         lengths[1 - longer] / longest - 1.0
     } else {
         1.0
     };
-    let whole = if fine {
-        1.0
-    } else {
-        0.5 - (exact - level).abs()
-    };
-    let margins = [ratio / boundary - 1.0, whole, axes];
+    let margins = [ratio / boundary - 1.0, 0.5 - (exact - level).abs(), axes];
     Probes {
         count,
-        level,
+        level: level as i32,
         first: [0, 1].map(|axis| at[axis] - step[axis] * 0.5 * f64::from(count - 1)),
         step,
         margin: margins.into_iter().map(f64::abs).fold(1.0, f64::min),

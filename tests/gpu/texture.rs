@@ -1,8 +1,8 @@
 //! Where textures are read for a place that is shaded, against the CPU: each mipmap level has noise of its own, so that
 //! another level, or another number of places, gives another colour.
 
-use gpc::reference::texture::{FINE_FROM, Probes, probes};
-use gpc::render::{Headless, SuperpixelOptions};
+use gpc::reference::texture::{MOST_PROBES, Probes, probes};
+use gpc::render::{Headless, Settings, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Image, Sampler};
 
 use crate::meshes::Random;
@@ -53,17 +53,12 @@ fn bilinear(image: &Image, level: u32, at: [f64; 2]) -> [f64; 3] {
 
 /// What the footprint of a place shows of an image.
 fn filtered(image: &Image, found: &Probes) -> [f64; 3] {
-    let last = image.full_levels() - 1;
-    let level = found.level.clamp(0.0, f64::from(last));
-    let finer = level.floor();
+    let level = found.level.clamp(0, image.full_levels() as i32 - 1) as u32;
     let mut mean = [0.0; 3];
     for probe in 0..found.count {
         let at = [0, 1].map(|axis| found.first[axis] + f64::from(probe) * found.step[axis]);
-        let coarser = level - finer;
-        for (level, weight) in [(finer as u32, 1.0 - coarser), (finer as u32 + 1, coarser)] {
-            for (mean, channel) in mean.iter_mut().zip(bilinear(image, level.min(last), at)) {
-                *mean += weight * channel / f64::from(found.count);
-            }
+        for (mean, channel) in mean.iter_mut().zip(bilinear(image, level, at)) {
+            *mean += channel / f64::from(found.count);
         }
     }
     mean
@@ -105,9 +100,8 @@ impl Map {
 fn compare(
     gpu: &mut Headless,
     image: &Image,
-    samples: u32,
     random: &mut Random,
-    seen: &mut [[u32; 8]; 8],
+    seen: &mut [[u32; 8]; MOST_PROBES as usize],
 ) {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
     stage.texture = Some((image.clone(), Sampler::default()));
@@ -135,19 +129,19 @@ fn compare(
         maps.push(map);
     }
     // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
-    let uniform = SuperpixelOptions::new(samples).contrast(Some(u8::MAX));
+    let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
     let settings = once(SIZE).method(uniform.thin(false));
     let rendered = stage.render(gpu, &settings);
     for (pixel, color) in rendered.colors.iter().enumerate() {
         let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]];
         let map = &maps[(y / PATCH * (SIZE[0] / PATCH) + x / PATCH) as usize];
         let at = map.at([x % PATCH, y % PATCH].map(f64::from));
-        let found = probes([image.width, image.height], at, map.sides, samples);
+        let found = probes([image.width, image.height], at, map.sides);
         // Rounding may choose otherwise there.
         if found.margin < 1e-3 {
             continue;
         }
-        seen[found.count as usize - 1][found.level.clamp(0.0, 7.0) as usize] += 1;
+        seen[found.count as usize - 1][found.level.clamp(0, 7) as usize] += 1;
         let expected = filtered(image, &found);
         for channel in 0..3 {
             let apart = (f64::from(color[channel]) - expected[channel]).abs();
@@ -162,22 +156,17 @@ fn compare(
 #[test]
 fn textures_are_averaged_over_footprints() {
     on_gpu(|gpu| {
-        for (samples, most) in [(FINE_FROM - 1, 2), (256, 8)] {
-            let mut random = Random::new(7);
-            let mut seen = [[0; 8]; 8];
-            for size in [[64, 64], [128, 32], [60, 33]] {
-                let image = noise(size, &mut random);
-                compare(gpu, &image, samples, &mut random, &mut seen);
-            }
-            // All numbers of places, the first two at the finest levels and at coarse ones.
-            let enough = seen[..2]
-                .iter()
-                .all(|levels| levels[..4].iter().all(|n| *n > 100))
-                && seen[..most]
-                    .iter()
-                    .all(|levels| levels.iter().sum::<u32>() > 100)
-                && seen[most..].iter().flatten().all(|n| *n == 0);
-            assert!(enough, "{samples} samples: {seen:?}");
+        let mut random = Random::new(7);
+        let mut seen = [[0; 8]; MOST_PROBES as usize];
+        for size in [[64, 64], [128, 32], [60, 33]] {
+            let image = noise(size, &mut random);
+            compare(gpu, &image, &mut random, &mut seen);
         }
+        // All numbers of places, the first two at the finest levels and at coarse ones.
+        let enough = seen.iter().all(|levels| levels.iter().sum::<u32>() > 100)
+            && seen[..2]
+                .iter()
+                .all(|levels| levels[..4].iter().all(|n| *n > 100));
+        assert!(enough, "{seen:?}");
     });
 }
