@@ -31,6 +31,8 @@ struct Case {
     sparseness: u64,
     /// One of this number of such tiles has more candidates than fit, and another one has pairs that were dropped.
     rarity: u64,
+    /// Whether tiles without a list are sampled.
+    unlisted: bool,
 }
 
 const USUAL: Case = Case {
@@ -44,6 +46,7 @@ const USUAL: Case = Case {
     records: 200_000,
     sparseness: 5,
     rarity: 2_000,
+    unlisted: true,
 };
 
 impl Case {
@@ -148,7 +151,7 @@ impl<'a> Passes<'a> {
             exact_areas: false,
             can_settle: false,
             apart: true,
-            unlisted: false,
+            unlisted: case.unlisted,
             has_mask: false,
             has_blend: case.blends,
             always_blends: false,
@@ -174,7 +177,9 @@ impl<'a> Passes<'a> {
             parts: sample.parts(),
             layers: LAYERS,
             triangles: case.triangles,
-            longest_list: 350_000,
+            lanes: sizes.lanes,
+            longest_list: 2_500,
+            longest_layered: 160,
             blends: case.blends,
             candidates: case.candidates,
             records: case.records,
@@ -315,7 +320,7 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
             let tile = &mut tiles[placed.tile];
             let listed = placed.list != ScheduledList::Unlisted;
             let length = if listed { tile[0] } else { 0 };
-            let flags = tile[3] & (MASK | BLEND) | if listed { LISTED } else { 0 };
+            let flags = tile[3] & (MASK | BLEND | OVERFLOW) | if listed { LISTED } else { 0 };
             tile[1] = placed.first_candidate as u32;
             tile[2] = placed.first_header as u32;
             tile[3] = flags | length << 8;
@@ -473,6 +478,7 @@ fn as_many_rounds_are_recorded_as_tiles_may_take() {
                 triangles,
                 records_are,
                 records,
+                unlisted: tile[3] == OVERFLOW,
                 ..USUAL
             };
             let passes = Passes::new(gpu, &case);

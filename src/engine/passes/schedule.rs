@@ -18,9 +18,6 @@ pub struct Schedule {
     pushed: spirv::SchedulePush,
 }
 
-/// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
-const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
-
 impl Schedule {
     /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers a list
     /// and twice as many lists a block, or more if these are shaded by parts.
@@ -52,7 +49,7 @@ impl Schedule {
             locations,
             unsure,
         };
-        let [subgroups_first, subgroups] = sample.subgroups();
+        let [subgroups_first, subgroups, subgroups_unlisted] = sample.subgroups();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
             layout: layout.pipeline,
@@ -67,7 +64,9 @@ impl Schedule {
                 parts: sample.parts(),
                 subgroups_first,
                 subgroups,
-                longest_list: options.longest_list(),
+                subgroups_unlisted,
+                longest_list: spirv::LONGEST_LIST,
+                longest_layered: options.longest_layered(),
                 more_records: options.more_records(),
             },
         })
@@ -114,10 +113,24 @@ impl Schedule {
             ),
             (headers(cells), records, headers(cells_of_tile)),
         ];
-        // If there are too many triangles, none is tried.
-        let tried = u64::from(triangles.clamp(1, self.pushed.longest_list));
-        let unlisted = (cells, MOST_TRIALS / tried, cells_of_tile);
-        let needs = listed.into_iter().chain([unlisted]);
+        let layers = if self.options.has_blend {
+            1 + u64::from(self.pushed.layers)
+        } else {
+            1
+        };
+        let owners = |cells: u64| cells * samples.div_ceil(4) * layers;
+        let entries = |cells: u64, tiles: u64| match sizes.locations {
+            None => tiles * PIXELS.div_ceil(sizes.lanes.into()),
+            Some(_) => cells,
+        };
+        let tried =
+            u64::from(spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED.into());
+        let unlisted = [
+            (owners(cells), candidates, owners(cells_of_tile)),
+            (entries(cells, tiles), tried, entries(cells_of_tile, 1)),
+        ];
+        let unlisted = unlisted.into_iter().filter(|_| self.options.unlisted);
+        let needs = listed.into_iter().chain(unlisted);
         let ended: u64 = needs
             .map(|(all, room, most)| rounds_ended(all, room, most))
             .sum();
