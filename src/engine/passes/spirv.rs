@@ -1901,6 +1901,7 @@ pub struct SampleMasks {
     pub by_part: bool,
     pub exact_areas: bool,
     pub part: u32,
+    pub rolled: bool,
     pub locations: bool,
     pub instanced: bool,
     pub unsure: bool,
@@ -1916,6 +1917,7 @@ impl Default for SampleMasks {
             by_part: false,
             exact_areas: false,
             part: 4,
+            rolled: false,
             locations: false,
             instanced: false,
             unsure: false,
@@ -1962,6 +1964,7 @@ impl Specialized for SampleMasks {
             .flag(6, self.by_part)
             .flag(7, self.exact_areas)
             .with(8, self.part)
+            .flag(10, self.rolled)
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
