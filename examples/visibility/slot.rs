@@ -7,8 +7,8 @@ use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Materials, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
-    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images,
-    LentImage, Options, PositionSpace, Scenery,
+    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images, Indices,
+    LentImage, Mesh, Options, PositionSpace, Scenery,
 };
 
 /// The library's frame for a slot.
@@ -169,29 +169,35 @@ impl<'a> Slot<'a> {
 
     /// Buffers that the library is lent.
     pub fn geometry(&self, world: &World<'_>) -> Geometry {
-        Geometry {
+        let mesh = Mesh {
             positions: self.positions.raw,
             positions_offset: 0,
             position_stride: 16,
-            position_space: PositionSpace::Clip,
             vertex_capacity: world.posed_count,
-            indices: world.indices.raw,
-            indices_offset: 0,
-            index_type: vk::IndexType::UINT32,
-            index_capacity: world.index_count,
-            triangle_capacity: world.triangle_count,
-            draw_capacity: world.draws.len() as u32,
-            keys: KEYS,
             coordinates: Some(Coordinates {
                 buffer: world.coordinates.raw,
                 offset: 0,
                 stride: 8,
             }),
+            indices: Some(Indices {
+                buffer: world.indices.raw,
+                offset: 0,
+                index_type: vk::IndexType::UINT32,
+                capacity: world.index_count,
+            }),
+        };
+        Geometry {
+            meshes: vec![mesh],
+            position_space: PositionSpace::Clip,
+            triangle_capacity: world.triangle_count,
+            draw_capacity: world.draws.len() as u32,
+            keys: KEYS,
             alpha_maps: vec![world.alpha_map()],
             blended: false,
             clip: ClipSpace {
                 y_up: true,
                 reversed_depth: true,
+                ..ClipSpace::default()
             },
         }
     }
@@ -253,10 +259,7 @@ impl<'a> Slot<'a> {
             self.record_screen(pipelines);
             let (materials, images) = (self.materials(pipelines), self.images());
             if let Some(Antialiasing { frame, projection }) = &mut self.antialiasing {
-                let scenery = Scenery {
-                    draws: &world.draws,
-                    projection: projection.to_cols_array_2d(),
-                };
+                let scenery = Scenery::new(&world.draws, projection.to_cols_array_2d());
                 frame.record(commands, &images, &scenery, &materials)?;
             } else {
                 self.change(&self.color, COLOR_DRAWN, COPIED);
