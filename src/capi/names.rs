@@ -1,6 +1,7 @@
 //! C's names in messages of the engine.
 
 use super::error::Error;
+use super::options::GROWTHS;
 use crate::host::{EngineError, HostError};
 use crate::vulkan::VulkanError;
 
@@ -162,6 +163,9 @@ pub(super) fn in_c(error: &HostError) -> String {
             limit: *limit,
         }
         .to_string(),
+        HostError::Engine(EngineError::Growths { asked, .. }) => {
+            format!("GpcOptions.growths is {asked}; it can be {GROWTHS}")
+        }
         HostError::Engine(EngineError::Background(found)) => {
             format!("GpcOptions.background is {found:?}: its light must be finite")
         }

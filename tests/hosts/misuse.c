@@ -669,6 +669,11 @@ static void frames(void) {
     options.contrast = 256;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.contrast is 256");
     options.contrast = 10;
+    options.growths = 9;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 9; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
+    options.growths = 300;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 300; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
+    options.growths = 3;
     options.width = 0;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "an image of 0 x 64 pixels");
     options.width = SIDE;
