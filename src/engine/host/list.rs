@@ -289,6 +289,7 @@ impl List {
             });
         }
         let uniform = self.uniform(&placed);
+        let plane = self.plane();
         let footprints = self.footprints();
         let gpu = self.shared.gpu.clone();
         let resources = &self.resources;
@@ -313,7 +314,7 @@ impl List {
         let boxes = self.settings.filters_boxes();
         let visible = VisibilityUniform {
             list: 1,
-            ..Lending::visible(&self.plane(), footprints.place, boxes)
+            ..Lending::visible(&plane, footprints.place, boxes)
         };
         lending.record_visible(recorder, &visible);
         if count > 0 {

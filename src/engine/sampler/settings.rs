@@ -1,6 +1,6 @@
 //! Settings of a rendering: method, samples, colours and limits.
 
-use super::{Coverage, Detection, EngineError, Method, Shading, SuperpixelOptions};
+use super::{Coverage, EngineError, Method, Shading, SuperpixelOptions};
 use crate::vulkan::Limits;
 
 /// Area of the image for which texture levels are chosen, also for the alpha of MASK materials. [`Method::None`] and
