@@ -1,10 +1,10 @@
 //! The host of `visibility` in a window: two frames in flight for however many images the window has.
 //!
 //! ```text
-//! cargo run --release --features view --example window [FRAMES]
+//! cargo run --release --features view --example window
 //! ```
 //!
-//! It ends after so many frames, or when the window is closed.
+//! It ends when the window is closed, or with the key Escape.
 
 #[allow(dead_code, reason = "pictures in files are of the other example")]
 mod device;
@@ -32,6 +32,7 @@ use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoop};
+use winit::keyboard::NamedKey;
 use winit::platform::pump_events::{EventLoopExtPumpEvents, PumpStatus};
 use winit::window::{Window, WindowId};
 
@@ -61,15 +62,15 @@ impl ApplicationHandler for Shell {
     }
 
     fn window_event(&mut self, _: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        self.closed |= event == WindowEvent::CloseRequested;
+        self.closed |= match event {
+            WindowEvent::CloseRequested => true,
+            WindowEvent::KeyboardInput { event, .. } => event.logical_key == NamedKey::Escape,
+            _ => false,
+        };
     }
 }
 
 fn main() -> Result<(), Failure> {
-    let most: Option<usize> = match std::env::args().nth(1) {
-        Some(frames) => Some(frames.parse()?),
-        None => None,
-    };
     let mut events = EventLoop::new()?;
     let mut shell = Shell::default();
     while shell.window.is_none() {
@@ -90,7 +91,7 @@ fn main() -> Result<(), Failure> {
     let mut slots: Vec<Slot<'_>> = Vec::new();
     let mut frame = 0;
     let mut said = [0, 0];
-    while most.is_none_or(|most| frame < most) && !shell.closed {
+    while !shell.closed {
         let status = events.pump_app_events(Some(Duration::ZERO), &mut shell);
         if matches!(status, PumpStatus::Exit(_)) {
             break;
