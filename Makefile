@@ -59,7 +59,7 @@ test:
 test-view:
 	@tools/setup.sh build lavapipe validation c window display
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
-		$(CARGO) test --release --features view --bin gpc --test view
+		$(CARGO) test --release --features view --bin gpc --example window --test view
 
 # Takes an hour: each driver compiles all shaders.
 test-drivers:
@@ -92,7 +92,7 @@ lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
-	$(CARGO) clippy --release --features view --bin gpc --test view -- -D warnings
+	$(CARGO) clippy --release --features view --bin gpc --example window --test view -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings
