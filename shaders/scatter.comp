@@ -174,8 +174,9 @@ void place(uint i) {
 // The order of an owner's layers: the farthest first and, of what is as far, the greater ID.
 void order(uint i) {
     uvec4 own = candidates_out[i], owner = candidates_out[min(own.z, owners_room() - 1u)];
-    uint count = min(owner.w, owner.z), first = owner.z - count, before = 0u, j = 0u;
-    if (i < first || i >= owner.z) return;
+    uint count = owner.w, first = owner.z - count, before = 0u, j = 0u;
+    // Where layers found no room, what is here is left from another round.
+    if (own.z >= counters[COUNTER_OWNERS] || i < first || i >= owner.z) return;
     while (j < count) {
         uvec2 other = candidates_out[first + j].xy;
         before += other.x < own.x || (other.x == own.x && other.y > own.y) ? 1u : 0u;

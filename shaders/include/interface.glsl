@@ -395,9 +395,9 @@
 #define STRETCH 256
 
 // Trials of a triangle in a tile that a round takes where tiles have no list: some tenths of a second on small GPUs, well
-// below what systems let a dispatch take. Of so many tiles a round takes as many as FEWEST_TRIED in any case.
+// below what systems let a dispatch take. A round takes FEWEST_TRIED entries of such tiles in any case.
 #define MOST_TRIALS 0x10000000u
-#define FEWEST_TRIED 256u
+#define FEWEST_TRIED 4096u
 
 // Longest lists of candidates; tiles with more triangles have none. Loops of `sample` that take a block of one cell at a time
 // end in time with LONGEST_LIST opaque or alpha-tested triangles or LONGEST_LAYERED_APART of which some are BLEND.

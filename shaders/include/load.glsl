@@ -77,7 +77,7 @@ Load load_of(uint index, uvec4 tile) {
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
     uint entries = (cells + LANES - 1u) / LANES;
     // Layers are as many as they happen to be; a round has room for some.
-    uint owners = candidates_of_owners(cells) * (layered ? 1u + push.layers : 1u);
+    uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;
     load.needs = uvec4(!busy ? 0u : listed ? tile.x : owners, records_, cells * blocks, listed ? 0u : entries);
     load.entries = (LOCATIONS ? 0u : entries) * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));

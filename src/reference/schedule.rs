@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Largest number of tests of a triangle in a tile that a round makes for tiles without a list.
 const MOST_TRIALS: u32 = 1 << 28;
 /// Number of entries of such tiles that a round takes in any case.
-const FEWEST_TRIED: u32 = 256;
+const FEWEST_TRIED: u32 = 4096;
 
 /// Facts about a tile before the first round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -142,7 +142,7 @@ impl Rounds {
             all_samples.min(headers * block.min(parts * candidates))
         };
         let cells = u64::from(tile.cells);
-        let owners = all_samples.div_ceil(4) * if layered { 1 + layers } else { 1 };
+        let owners = all_samples.div_ceil(4) * if layered { layers / 2 } else { 1 };
         match (unlisted, cells) {
             (_, 0) => [0; 4],
             (true, _) => [owners, records, headers, cells.div_ceil(self.lanes.into())],

@@ -133,7 +133,10 @@ fn layers_may_be_any_number() {
             for (pixel, color) in image.colors.iter().enumerate() {
                 let apart = (0..4).map(|i| (f64::from(color[i]) - expected[i]).abs());
                 let most = apart.fold(0.0, f64::max);
-                assert!(most < 1e-5, "{samples} samples, pixel {pixel}: {color:?}, not {expected:?}");
+                assert!(
+                    most < 1e-5,
+                    "{samples} samples, pixel {pixel}: {color:?}, not {expected:?}"
+                );
             }
         }
     });

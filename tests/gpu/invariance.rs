@@ -2,7 +2,9 @@
 
 use glam::DMat3;
 use gpc::camera::Camera;
-use gpc::render::{Detection, Headless, HeadlessOptions, Rendered, SceneRequest, Settings, Shading};
+use gpc::render::{
+    Detection, Headless, HeadlessOptions, Rendered, SceneRequest, Settings, Shading,
+};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
 

@@ -14,6 +14,8 @@ pub struct Schedule {
     schedule: Arc<Pipeline>,
     enlist: Arc<Pipeline>,
     options: SampleOptions,
+    /// Largest number of pairs of a triangle and a tile in the device's memory.
+    most_pairs: u64,
     /// Push constants of the three shaders: see `shaders/include/load.glsl`.
     pushed: spirv::SchedulePush,
 }
@@ -57,6 +59,7 @@ impl Schedule {
             schedule: layout.compute(&schedule, layout.subgroup())?,
             enlist: layout.compute(&enlist, layout.subgroup())?,
             options: *options,
+            most_pairs: ResourceSizes::most_pairs(layout.gpu.limits()),
             pushed: spirv::SchedulePush {
                 block: sample.block(),
                 per_sample,
@@ -113,28 +116,53 @@ impl Schedule {
             ),
             (headers(cells), records, headers(cells_of_tile)),
         ];
-        let layers = if self.options.has_blend {
-            1 + u64::from(self.pushed.layers)
-        } else {
-            1
-        };
-        let owners = |cells: u64| cells * samples.div_ceil(4) * layers;
-        let entries = |cells: u64, tiles: u64| match sizes.locations {
-            None => tiles * PIXELS.div_ceil(sizes.lanes.into()),
-            Some(_) => cells,
-        };
-        let tried =
-            u64::from(spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED.into());
-        let unlisted = [
-            (owners(cells), candidates, owners(cells_of_tile)),
-            (entries(cells, tiles), tried, entries(cells_of_tile, 1)),
-        ];
-        let unlisted = unlisted.into_iter().filter(|_| self.options.unlisted);
-        let needs = listed.into_iter().chain(unlisted);
+        let needs = listed.into_iter();
+        let needs = needs.chain(self.unlisted_needs(sizes, triangles, (cells, cells_of_tile)));
         let ended: u64 = needs
             .map(|(all, room, most)| rounds_ended(all, room, most))
             .sum();
         (1 + ended).min(tiles).max(1) as u32
+    }
+
+    /// Needs of tiles without a list: of all of them, the room, and of one. `cells` and `cells_of_tile` are the largest
+    /// numbers of cells, of all tiles and of one.
+    fn unlisted_needs(
+        &self,
+        sizes: &ResourceSizes,
+        triangles: u32,
+        (cells, cells_of_tile): (u64, u64),
+    ) -> Vec<(u64, u64, u64)> {
+        if !self.options.unlisted {
+            return Vec::new();
+        }
+        let [tiles, pairs, candidates] =
+            [sizes.tiles(), sizes.pair_capacity, sizes.list_capacity].map(u64::from);
+        let [longest, layers] = match self.options.has_blend {
+            true => [self.pushed.longest_layered, self.pushed.layers / 2],
+            false => [self.pushed.longest_list, 1],
+        };
+        // Where memory may grow, a recording whose pairs outgrow it may leave tiles.
+        let dense = pairs / (1 + u64::from(longest).min(candidates));
+        let dense = if pairs < self.most_pairs {
+            dense.min(tiles)
+        } else {
+            tiles
+        };
+        let cells = match sizes.locations {
+            None => dense * cells_of_tile,
+            Some(_) => cells,
+        };
+        let owners = |cells: u64| cells * u64::from(self.options.samples.div_ceil(4) * layers);
+        let entries = |cells: u64, tiles: u64| cells / u64::from(sizes.lanes) + tiles;
+        let tried = (spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED);
+        vec![
+            (owners(cells), candidates, owners(cells_of_tile)),
+            (
+                entries(cells, dense),
+                tried.into(),
+                entries(cells_of_tile, 1),
+            ),
+        ]
     }
 
     /// Largest number of visibility samples with which blocks of `headers` headers and `samples` samples are admitted.

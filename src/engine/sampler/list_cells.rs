@@ -73,6 +73,21 @@ impl ListCells {
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let cell_sizes = self.cell_sizes(layout, settings);
+        let locations = LocationSizes {
+            lent: self.lent,
+            ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
+        };
+        // All points fit in the memory of candidates, in case that they lie in tiles without a list.
+        let points = if self.cells.are_points() {
+            u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS
+        } else {
+            0
+        };
+        let candidates = candidates.max(if scene.has_blend() {
+            2 * points
+        } else {
+            points
+        });
         let at_most = |room: u64, most: u64| (room * u64::from(capacity.lists)).min(most) as u32;
         // A location has room for its samples with all layers, and some receivers of light have.
         let of_location = match self.cells {
@@ -88,10 +103,7 @@ impl ListCells {
         ResourceSizes {
             region,
             lanes: limits.lanes,
-            locations: Some(LocationSizes {
-                lent: self.lent,
-                ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
-            }),
+            locations: Some(locations),
             survivor_capacity: scene.index_count(),
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),

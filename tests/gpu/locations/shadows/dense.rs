@@ -2,7 +2,7 @@
 
 use gpc::scene::{AlphaMode, LightKind};
 
-use super::{OVER, ask, cast, floor, lamp, lit, pinhole, places, sun, SIZE};
+use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun};
 use crate::meshes::Random;
 use crate::stage::on_gpu;
 
@@ -19,7 +19,8 @@ fn specks_change_no_shadow() {
             let mut random = Random::new(5);
             for _ in 0..40_000 {
                 let middle = [-0.2, 0.6, -2.8].map(|at: f64| at + random.range(-0.05, 0.05));
-                let corners = [0; 3].map(|_| middle.map(|at| (at + random.range(-1e-6, 1e-6)) as f32));
+                let corners =
+                    [0; 3].map(|_| middle.map(|at| (at + random.range(-1e-6, 1e-6)) as f32));
                 specked.add(0, corners);
             }
             stage.add(1, OVER);
@@ -33,7 +34,9 @@ fn specks_change_no_shadow() {
             let found = ask(gpu, &specked, &lights, &locations);
             assert!(listed.iter().any(|point| point.shadows != 0));
             let pairs = found.iter().zip(&listed);
-            let differ = pairs.filter(|(a, b)| (a.color, a.shadows) != (b.color, b.shadows)).count();
+            let differ = pairs
+                .filter(|(a, b)| (a.color, a.shadows) != (b.color, b.shadows))
+                .count();
             assert_eq!(differ, 0);
         }
     });
