@@ -8,8 +8,8 @@
 // - Functions that can fail answer a GpcResult; gpc_last_error has the message. No error leaves anything behind, and no
 //   panic of the library crosses this boundary.
 // - A struct that is handed over is first filled by its gpc_init function, which sets size, type and defaults. Later versions of
-//   the library may add members to its end, and take structs without them. So may they of GpcDraw, GpcMesh and GpcAlphaMap, which stand in
-//   arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
+//   the library may add members to its end, and take structs without them. So may they of GpcDraw, GpcMesh and GpcAlphaMap, which stand
+//   in arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
 // - Numbers of type uint32_t that stand for one of a few values name the enumeration that has them.
 // - A pointer or handle is null, which is an error where nothing else is said, or alive, of the type named and of the device
 //   lent. That it is null is found out; the rest is the application's affair, as with Vulkan itself.
