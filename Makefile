@@ -85,7 +85,7 @@ figures:
 	GPC_FIGURES=write $(CARGO) test --release --test figures documents_agree
 
 pictures:
-	@tools/setup.sh build lavapipe
+	@tools/setup.sh build lavapipe pictures
 	@tools/pictures.sh
 
 lint:
