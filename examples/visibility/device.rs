@@ -24,6 +24,7 @@ pub struct Device {
     /// Allocator, shared with the library; `None` only in `Drop`, which frees its blocks before the device.
     allocator: Option<SharedAllocator>,
     /// Vulkan loader, whose library stays open until the end.
+    #[allow(dead_code, reason = "only a window's surface reads it")]
     pub entry: ash::Entry,
 }
 

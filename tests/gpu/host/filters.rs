@@ -147,7 +147,8 @@ fn parts_of_a_sample_make_it_up() {
 
 /// What the shader computes: four vectors for each place.
 fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
-    let memory = memory(gpu, None);
+    // SAFETY: the commands that use what is made from it are waited for.
+    let memory = unsafe { memory(gpu, None) };
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let filled = |bytes: &[u8]| {
         let usage = storage | vk::BufferUsageFlags::TRANSFER_SRC;
