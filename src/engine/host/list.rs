@@ -169,7 +169,7 @@ impl List {
             lent: true,
         };
         let room = (list.capacity, padded(settings.size));
-        let sizes = cells.sizes(layout, content, &settings, room, capacity.lists);
+        let sizes = cells.sizes(layout, content, &settings, room, capacity);
         sizes.check("the largest list of a recording", limits)?;
         let (offsets, count) = cells.offsets(layout, &settings)?;
         let single = vk::SampleCountFlags::TYPE_1;

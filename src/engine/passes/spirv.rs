@@ -313,6 +313,7 @@ pub struct ArgumentsPush {
     pub after: u32,
     pub subgroups_first: u32,
     pub subgroups: u32,
+    pub subgroups_unlisted: u32,
 }
 
 /// `shaders/arguments.comp`, which has no constants.
@@ -328,7 +329,7 @@ impl Specialized for Arguments {
             Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
         ],
-        push_bytes: 12,
+        push_bytes: 16,
         invocations: Invocations::Fixed(1),
     };
 
@@ -533,6 +534,49 @@ impl Specialized for Centres {
 impl Compiled for Centres {
     fn code() -> &'static [u8] {
         CENTRES
+    }
+}
+
+/// Constants of `shaders/composite.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Composite {
+    pub tinted: bool,
+    pub tonemap: bool,
+}
+
+impl Default for Composite {
+    fn default() -> Self {
+        Self {
+            tinted: false,
+            tonemap: true,
+        }
+    }
+}
+
+impl Specialized for Composite {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "composite",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 0, binding: frame_set::SHADED_OUT, access: Access::Write },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .flag(16, self.tinted)
+            .flag(30, self.tonemap)
+    }
+}
+
+impl Compiled for Composite {
+    fn code() -> &'static [u8] {
+        COMPOSITE
     }
 }
 
@@ -909,7 +953,9 @@ pub struct EnlistPush {
     pub parts: u32,
     pub subgroups_first: u32,
     pub subgroups: u32,
+    pub subgroups_unlisted: u32,
     pub longest_list: u32,
+    pub longest_layered: u32,
     pub more_records: u32,
 }
 
@@ -944,7 +990,7 @@ impl Specialized for Enlist {
             Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -1595,7 +1641,6 @@ pub struct Resolve {
     pub display_codes: bool,
     pub probed: bool,
     pub grows: bool,
-    pub tinted: bool,
     pub encoded: bool,
     pub locations: bool,
     pub unsure: bool,
@@ -1614,7 +1659,6 @@ impl Default for Resolve {
             display_codes: false,
             probed: false,
             grows: false,
-            tinted: false,
             encoded: false,
             locations: false,
             unsure: false,
@@ -1659,7 +1703,6 @@ impl Specialized for Resolve {
             .flag(5, self.display_codes)
             .flag(6, self.probed)
             .flag(7, self.grows)
-            .flag(16, self.tinted)
             .flag(18, self.encoded)
             .flag(20, self.locations)
             .flag(24, self.unsure)
@@ -1864,6 +1907,7 @@ pub struct SampleMasks {
     pub by_part: bool,
     pub exact_areas: bool,
     pub part: u32,
+    pub rolled: bool,
     pub locations: bool,
     pub instanced: bool,
     pub unsure: bool,
@@ -1879,6 +1923,7 @@ impl Default for SampleMasks {
             by_part: false,
             exact_areas: false,
             part: 4,
+            rolled: false,
             locations: false,
             instanced: false,
             unsure: false,
@@ -1925,9 +1970,89 @@ impl Specialized for SampleMasks {
             .flag(6, self.by_part)
             .flag(7, self.exact_areas)
             .with(8, self.part)
+            .flag(10, self.rolled)
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
+    }
+}
+
+/// What is pushed to `shaders/scatter.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ScatterPush {
+    pub step: u32,
+    pub every: u32,
+}
+
+/// Constants of `shaders/scatter.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scatter {
+    pub lanes: u32,
+    pub has_mask: bool,
+    pub locations: bool,
+    pub points: bool,
+    pub occluders: bool,
+    pub instanced: bool,
+}
+
+impl Default for Scatter {
+    fn default() -> Self {
+        Self {
+            lanes: 8,
+            has_mask: false,
+            locations: false,
+            points: false,
+            occluders: false,
+            instanced: false,
+        }
+    }
+}
+
+impl Specialized for Scatter {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "scatter",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Read },
+            Use { set: 0, binding: frame_set::CANDIDATES_OUT, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
+            Use { set: 0, binding: frame_set::PAIRS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_ORDER, access: Access::Read },
+        ],
+        push_bytes: 8,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(1, self.lanes)
+            .flag(2, self.has_mask)
+            .flag(20, self.locations)
+            .flag(21, self.points)
+            .flag(22, self.occluders)
+            .flag(23, self.instanced)
+    }
+}
+
+impl Compiled for Scatter {
+    fn code() -> &'static [u8] {
+        SCATTER
     }
 }
 
@@ -1967,7 +2092,7 @@ impl Specialized for Schedule {
             Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -2565,7 +2690,7 @@ impl Specialized for Tally {
             Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -2743,6 +2868,9 @@ pub struct Counters {
     pub widest: u32,
     pub thin_long: u32,
     pub waiting: u32,
+    pub owners: u32,
+    pub layers: u32,
+    pub most_cells: u32,
     pub subgroups: u32,
 }
 
@@ -2785,6 +2913,9 @@ pub enum Counter {
     Widest,
     ThinLong,
     Waiting,
+    Owners,
+    Layers,
+    MostCells,
     Subgroups,
 }
 
@@ -2808,7 +2939,11 @@ pub enum Argument {
     Tally = 13,
     Enlist = 14,
     ThinLong = 15,
-    Shade = 16,
+    Owners = 16,
+    Scatter = 17,
+    ScatterEvery = 18,
+    Layers = 19,
+    Shade = 20,
 }
 
 impl Argument {
@@ -2830,6 +2965,10 @@ impl Argument {
         "tally",
         "enlist",
         "thin long",
+        "owners",
+        "scatter",
+        "scatter every",
+        "layers",
         "shade",
     ];
 }
@@ -2843,6 +2982,7 @@ pub const AFTER_THIN: u32 = 5;
 pub const AFTER_GROUPS: u32 = 6;
 pub const AFTER_PROBE: u32 = 7;
 pub const AFTER_PAIRS: u32 = 8;
+pub const AFTER_SCATTER: u32 = 9;
 pub const DETECT_CONTRAST: u32 = 0;
 pub const DETECT_EDGES: u32 = 1;
 pub const DETECT_EXACT: u32 = 2;
@@ -2852,6 +2992,13 @@ pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;
 pub const DISTRIBUTE_ENCLOSE: u32 = 3;
+pub const SCATTER_CLEAR: u32 = 0;
+pub const SCATTER_DEPTHS: u32 = 1;
+pub const SCATTER_IDS: u32 = 2;
+pub const SCATTER_COUNT: u32 = 3;
+pub const SCATTER_PLACE: u32 = 4;
+pub const SCATTER_LAYERS: u32 = 5;
+pub const SCATTER_ORDER: u32 = 6;
 pub const ENCODE_RGBA8_SRGB: u32 = 0;
 pub const ENCODE_RGBA16F: u32 = 1;
 pub const TILE_LIST_PLAIN: u32 = 0;
@@ -2908,7 +3055,9 @@ pub const MATERIAL_VOLUME: u32 = 11;
 pub const MATERIAL_SPECULAR_GLOSSINESS: u32 = 12;
 pub const MATERIAL_UV_ROWS: u32 = 13;
 pub const STRETCH: u32 = 256;
-pub const MOST_TRIALS: u32 = 2147483648;
-pub const LONGEST_LIST: u32 = 40000;
-pub const LONGEST_LIST_APART: u32 = 350000;
+pub const MOST_TRIALS: u32 = 268435456;
+pub const FEWEST_TRIED: u32 = 4096;
+pub const LONGEST_LIST: u32 = 2500;
+pub const LONGEST_LAYERED: u32 = 1000;
+pub const LONGEST_LAYERED_APART: u32 = 160;
 pub const MORE_RECORDS: u32 = 16;

@@ -118,8 +118,8 @@ pub(crate) struct Sampler {
     capacity: Capacity,
     rounds: u32,
     counters: CounterLog,
-    /// Number of triangles for which [`Cull`] has room.
-    triangle_capacity: u32,
+    /// Number of triangles for which [`Cull`] has room, and of pairs for which [`Bin`] has.
+    capacities: [u32; 2],
 }
 
 /// Passes that find the cells.
@@ -198,7 +198,7 @@ impl Sampler {
             capacity,
             rounds: schedule.most_rounds(sizes, scene.index_count()),
             counters: CounterLog::new(context.memory, runs)?,
-            triangle_capacity: sizes.survivor_capacity,
+            capacities: [sizes.survivor_capacity, sizes.pair_capacity],
             source,
             schedule,
             sample,
@@ -332,7 +332,8 @@ impl Sampler {
     ) -> Result<(), VulkanError> {
         for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
             for counters in counted {
-                let room = (tiles, self.triangle_capacity);
+                let [triangles, pairs] = self.capacities;
+                let room = (tiles, triangles, pairs);
                 shortfall.add(counters, room, self.capacity.unlisted);
                 shortfall.add_subgroups(counters);
             }
