@@ -69,8 +69,12 @@ impl Distribute {
             spirv::Distribute::INTERFACE.push_bytes,
         )?;
         let step = |step: u32| {
-            let points = cells.are_points();
-            own_layout.compute(layout, &spirv::Distribute { step, points })
+            let shader = spirv::Distribute {
+                step,
+                points: cells.are_points(),
+                occluders: cells.are_occluders(),
+            };
+            own_layout.compute(layout, &shader)
         };
         let steps = STEPS.into_iter().map(step).collect::<Result<_, _>>()?;
         let set = set_layout.allocate()?;

@@ -812,6 +812,7 @@ pub mod distribute_set {
 pub struct Distribute {
     pub step: u32,
     pub points: bool,
+    pub occluders: bool,
 }
 
 impl Default for Distribute {
@@ -819,6 +820,7 @@ impl Default for Distribute {
         Self {
             step: 0,
             points: false,
+            occluders: false,
         }
     }
 }
@@ -846,6 +848,7 @@ impl Specialized for Distribute {
         Constants::new()
             .with(0, self.step)
             .flag(1, self.points)
+            .flag(2, self.occluders)
     }
 }
 
@@ -1769,6 +1772,7 @@ pub struct SampleLines {
     pub header: u32,
     pub lines: u32,
     pub locations: bool,
+    pub occluders: bool,
     pub instanced: bool,
     pub unsure: bool,
 }
@@ -1785,6 +1789,7 @@ impl Default for SampleLines {
             header: 64,
             lines: 16,
             locations: false,
+            occluders: false,
             instanced: false,
             unsure: false,
         }
@@ -1814,6 +1819,9 @@ impl Specialized for SampleLines {
             Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
             Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
             Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1830,6 +1838,7 @@ impl Specialized for SampleLines {
             .with(10, self.header)
             .with(11, self.lines)
             .flag(20, self.locations)
+            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
     }

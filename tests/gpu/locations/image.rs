@@ -2,7 +2,6 @@
 
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::render::{Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
-use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use super::{location, pinhole, planar};
@@ -65,9 +64,7 @@ fn a_planar_image_is_the_cameras() {
                     // Locations have no neighbours to choose the number of parts, and are shaded in all of them.
                     .shading(Shading::Triangle)
                     // Where more triangles meet than a subgroup has invocations, locations have no exact areas.
-                    .coverage(Coverage::Samples)
-                    // Locations use points.
-                    .pattern(Pattern::Sobol),
+                    .coverage(Coverage::Samples),
             );
         let image = stage.render(gpu, &settings);
         let prepared = stage.upload(gpu);

@@ -4,7 +4,6 @@ use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
 use gpc::reference::crossings::{Mark, PinholeView};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
-use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
 use super::{pinhole, planar};
@@ -70,9 +69,7 @@ fn wires_of_a_planar_set_are_the_images() {
         // The first distance separates the wires from the wall; the second paints them on it.
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
-            // Locations use points.
-            let settings = settings(Detection::Contrast, true)
-                .map_superpixels(|options| options.pattern(Pattern::Sobol));
+            let settings = settings(Detection::Contrast, true);
             let image = stage.render(gpu, &settings);
             let scene = stage.upload(gpu);
             let locations = seen(gpu, &scene, &planar(SIZE), &settings);
