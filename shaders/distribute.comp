@@ -22,7 +22,6 @@
 layout(local_size_x = 64) in;
 layout(constant_id = DISTRIBUTE_CONSTANT_STEP) const uint STEP = 0u;
 layout(constant_id = DISTRIBUTE_CONSTANT_POINTS) const bool POINTS = false;      // locations are sampled once each, and several share a cell
-layout(constant_id = DISTRIBUTE_CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;    // POINTS that know the least depth of what lies before them
 
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_LOADS) buffer Loads { uint loads[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_RANKS) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
@@ -133,7 +132,6 @@ void enclose(uint cell) {
     uint count = loads[base + LOAD_COUNT], cells = (count + push.in_cell - 1u) / push.in_cell;
     held.y = min(push.in_cell, count - number * push.in_cell);
     vec2 low = vec2(3.4e38), high = vec2(-3.4e38), at;
-    float farthest = 3.4e38;
     uint member = 0u;
     do {
         uint location = POINTS ? texelFetch(order, int(held.x + min(member, held.y - 1u))).x : held.x;
@@ -141,13 +139,12 @@ void enclose(uint cell) {
         vec2 extent = half_extent(location);
         low = min(low, at - extent);
         high = max(high, at + extent);
-        if (OCCLUDERS) farthest = min(farthest, uintBitsToFloat(texelFetch(locations, int(2u * location + 1u)).x));
     } while (++member < push.in_cell);
     // A lone location is the middle itself, to the bit.
     vec2 middle = held.y == 1u ? at : 0.5 * (low + high);
     vec2 half_side = max(high - middle, middle - low) * ROUNDING + SLACK;
     cells_out[2u * cell] = floatBitsToUint(vec4(middle, half_side));
-    cells_out[2u * cell + 1u] = uvec4(held, floatBitsToUint(farthest), 0u);
+    cells_out[2u * cell + 1u] = uvec4(held, 0u, 0u);
     uint group = number / push.in_group;
     if (group * push.in_group == number)
         groups_out[loads[base + LOAD_FIRST_GROUP] + group] = uvec4(tile, cell, min(push.in_group, cells - number), number);

@@ -100,17 +100,12 @@ void main() {
     uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.5 + ROUNDING);
     uvec2 my_locations = uvec2(0u);     // the first one, and how many
-    // Nothing farther than this shows in the cell. Of OCCLUDERS, no triangle hides others: whether it covers a cell depends on
-    // which locations are in the cell, and that differs from run to run.
-    float my_hidden = 0.0;
     if (LOCATIONS) {
         int at = int(2u * (location_group.y + my_bit));
         vec4 square = uintBitsToFloat(texelFetch(location_cells, at));
         my_at = square.xy;
         my_half = square.zw;
-        uvec4 held = texelFetch(location_cells, at + 1);
-        my_locations = held.xy;
-        if (OCCLUDERS) my_hidden = uintBitsToFloat(held.z);
+        my_locations = texelFetch(location_cells, at + 1).xy;
     }
 #ifndef LAYERED
     if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
@@ -118,7 +113,7 @@ void main() {
     uint cell_bit = subgroupShuffle(my_bit, 0u);
     vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
-    if (APART) my_hidden = subgroupShuffle(my_hidden, 0u);
+    float my_hidden = 0.0;          // nothing farther than this shows in the cell
     uint my_count = 0u;
     uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
     do {
@@ -128,7 +123,7 @@ void main() {
             // The cell is the only one: an invocation tests a candidate.
             RectangleTest test = test_rectangle(k, cell_at, cell_half, HAS_MASK);
             bool exists = lane < chunk_count && may_touch(k, cell_bit);
-            if (!OCCLUDERS) my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
+            my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
             bool keeps = exists && test.touches && test.near >= my_hidden;
             uvec4 keeping = subgroupBallot(keeps);
             if (keeps) kept[min(my_count + subgroupBallotExclusiveBitCount(keeping), KEPT - 1u)] = chunk * LANES + lane;
@@ -140,7 +135,7 @@ void main() {
                     Candidate t = shuffle_candidate(k, j + u);
                     RectangleTest test = test_rectangle(t, my_at, my_half, HAS_MASK);
                     bool exists = j + u < chunk_count && may_touch(t, my_bit);
-                    if (!OCCLUDERS) my_hidden = max(my_hidden, exists ? test.hides : 0.0);
+                    my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                     if (test.touches && test.near >= my_hidden && exists) {
                         kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
                         my_count++;

@@ -211,7 +211,7 @@ void show_candidates(Cell cell) {
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool exists = entry < cell.entries && may_touch(k, cell.bit);
-        if (!EXACT_AREAS && !OCCLUDERS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
+        if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
         bool shows = exists && test.touches && test.near >= hidden, touches = shows && !blend;

@@ -16,7 +16,7 @@ layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINT
 //   a row of the output; OCCLUDERS: least depth of what lies before it, ID of the surface's triangle, 0, 0)
 layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
 // a cell: (x, y of its middle from its tile's centre, half its width and height), (its location or, of POINTS, where in
-//   `location_order` its locations begin, how many it has, OCCLUDERS: the least depth of what lies before any of them, 0)
+//   `location_order` its locations begin, how many it has, 0, 0)
 layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
 // One vector: tile, first cell, cells, number of the first cell within its tile
 layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;

@@ -69,12 +69,8 @@ impl Distribute {
             spirv::Distribute::INTERFACE.push_bytes,
         )?;
         let step = |step: u32| {
-            let shader = spirv::Distribute {
-                step,
-                points: cells.are_points(),
-                occluders: cells.are_occluders(),
-            };
-            own_layout.compute(layout, &shader)
+            let points = cells.are_points();
+            own_layout.compute(layout, &spirv::Distribute { step, points })
         };
         let steps = STEPS.into_iter().map(step).collect::<Result<_, _>>()?;
         let set = set_layout.allocate()?;

@@ -170,6 +170,7 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
         header,
         lines,
         locations: shader.locations,
+        occluders: shader.occluders,
         instanced: shader.instanced,
         unsure: shader.unsure,
     }

@@ -812,7 +812,6 @@ pub mod distribute_set {
 pub struct Distribute {
     pub step: u32,
     pub points: bool,
-    pub occluders: bool,
 }
 
 impl Default for Distribute {
@@ -820,7 +819,6 @@ impl Default for Distribute {
         Self {
             step: 0,
             points: false,
-            occluders: false,
         }
     }
 }
@@ -848,7 +846,6 @@ impl Specialized for Distribute {
         Constants::new()
             .with(0, self.step)
             .flag(1, self.points)
-            .flag(2, self.occluders)
     }
 }
 
