@@ -106,7 +106,7 @@ fn jacobians_place_sub_samples() {
             let seen = gpu
                 .sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
                 .unwrap();
-            let (mut clear, mut differ) = (0, 0);
+            let (mut clear, mut doubtful, mut differ) = (0, 0, 0);
             for (location, found) in locations.iter().zip(&seen.values) {
                 let fit = sets
                     .iter()
@@ -115,13 +115,24 @@ fn jacobians_place_sub_samples() {
                     fit.fold((false, u32::MAX), |a, b| (a.0 || b.0, a.1.min(b.1)));
                 differ += u64::from(!fits);
                 clear += usize::from(contested == 0);
+                doubtful += contested as usize;
             }
             let (left, total) = (seen.statistics.resampled, locations.len());
             assert!(
                 differ <= left && left * 4 <= total as u64,
                 "{samples} samples: {differ} of {total} cells differ, {left} left to points"
             );
-            assert!(clear * 2 > total, "{clear} of {total} locations are clear");
+            // Of hundreds of samples of a cell, some are near an edge.
+            let few = doubtful * 10 <= total * sets[0].len();
+            let is_clear = if sets.len() == 1 {
+                clear * 2 > total
+            } else {
+                few
+            };
+            assert!(
+                is_clear,
+                "{clear} of {total} locations are clear, {doubtful} samples are not"
+            );
         }
     });
 }
