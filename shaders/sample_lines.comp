@@ -1,5 +1,6 @@
 // sample_lines: what sample.comp finds, for cells of triangles that are opaque or alpha-tested, by samples on straight lines
-// (include/lines.glsl): a subgroup takes a cell, and then the next one.
+// (include/lines.glsl): a subgroup takes a cell, and then the next one. A cell is a pixel, or what the Jacobian of one of
+// LOCATIONS makes of a square around it, whose own coordinates lines follow.
 // Reads: tiles, masks, tile_lists, candidates. Writes: records, headers; marks and lists the cells that it leaves to
 // sample.comp: those that see more than SLOTS triangles, or one that crosses the near plane, or that take too many trips of loops.
 //
@@ -65,32 +66,48 @@ struct Slot {
     uint place;             // in their middle
 };
 
-vec3 edges_at(Candidate k, vec2 at) {
-    precise vec3 e = k.a * at.x + k.b * at.y + k.c;
-    return e;
+// A cell: its middle from the tile's centre, and its axes.
+struct Square {
+    vec2 at;
+    mat2 axes;
+};
+
+vec2 slope_in(Square cell, vec2 slope) { return LOCATIONS ? slope * cell.axes : slope; }
+
+// A depth plane (slopes, depth) in a cell's coordinates, in which it is the square of side 1 around (0, 0).
+vec3 plane_in(Square cell, vec3 plane) { return vec3(slope_in(cell, plane.xy), dot(plane.xy, cell.at) + plane.z); }
+
+Candidate candidate_in(Square cell, Candidate k) {
+    precise vec3 c = k.a * cell.at.x + k.b * cell.at.y + k.c;
+    k.c = c;
+    if (LOCATIONS) {
+        precise vec3 a = k.a * cell.axes[0].x + k.b * cell.axes[0].y, b = k.a * cell.axes[1].x + k.b * cell.axes[1].y;
+        k.a = a;
+        k.b = b;
+    }
+    k.depth = plane_in(cell, k.depth);
+    return k;
 }
 
-// The range of a candidate's depths in the square of side 1 around `at`.
-vec2 depth_range(Candidate k, vec2 at) {
-    float depth = k.depth.x * at.x + k.depth.y * at.y + k.depth.z;
-    float slope = (0.5 + ROUNDING) * (abs(k.depth.x) + abs(k.depth.y)) + abs(depth) * 1e-6;
-    return vec2(max(depth - slope, k.far), min(depth + slope, k.near));
+// The range of a candidate's depths in the cell in whose coordinates it is.
+vec2 depth_range(Candidate k) {
+    float slope = (0.5 + ROUNDING) * (abs(k.depth.x) + abs(k.depth.y)) + abs(k.depth.z) * 1e-6;
+    return vec2(max(k.depth.z - slope, k.far), min(k.depth.z + slope, k.near));
 }
 
-// How far the edges of a candidate reach to the sides, and up and down, within the square of side 1 around the point where
-// its edge functions are `e`.
-vec2 reach_of_edges(Candidate k, vec3 e) {
+// How far the edges of a candidate reach to the sides, and up and down, within the cell in whose coordinates it is.
+vec2 reach_of_edges(Candidate k) {
     vec2 sum = vec2(0.0);
     [[unroll]] for (int i = 0; i < 3; i++) {
         vec2 n = vec2(k.a[i], k.b[i]);
         float inverse = inversesqrt(max(dot(n, n), 1e-37));
         n *= inverse;
-        vec2 p = -e[i] * inverse * n, d = vec2(-n.y, n.x);
+        vec2 p = -k.c[i] * inverse * n, d = vec2(-n.y, n.x);
         vec2 per = 1.0 / max(abs(d), vec2(1e-15)), middle = p * per * sign(d);
         float from = max(-0.5 * per.x - middle.x, -0.5 * per.y - middle.y), to = min(0.5 * per.x - middle.x, 0.5 * per.y - middle.y);
         [[unroll]] for (int o = 1; o < 3; o++) {
             int j = (i + o) % 3;
-            float slope = k.a[j] * d.x + k.b[j] * d.y, value = k.a[j] * p.x + k.b[j] * p.y + e[j];
+            float slope = k.a[j] * d.x + k.b[j] * d.y, value = k.a[j] * p.x + k.b[j] * p.y + k.c[j];
             float root = -value / (abs(slope) < 1e-30 ? 1e-30 : slope);
             from = slope > 0.0 ? max(from, root) : from;
             to = slope > 0.0 ? to : min(to, root);
@@ -110,12 +127,12 @@ struct Crossings {
 
 vec2 choose(uint i, vec2 a, vec2 b, vec2 c) { return i == 0u ? a : i == 1u ? b : c; }
 
-Crossings crossings_of(Candidate k, vec3 e, bool columns) {
+Crossings crossings_of(Candidate k, bool columns) {
     vec2 at[3];
     bvec3 rises;
     [[unroll]] for (int i = 0; i < 3; i++) {
         vec2 along = columns ? vec2(k.b[i], k.a[i]) : vec2(k.a[i], k.b[i]);
-        at[i] = crossing(along, e[i]);
+        at[i] = crossing(along, k.c[i]);
         rises[i] = rises_along(along);
     }
     uint begin = rises.x ? 0u : rises.y ? 1u : 2u, end = !rises.x ? 0u : !rises.y ? 1u : 2u, third = 3u - begin - end;
@@ -151,9 +168,9 @@ AlphaTest shuffled(AlphaTest t, uint lane) {
     return r;
 }
 
-// Of a word's samples, those where a triangle passes its alpha test in the cell around `at`: alpha is read as often as a cell
-// has samples by its number, once for a run of several bits.
-void test_alpha(AlphaTest test, vec2 at, bool columns, inout uint bits[WORDS]) {
+// Of a word's samples, those where a triangle passes its alpha test in a cell: alpha is read as often as a cell has samples by
+// its number, once for a run of several bits.
+void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS]) {
     uint run = ALL_BITS / min(uint(1u << findMSB(frame.sample_count)), ALL_BITS);
     run = min(run, 32u);
     uint window = run == 32u ? ~0u : (1u << run) - 1u, pending[WORDS];
@@ -173,7 +190,8 @@ void test_alpha(AlphaTest test, vec2 at, bool columns, inout uint bits[WORDS]) {
         uint wanted = first + (line * 5u + run / 2u & run - 1u);
         uint read = (tested >> wanted & 1u) != 0u || tested == 0u ? wanted : uint(findLSB(tested));
         float u = (float(half_of(own) * 32u + read) + line_phase(line)) * (1.0 / float(BITS)) - 0.5, v = line_at(line);
-        uint passed = alpha_passes(test, at + (columns ? vec2(v, u) : vec2(u, v))) ? tested : 0u;
+        vec2 offset = columns ? vec2(v, u) : vec2(u, v);
+        uint passed = alpha_passes(test, cell.at + (LOCATIONS ? cell.axes * offset : offset)) ? tested : 0u;
         left = 0u;
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
             bits[r] |= own == r ? passed : 0u;
@@ -189,30 +207,53 @@ void main() {
     uint number = workgroup_number();
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint entry = tile_lists[first_entry(LIST) + number], tile = entry_item(entry);
+    uint entry = tile_lists[first_entry(LIST) + number], item = entry_item(entry);
+    uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
+    uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
     uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
-    uint word = masks[tile];
+    uint word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
     uint first_cell = entry_part(entry) * LANES, cells = min(uint(bitCount(word)) - first_cell, LANES);
-    uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u));
-    if (BY_PART) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
+    uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u)), my_location = 0u;
+    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.0);
+    if (LOCATIONS) {
+        int square = int(2u * (location_group.y + my_bit));
+        vec4 sides = uintBitsToFloat(texelFetch(location_cells, square));
+        my_at = sides.xy;
+        my_half = sides.zw;
+        my_location = texelFetch(location_cells, square + 1).x;
+    }
+    if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
     uint headers_a_cell = (frame.sample_count + HEADER - 1u) / HEADER;
     bool listable = count <= INDEX;
     count = listable ? count : 0u;
     uint last_candidate = max(count, 1u) - 1u;
 
-    // Which candidates touch the cell of each invocation.
+    // Which candidates touch the cell of each invocation. `setup` knows it of pixels.
     uint words = 0u;
+    trips = 0u;
     do {
         uint touching = 0u;
         [[unroll]] for (uint part = 0u; part < 32u; part += LANES) {
             uint candidate = words * 32u + part + lane;
-            uint touches = candidate < count ? texelFetch(candidates, int(first + candidate) * 4 + 3).w : 0u;
-            [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+            if (LOCATIONS) {
+                Candidate k = load_candidate(first, min(candidate, last_candidate), center);
+                uint j = 0u;
+                do {
+                    bool touches = candidate < count && test_rectangle(k, shuffled(my_at, j), shuffled(my_half, j), HAS_MASK).touches;
+                    uint together = subgroupBallot(touches).x;
+                    touching |= lane == j ? together << part : 0u;
+                } while (++j < cells);
+                trips += cells;
+            } else {
+                uint touches = candidate < count ? texelFetch(candidates, int(first + candidate) * 4 + 3).w : 0u;
+                [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+            }
         }
         touched[words * LANES + lane] = touching;
+        trips++;
     } while (++words * 32u < count);
     subgroupBarrier();
 
@@ -222,12 +263,11 @@ void main() {
         phases[l] = line_phase(line_of(l * LINE_WORDS));
     }
 
-    trips = words;
     uint left = 0u;                     // cells that sample.comp takes
     uint cell = 0u;
     do {
-        uint bit = subgroupShuffle(my_bit, cell);
-        vec2 at = vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5);
+        uint bit = subgroupShuffle(my_bit, cell), location = subgroupShuffle(my_location, cell);
+        Square square = Square(shuffled(my_at, cell), LOCATIONS ? location_jacobian(location) : mat2(1.0));
         uint settled[WORDS], shown[WORDS], open_[WORDS];        // samples: lost to what comes; of the candidate at hand; to be compared
         [[unroll]] for (uint b = 0u; b < SLOT_BITS * WORDS; b++) owner[b] = 0u;
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -254,8 +294,8 @@ void main() {
                     uint candidate = min((word_ + of) * 32u + bit_of_cell(subgroupShuffle(mine, of), wanted - subgroupShuffle(before, of)), last_candidate);
                     int o = int(first + candidate) * 4;
                     uvec4 last = texelFetch(candidates, o + 3);
-                    vec4 plane = uintBitsToFloat(texelFetch(candidates, o + 2));
-                    float depth = plane.y * at.x + plane.z * at.y + plane.w + (0.5 + ROUNDING) * (abs(plane.y) + abs(plane.z));
+                    vec3 plane = plane_in(square, uintBitsToFloat(texelFetch(candidates, o + 2)).yzw);
+                    float depth = plane.z + (0.5 + ROUNDING) * (abs(plane.x) + abs(plane.y));
                     depth = min(max(depth, 1e-30), max(uintBitsToFloat(last.x), 1e-30));
                     Key key = Key(floatBitsToUint(depth) & ~INDEX | candidate, last.z);
                     key.depth = wanted < all && comes_before(limit, key) ? key.depth : 0u;
@@ -274,21 +314,20 @@ void main() {
             do {
                 uint key = batch == 0u ? nearer.depth : farther.depth;
                 float nearest = nearest_from(key), after = nearest_from(batch == 0u ? subgroupShuffle(farther.depth, 0u) : limit.depth);
-                Candidate k = load_candidate(first, min(key & INDEX, last_candidate), center);
+                Candidate k = candidate_in(square, load_candidate(first, min(key & INDEX, last_candidate), center));
                 bool exists = key != 0u;
-                vec3 edges = edges_at(k, at);
-                vec2 range = depth_range(k, at);
+                vec2 range = depth_range(k);
                 // Columns or rows: what the edges of the first eight cross more often.
-                vec2 reach = exists && lane < 8u ? reach_of_edges(k, edges) : vec2(0.0);
+                vec2 reach = exists && lane < 8u ? reach_of_edges(k) : vec2(0.0);
                 columns = directed ? columns : lanes_add(reach.x) > lanes_add(reach.y);
                 directed = true;
-                Crossings c = crossings_of(k, edges, columns);
+                Crossings c = crossings_of(k, columns);
                 bool tested = HAS_MASK && exists && k.id > frame.first_mask;
                 bool usable = c.usable && range.y <= 1.0 && range.x > 0.0;
                 uint kind = (c.third_begins ? 1u : 0u) | (usable ? 0u : 2u) | (tested ? 4u : 0u);
-                vec4 plane = vec4(columns ? k.depth.yx : k.depth.xy, k.depth.x * at.x + k.depth.y * at.y + k.depth.z, range.x);
+                vec4 plane = vec4(columns ? k.depth.yx : k.depth.xy, k.depth.z, range.x);
                 AlphaTest alpha;
-                if (HAS_MASK) alpha = alpha_test(tested ? k.id - 1u : 0u, center, at, mat2(frame.sample_footprint));
+                if (HAS_MASK) alpha = alpha_test(tested ? k.id - 1u : 0u, center, square.at, frame.sample_footprint * square.axes);
 
                 uint j = 0u, entries = lanes_add(exists ? 1u : 0u), id = 0u;
                 bool comparing = false;
@@ -359,7 +398,7 @@ void main() {
                         uint passing[WORDS];
                         bool tests = valid && (its_kind & 4u) != 0u;
                         [[unroll]] for (uint r = 0u; r < WORDS; r++) passing[r] = tests ? shown[r] : 0u;
-                        test_alpha(shuffled(alpha, from), at, columns, passing);
+                        test_alpha(shuffled(alpha, from), square, columns, passing);
                         [[unroll]] for (uint r = 0u; r < WORDS; r++) shown[r] = tests ? passing[r] : shown[r];
                     }
                     uint some = 0u, some_open = 0u, some_free = 0u;
@@ -399,10 +438,11 @@ void main() {
         // The records that each slot makes.
         uint all = 0u;
         if (BY_PART) {
-            Variation around = variation_of(cell);
+            Variation around;
+            if (!LOCATIONS) around = variation_of(cell);
             [[unroll]] for (uint h = 0u; h < HELD; h++) {
                 bool some = h * LANES + lane < used && high_frequency_triangle(slots[h].id);
-                slots[h].parts = some ? parts_around(around, slots[h].id) : PARTS_ONE;
+                slots[h].parts = !some ? PARTS_ONE : LOCATIONS ? PARTS_ALL : parts_around(around, slots[h].id);
             }
         }
         uint slot = 0u;
@@ -456,8 +496,8 @@ void main() {
         uint base = allocate_records(all, fits);
         fits = fits && !failed;
         uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
-        uint cell_id = pixel.x | pixel.y << 16;
-        if (lane == 0u && !failed) headers[min(header.z + (first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
+        uint cell_id = LOCATIONS ? location : pixel.x | pixel.y << 16;
+        if (lane == 0u && !failed) headers[min(header.z + (location_group.w + first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
         left |= failed ? 1u << bit : 0u;
         float weight = float(frame.sample_count) * (1.0 / float(ALL_BITS));
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
@@ -529,6 +569,6 @@ void main() {
 
     if (left != 0u && subgroupElect()) {
         atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(left)));
-        leave_cells(LIST, tile, left);
+        leave_cells(LIST, item, left);
     }
 }

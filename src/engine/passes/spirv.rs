@@ -1818,6 +1818,7 @@ pub struct SampleLines {
     pub header: u32,
     pub lines: u32,
     pub locations: bool,
+    pub occluders: bool,
     pub instanced: bool,
     pub unsure: bool,
 }
@@ -1834,6 +1835,7 @@ impl Default for SampleLines {
             header: 64,
             lines: 16,
             locations: false,
+            occluders: false,
             instanced: false,
             unsure: false,
         }
@@ -1863,6 +1865,9 @@ impl Specialized for SampleLines {
             Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
             Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
             Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1879,6 +1884,7 @@ impl Specialized for SampleLines {
             .with(10, self.header)
             .with(11, self.lines)
             .flag(20, self.locations)
+            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
     }

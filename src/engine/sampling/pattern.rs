@@ -16,9 +16,9 @@ pub const MAX_SAMPLES: u32 = 1024;
 pub enum Pattern {
     /// Samples on straight lines: rows or columns, whichever are crossed more often by the edges in the superpixel,
     /// with 64 samples each. A count up to 64 has 8 lines, a larger one 16; the count also limits the number of places
-    /// in which the superpixel is shaded. Any count. Only superpixels of frames that see opaque and alpha-tested
-    /// triangles have lines. [Sobol](Pattern::Sobol) points replace them where each sample is shaded, where BLEND
-    /// triangles are visible, in lists of locations, and for counts below 16.
+    /// in which the superpixel is shaded. Any count. In lists of locations, lines follow the columns of the Jacobian.
+    /// [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND triangles are visible, and
+    /// for counts below 16.
     Lines,
     /// First points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2. Any count. Its error on straight
     /// edges depends least on their orientation.

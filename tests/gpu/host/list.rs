@@ -45,7 +45,7 @@ fn a_list_of_all_pixels_is_the_picture() {
         let lent = world.lent(&PLACED);
         let (once, _) = machine.see_list(&PLACED, &pixels(), options(1));
         for (shading, most) in [(Shading::Sample, 1e-5), (Shading::Part, 3e-2)] {
-            // Lists use points, so that the frame must too.
+            // Frames and lists may differ in whether a cell has rows or columns.
             let options = options(SAMPLES).shading(shading).pattern(Pattern::Sobol);
             let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, options.clone());
             let (seen, outcome) = machine.see_list(&PLACED, &pixels(), options);

@@ -66,7 +66,7 @@ fn a_planar_image_is_the_cameras() {
                     .shading(Shading::Triangle)
                     // Where more triangles meet than a subgroup has invocations, locations have no exact areas.
                     .coverage(Coverage::Samples)
-                    // Locations use points.
+                    // Frames and lists may differ in whether a cell has rows or columns.
                     .pattern(Pattern::Sobol),
             );
         let image = stage.render(gpu, &settings);

@@ -70,7 +70,7 @@ fn wires_of_a_planar_set_are_the_images() {
         // The first distance separates the wires from the wall; the second paints them on it.
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
-            // Locations use points.
+            // Frames and lists may differ in whether a cell has rows or columns.
             let settings = settings(Detection::Contrast, true)
                 .map_superpixels(|options| options.pattern(Pattern::Sobol));
             let image = stage.render(gpu, &settings);
