@@ -66,7 +66,7 @@ impl Adoption {
     }
 
     /// Records positions in clip space and triangles, those of draws that fit.
-    pub fn record(&self, recorder: &mut Recorder<'_>, placed: &PlacedDraws) {
+    pub fn record(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
         if placed.triangles == 0 {
             return;
         }
@@ -86,14 +86,12 @@ impl Adoption {
             let counts = counts(bytes.before, lent.stride);
             let coordinates = &self.shared.coordinates;
             coordinates.record(recorder, pipeline, set, counts);
-            recorder.mark("coordinates");
         }
         if let Some((pipeline, set)) = &self.transform {
             let before = self.geometry.lent_positions(limits).before;
             let counts = counts(before, self.geometry.position_stride);
             let transform = &self.shared.transform;
             transform.record(recorder, pipeline, set, counts);
-            recorder.mark("transform");
         }
         let counts = AdoptedCounts {
             triangle_count: placed.triangles,
@@ -103,6 +101,5 @@ impl Adoption {
         };
         let (pipeline, set) = &self.adopt;
         self.shared.adopt.record(recorder, pipeline, set, counts);
-        recorder.mark("adopt");
     }
 }

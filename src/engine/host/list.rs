@@ -178,7 +178,7 @@ impl List {
         let locations =
             unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.texels().to_vec();
-        shown.push((frame_set::LOCATIONS, locations.raw));
+        shown.push((frame_set::LOCATIONS, locations.texels()));
         let resources = Resources::new(
             layout,
             &memory,
@@ -205,7 +205,7 @@ impl List {
         // SAFETY: of the list as the caller says; the rest goes with this.
         let (mut sampler, visibility_set) = unsafe {
             (
-                cells.sampler(&context, (&resources, locations.raw))?,
+                cells.sampler(&context, (&resources, locations.texels()))?,
                 lending.visibility_set(shared, &resources, Some(list.info()))?,
             )
         };
@@ -295,9 +295,8 @@ impl List {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        let recorder = &mut recorder;
-        recorder.barrier();
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &recorder;
         self.lending.record_begin(
             recorder,
             placed.triangles,

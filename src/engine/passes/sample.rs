@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::spirv;
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
@@ -330,20 +330,24 @@ impl Sample {
     /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), none must
     /// be marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        for (list, pipeline) in &self.kernels {
-            recorder.dispatch_indirect(pipeline, arguments, list.argument());
-        }
-        if self.rest.is_empty() {
-            return;
-        }
-        self.arguments_of_rest.record(recorder);
-        for (list, pipeline) in &self.rest {
-            recorder.dispatch_indirect(
-                pipeline,
-                arguments,
-                Argument::PlainLeft as u32 + *list as u32,
-            );
-        }
+        recorder.pass(spirv::Sample::INTERFACE, || {
+            // Lists have different cells.
+            recorder.unordered(|| {
+                for (list, pipeline) in &self.kernels {
+                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
+                }
+            });
+            if self.rest.is_empty() {
+                return;
+            }
+            self.arguments_of_rest.record(recorder);
+            recorder.unordered(|| {
+                for (list, pipeline) in &self.rest {
+                    let argument = Argument::PlainLeft as u32 + *list as u32;
+                    recorder.dispatch_indirect(pipeline, arguments, argument);
+                }
+            });
+        });
     }
 }
 

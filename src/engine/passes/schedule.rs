@@ -3,7 +3,7 @@
 use super::{RecordRate, Sample, SampleOptions, spirv};
 use crate::engine::data::{Argument, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -150,9 +150,11 @@ impl Schedule {
 
     /// Records the beginning of a round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, &self.pushed);
-        recorder.dispatch(&self.schedule, 1);
-        recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+        recorder.pass(spirv::Schedule::INTERFACE, || {
+            recorder.push(self.layout, &self.pushed);
+            recorder.dispatch(&self.schedule, 1);
+            recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+        });
     }
 }
 

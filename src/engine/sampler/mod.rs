@@ -48,13 +48,13 @@ use std::sync::Arc;
 pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
     /// written to its place in the buffer of shaded records.
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
 
     /// Records marks for pixels that show more than their centres, in addition to those of [`Thin`].
-    fn record_marks(&self, _recorder: &mut Recorder<'_>) {}
+    fn record_marks(&self, _recorder: &Recorder<'_>) {}
 
     /// Records passes that read a round's visibility samples after they were shaded.
-    fn record_round_end(&self, _recorder: &mut Recorder<'_>) {}
+    fn record_round_end(&self, _recorder: &Recorder<'_>) {}
 }
 
 /// Everything that a [`Sampler`] is made from.
@@ -228,7 +228,7 @@ impl Sampler {
     /// Records a run: finding the cells, sampling and shading them, and their growth.
     pub fn record(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         run: &SamplerRun<'_>,
         shading: &dyn RecordShading,
     ) {
@@ -244,11 +244,9 @@ impl Sampler {
                 if let Some(thin) = thin {
                     let (marks, arguments) = (&resources.marks, &resources.arguments);
                     thin.record(recorder, marks, arguments, uniform.triangle_count);
-                    recorder.mark("thin");
                     shading.record_marks(recorder);
                 }
                 detect.record(recorder, tiles);
-                recorder.mark("detect");
             }
             Source::List(distribute) => {
                 let (count, length) = run.list;
@@ -257,13 +255,11 @@ impl Sampler {
                     count,
                 };
                 resources.record_locations(recorder, (set, distribute), &region, length);
-                recorder.mark("distribute");
             }
         }
         let growths = self.source.growths();
         if !growths.is_empty() || self.sample.options().leaves_cells() {
             recorder.clear(&resources.marks);
-            recorder.barrier();
         }
         let slots = 1 + growths.len();
         let first_slot = slots * run.index;
@@ -275,7 +271,6 @@ impl Sampler {
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
             grow.record(recorder, tiles);
-            recorder.mark("grow");
             self.record_rounds(recorder, resources, shading);
             self.counters.record(recorder, resources, slot);
         }
@@ -283,37 +278,30 @@ impl Sampler {
 
     fn record_rounds(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         resources: &Resources,
         shading: &dyn RecordShading,
     ) {
         let arguments = &resources.arguments;
         self.cull.record(recorder, arguments);
-        recorder.mark("cull");
         self.bin.record(recorder, arguments);
-        recorder.mark("bin");
         self.schedule.record_tally(recorder, arguments);
         resources.record_rounds(recorder, self.rounds, |recorder| {
             self.schedule.record(recorder, arguments);
             if let Some(groups) = &self.groups {
                 groups.record(recorder, arguments);
             }
-            recorder.mark("schedule");
             self.setup.record(recorder, arguments);
-            recorder.mark("setup");
             self.sample.record(recorder, arguments);
-            recorder.mark("sample");
             if let Some(sort) = &self.sort {
                 record_shading(recorder, resources, sort, shading);
             }
             match &self.finish {
                 Some(Finish::Points(points)) => {
                     points.record(recorder, arguments);
-                    recorder.mark("points");
                 }
                 Some(Finish::Resolve(resolve)) => {
                     resolve.record(recorder, arguments);
-                    recorder.mark("resolve");
                 }
                 None => {}
             }
@@ -403,14 +391,12 @@ pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRat
 
 /// Records sorting and shading of a round's visibility samples.
 pub(crate) fn record_shading(
-    recorder: &mut Recorder<'_>,
+    recorder: &Recorder<'_>,
     resources: &Resources,
     sort: &Sort,
     shading: &dyn RecordShading,
 ) {
     let arguments = &resources.arguments;
     sort.record(recorder, &resources.bins, arguments);
-    recorder.mark("sort");
     shading.record(recorder, resources);
-    recorder.mark("shade");
 }
