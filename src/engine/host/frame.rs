@@ -14,7 +14,9 @@ use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
+use crate::engine::sampler::{
+    PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
+};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
@@ -191,8 +193,9 @@ impl Frame {
         kinds: &ImageKinds,
         options: &Options,
     ) -> Result<Self, HostError> {
+        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, kinds, options, Capacity::default()) }
+        unsafe { Self::with_capacity(shared, geometry, kinds, options, capacity) }
     }
 
     unsafe fn with_capacity(

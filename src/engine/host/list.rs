@@ -13,7 +13,7 @@ use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, TexelView, Timings};
 use ash::vk;
@@ -132,8 +132,9 @@ impl List {
         list: &LocationList,
         options: &Options,
     ) -> Result<Self, HostError> {
+        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, list, options, Capacity::default()) }
+        unsafe { Self::with_capacity(shared, geometry, list, options, capacity) }
     }
 
     unsafe fn with_capacity(

@@ -18,6 +18,8 @@ pub struct Schedule {
     pushed: spirv::SchedulePush,
 }
 
+/// Of this number of pixels, usually at most one is a superpixel that needs all the room that it may get.
+const USUAL_PIXELS: u64 = 8;
 /// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
 const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
 
@@ -70,6 +72,26 @@ impl Schedule {
                 longest_list: options.longest_list(),
                 more_records: options.more_records(),
             },
+        })
+    }
+
+    /// Numbers of rounds to record for a scene with at most `triangles` triangles: of the cells that are found first, and of each
+    /// growth, which are fewer. With a `factor`, it is that many times what images usually need, and otherwise what any image may need.
+    pub fn rounds(&self, sizes: &ResourceSizes, triangles: u32, factor: Option<u32>) -> [u32; 2] {
+        let most = self.most_rounds(sizes, triangles);
+        let Some(factor) = factor else {
+            return [most; 2];
+        };
+        let records_of_cell = self.options.samples + self.pushed.more_records;
+        let records = match sizes.locations {
+            None => u64::from(sizes.pixels()) / USUAL_PIXELS * u64::from(records_of_cell),
+            Some(list) if self.options.cells.are_points() => list.locations.into(),
+            Some(list) => u64::from(list.cells) * u64::from(records_of_cell),
+        };
+        let usual = records.div_ceil(u64::from(sizes.record_capacity).max(1));
+        [1, 4].map(|share| {
+            let rounds = usual.div_ceil(share) * u64::from(factor);
+            rounds.clamp(1, most.into()) as u32
         })
     }
 

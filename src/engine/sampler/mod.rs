@@ -15,6 +15,7 @@ mod list_cells;
 mod method;
 mod pixel_cells;
 pub(crate) mod plan;
+mod rounds;
 mod settings;
 pub(crate) mod statistics;
 pub(crate) mod uniform;
@@ -25,6 +26,7 @@ pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
 pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions};
 pub(crate) use pixel_cells::PixelCells;
+pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
@@ -116,7 +118,8 @@ pub(crate) struct Sampler {
     /// Pass that makes colours; `None` if no colours are needed.
     finish: Option<Finish>,
     capacity: Capacity,
-    rounds: u32,
+    /// Numbers of recorded rounds: of the cells that are found first, and of each growth.
+    rounds: [u32; 2],
     counters: CounterLog,
     /// Number of triangles for which [`Cull`] has room.
     triangle_capacity: u32,
@@ -196,7 +199,7 @@ impl Sampler {
             sort,
             finish: finish(&sample)?,
             capacity,
-            rounds: schedule.most_rounds(sizes, scene.index_count()),
+            rounds: schedule.rounds(sizes, scene.index_count(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
             triangle_capacity: sizes.survivor_capacity,
             source,
@@ -207,7 +210,7 @@ impl Sampler {
 
     /// Limits the number of recorded rounds: of the detected superpixels, and of each growth.
     pub fn limit_rounds(&mut self, most: u32) {
-        self.rounds = self.rounds.min(most);
+        self.rounds = self.rounds.map(|rounds| rounds.min(most));
     }
 
     /// Capacity with which the sampler was made.
@@ -263,7 +266,8 @@ impl Sampler {
         }
         let slots = 1 + growths.len();
         let first_slot = slots * run.index;
-        self.record_rounds(recorder, resources, shading);
+        let [first_rounds, grown_rounds] = self.rounds;
+        self.record_rounds(recorder, resources, first_rounds, shading);
         self.counters.record(recorder, resources, first_slot);
         let mut of_growth = *uniform;
         // Where centres have similar colours, they may miss what the superpixels beside them show.
@@ -271,7 +275,7 @@ impl Sampler {
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
             grow.record(recorder, tiles);
-            self.record_rounds(recorder, resources, shading);
+            self.record_rounds(recorder, resources, grown_rounds, shading);
             self.counters.record(recorder, resources, slot);
         }
     }
@@ -280,13 +284,14 @@ impl Sampler {
         &self,
         recorder: &Recorder<'_>,
         resources: &Resources,
+        rounds: u32,
         shading: &dyn RecordShading,
     ) {
         let arguments = &resources.arguments;
         self.cull.record(recorder, arguments);
         self.bin.record(recorder, arguments);
         self.schedule.record_tally(recorder, arguments);
-        resources.record_rounds(recorder, self.rounds, |recorder| {
+        resources.record_rounds(recorder, rounds, |recorder| {
             self.schedule.record(recorder, arguments);
             if let Some(groups) = &self.groups {
                 groups.record(recorder, arguments);

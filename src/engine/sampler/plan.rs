@@ -1,8 +1,9 @@
 //! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
 use super::statistics::Shortfall;
-use super::{EngineError, Method, Settings, Shading};
+use super::{EngineError, Method, RoundPolicy, Settings, Shading};
 use crate::engine::data::{Content, ResourceSizes};
+use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
 /// Part of an image, in output pixels. If only a part of the image is wanted, a region is still placed and drawn as
@@ -81,6 +82,8 @@ pub(crate) struct Capacity {
     pub layers: u32,
     /// Factor for the room for candidates.
     pub lists: u32,
+    /// Factor for the number of recorded rounds that images usually need; `None` to record all that any image may need.
+    pub rounds: Option<u32>,
     /// Whether a subgroup samples one cell at a time.
     pub apart: bool,
     /// Whether there is a kernel for tiles whose candidate list outgrows its buffer.
@@ -96,12 +99,23 @@ impl Capacity {
         }
     }
 
-    /// Capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
+    /// Capacity for the first frame on a device.
+    pub fn first(policy: RoundPolicy) -> Self {
+        Self {
+            rounds: match policy {
+                RoundPolicy::Small => None,
+                RoundPolicy::Large { .. } => Some(1),
+            },
+            ..Self::default()
+        }
+    }
+
+    /// This capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
     /// longer than a frame.
-    pub fn least() -> Self {
+    pub fn without_unlisted(self) -> Self {
         Self {
             unlisted: false,
-            ..Self::default()
+            ..self
         }
     }
 
@@ -111,10 +125,13 @@ impl Capacity {
         let crowded = shortfall.crowded > 0;
         let of_lights = shortfall.unshadowed > 0;
         let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
+        let late = shortfall.waiting > 0 || of_lights;
+        let rounds = factor(late).max(shortfall.rounds.next_power_of_two());
         let longer = crowded || of_lights || short;
         Self {
             layers: self.layers * factor(crowded),
             lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
+            rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
             apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }
@@ -126,6 +143,7 @@ impl Default for Capacity {
         Self {
             layers: 4,
             lists: 1,
+            rounds: None,
             apart: false,
             unlisted: true,
         }
@@ -140,6 +158,8 @@ const NEIGHBOURS: u32 = 3;
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
+/// Number of points that take at least as long as the lines of a superpixel.
+const LINES_AS_POINTS: u32 = 64;
 /// Number of samples by which a sample is multiplied with shadows: it is projected once for each light, on up to six
 /// planes.
 const SHADOWED: u64 = 8;
@@ -186,6 +206,10 @@ impl Plan {
         let side = settings.side();
         let [width, height] = settings.size;
         let samples_a_pixel = match settings.method {
+            // A line of 64 samples takes as long as a few points.
+            Method::Superpixel(ref options) if options.pattern == Pattern::Lines => {
+                u64::from(options.samples.min(LINES_AS_POINTS))
+            }
             Method::Superpixel(_) | Method::Msaa { .. } => u64::from(settings.method.samples()),
             Method::None | Method::Ssaa { .. } => 1,
         };
@@ -302,16 +326,18 @@ impl Plan {
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
         let samples = u64::from(settings.method.samples());
+        let policy = RoundPolicy::of(limits);
         let records = match settings.method {
             Method::Superpixel(_) => {
-                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, MOST_RECORDS)
+                let most = policy.most_records(limits);
+                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
             Method::None | Method::Ssaa { .. } => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
-        let records = if detects && records > large {
+        let records = if detects && records > large && policy == RoundPolicy::Small {
             (records / 3).max(large)
         } else {
             records
@@ -323,7 +349,8 @@ impl Plan {
         };
         let most_listed = ResourceSizes::most_pairs(limits);
         let triangles = u64::from(scene.index_count());
-        let (most_pairs, most_candidates) = if scene.is_instanced() {
+        let (most_pairs, most_candidates) = if scene.is_instanced() && policy == RoundPolicy::Small
+        {
             (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
         } else {
             (MOST_PAIRS, MOST_CANDIDATES)
@@ -390,7 +417,10 @@ mod tests {
             unlisted: 1,
             ..Shortfall::default()
         };
-        assert_eq!(Capacity::least().more(unlisted).lists, 2);
+        assert_eq!(
+            Capacity::default().without_unlisted().more(unlisted).lists,
+            2
+        );
         assert_eq!(
             Capacity::default().more(Shortfall::default()),
             Capacity::default()
