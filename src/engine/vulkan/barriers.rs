@@ -177,7 +177,8 @@ mod tests {
         Unknown,
     }
 
-    /// Reads and writes, or writes, of a buffer; a copy; a command of which nothing is known; a command that needs no data.
+    /// A read; a write; both, of the other buffer; a copy; a read of both buffers; a command without data; one of which nothing is
+    /// known.
     const COMMANDS: [Command; 7] = {
         const fn known(reads: [bool; 2], writes: [bool; 2]) -> Command {
             Command::Known { reads, writes }

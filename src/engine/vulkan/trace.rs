@@ -82,7 +82,11 @@ impl Gpu {
 impl Interface {
     /// Name of the pass whose main shader it belongs to.
     pub(crate) fn pass(&self) -> &'static str {
-        self.name.split('.').next().unwrap_or(self.name)
+        let stages = ["_vertex", "_fragment"].into_iter();
+        let pass = stages
+            .filter_map(|stage| self.name.strip_suffix(stage))
+            .next();
+        pass.unwrap_or(self.name)
     }
 
     /// Names of the data with this access, in the order of bindings. Data with two bindings, a texel buffer for
