@@ -123,10 +123,12 @@ impl Capacity {
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool| if lacked { 2 } else { 1 };
         let crowded = shortfall.crowded > 0;
-        let of_lights = shortfall.unshadowed > 0;
+        let unshadowed = shortfall.unshadowed > 0;
+        // What lights lack is not known: rounds first, as long as there are few.
+        let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
-        let late = shortfall.waiting > 0 || of_lights;
-        let rounds = factor(late).max(shortfall.rounds.next_power_of_two());
+        let more_rounds = factor(shortfall.waiting > 0 || unshadowed) * factor(unshadowed);
+        let rounds = more_rounds.max(shortfall.rounds.next_power_of_two());
         let longer = crowded || of_lights || short;
         Self {
             layers: self.layers * factor(crowded),
@@ -158,6 +160,8 @@ const NEIGHBOURS: u32 = 3;
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
+/// Factor for the number of rounds from which on a shortage is not for want of rounds.
+const MANY_ROUNDS: u32 = 8;
 /// Number of points that take at least as long as the lines of a superpixel.
 const LINES_AS_POINTS: u32 = 64;
 /// Number of samples by which a sample is multiplied with shadows: it is projected once for each light, on up to six
@@ -421,6 +425,25 @@ mod tests {
             Capacity::default().without_unlisted().more(unlisted).lists,
             2
         );
+        // What lights lack may be rounds.
+        let unshadowed = Shortfall {
+            unshadowed: 1,
+            ..Shortfall::default()
+        };
+        let few = Capacity {
+            rounds: Some(2),
+            ..Capacity::default()
+        };
+        let more = few.more(unshadowed);
+        assert_eq!((more.rounds, more.lists, more.apart), (Some(8), 1, false));
+        let longer = more.more(unshadowed);
+        assert_eq!((longer.lists, longer.apart), (2, true));
+        let late = Shortfall {
+            waiting: 5,
+            rounds: 3,
+            ..Shortfall::default()
+        };
+        assert_eq!(few.more(late).rounds, Some(8));
         assert_eq!(
             Capacity::default().more(Shortfall::default()),
             Capacity::default()

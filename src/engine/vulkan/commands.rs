@@ -27,6 +27,8 @@ pub struct Recorder<'a> {
     /// What the sets show that are bound for compute shaders.
     bound: RefCell<Vec<ShownBuffers>>,
     timings: RefCell<Option<&'a mut Timings>>,
+    /// Whether timing has begun.
+    is_timed: Cell<bool>,
     /// Whether a named section is being recorded.
     in_section: Cell<bool>,
     /// Whether what is recorded repeats what was recorded before.
@@ -58,6 +60,7 @@ impl<'a> Recorder<'a> {
             conditions: Cell::new(Conditions::default()),
             bound: RefCell::default(),
             timings: RefCell::new(timings),
+            is_timed: Cell::new(false),
             in_section: Cell::new(false),
             repeats: Cell::new(false),
             traces: gpu.trace.is_asked(),
@@ -319,7 +322,7 @@ impl<'a> Recorder<'a> {
             unsafe { labels.cmd_end_debug_utils_label(self.raw) };
         }
         self.in_section.set(outer);
-        if !outer {
+        if !outer && self.is_timed.get() {
             self.mark(Some(name));
         }
     }
@@ -407,8 +410,9 @@ impl<'a> Recorder<'a> {
         self.before(&accesses)
     }
 
-    /// Starts timing.
+    /// Starts timing. Sections that were recorded before are not timed.
     pub fn begin(&self) {
+        self.is_timed.set(true);
         if let Some(timings) = self.timings.borrow_mut().as_deref_mut() {
             timings.begin(self.gpu, self.raw);
         }
@@ -416,6 +420,7 @@ impl<'a> Recorder<'a> {
 
     /// Continues timing in a command buffer that follows another one.
     pub fn go_on(&self) {
+        self.is_timed.set(true);
         self.mark(None);
     }
 
