@@ -630,8 +630,9 @@ typedef struct GpcOptions {
     // the background. It has to be VK_TRUE with GpcGeometry.blended, and does not matter with `shade_all`.
     VkBool32 flat_background;
     // Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
-    // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
-    // it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need or, on GPUs
+    // with plenty of memory, usually needs; those that it does not need take next to no time on devices with
+    // GpcDevice.conditional_rendering, and little on others.
     uint32_t max_rounds;
     // How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
     uint32_t location_count;

@@ -3,15 +3,14 @@
 use crate::engine::data::SampleSet;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{Binding, Compiled, Pipeline, Recorder, VulkanError};
-use ash::vk;
+use crate::vulkan::{Binding, Compiled, Pipeline, Recorder, ShownBinding, VulkanError};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// A set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is the type of the push constants.
 pub(super) struct BesideFrame<C> {
     layout: PipelineLayout,
-    set: OwnSet,
+    own: OwnSet,
     _set_layout: SetLayout,
     pushed: PhantomData<C>,
 }
@@ -27,18 +26,18 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
     pub unsafe fn new(
         layout: &FrameLayout,
         bindings: &'static [Binding],
-        buffers: &[(Binding, vk::DescriptorBufferInfo)],
+        buffers: &[ShownBinding],
     ) -> Result<Self, VulkanError> {
         let gpu = &layout.gpu;
         let set_layout = SetLayout::new(gpu, bindings)?;
         let sets = [layout.frame_set, set_layout.raw];
         let own_layout = PipelineLayout::new(gpu, &sets, size_of::<C>() as u32)?;
-        let set = set_layout.allocate()?;
+        let mut own = set_layout.allocate()?;
         // SAFETY: the set is new, and the caller guarantees the buffers.
-        unsafe { set.write_buffers(buffers) };
+        unsafe { own.set.write(buffers) };
         Ok(Self {
             layout: own_layout,
-            set,
+            own,
             _set_layout: set_layout,
             pushed: PhantomData,
         })
@@ -59,7 +58,7 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
     /// Binds a frame's set and this one. Other passes must bind the frame's set again afterwards, because their
     /// layouts differ.
     pub fn bind(&self, recorder: &Recorder<'_>, frame: &SampleSet, pushed: &C) {
-        let sets = [frame.descriptor(), self.set.raw];
+        let sets = [&frame.set, &self.own.set];
         self.layout.bind(recorder, &sets, pushed);
     }
 }

@@ -261,8 +261,9 @@ impl Headless {
     ) -> Result<Frame, RenderError> {
         let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
+        let capacity = self.renderer.first_capacity().without_unlisted();
         self.renderer
-            .prepare_with(scene, settings, None, Capacity::least(), reserved)
+            .prepare_with(scene, settings, None, capacity, reserved)
     }
 
     /// Renders a frame and waits for it. If the frame's lists outgrow their memory, it is prepared again with more, so

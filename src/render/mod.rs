@@ -28,6 +28,6 @@ pub use error::RenderError;
 pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
-pub use pass_list::FramePass;
+pub use pass_list::{FramePass, RecordedPasses};
 pub use passes::Encoding;
 pub use renderer::{PreparedScene, Renderer, SceneRequest};

@@ -3,7 +3,7 @@
 use super::{Frame, Headless, RenderError};
 use crate::camera::Camera;
 use crate::engine::data::Argument;
-use crate::vulkan::{Access, Dispatch, Dispatched};
+use crate::vulkan::{Access, Dispatch, Dispatched, Traced};
 
 /// A pass of a frame: a dispatch of a compute shader, or a draw with a pair of shaders.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -16,6 +16,27 @@ pub struct FramePass {
     pub reads: Vec<&'static str>,
     /// Data that the shader may write.
     pub writes: Vec<&'static str>,
+}
+
+/// The commands of a recording.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct RecordedPasses {
+    /// Passes in the order in which they were recorded. Of consecutive rounds, only the first is listed.
+    pub passes: Vec<FramePass>,
+    /// Number of all dispatches, of all rounds.
+    pub dispatches: u64,
+    /// Number of all barriers, of all rounds.
+    pub barriers: u64,
+}
+
+impl From<Traced> for RecordedPasses {
+    fn from(traced: Traced) -> Self {
+        Self {
+            passes: traced.dispatches.iter().map(FramePass::new).collect(),
+            dispatches: traced.dispatch_count,
+            barriers: traced.barrier_count,
+        }
+    }
 }
 
 impl FramePass {
@@ -50,7 +71,7 @@ fn argument(index: u32) -> String {
 }
 
 impl Headless {
-    /// Renders a frame and lists its passes in order. Of consecutive rounds, only the first is listed.
+    /// Renders a frame and lists its passes.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -58,17 +79,16 @@ impl Headless {
         &mut self,
         frame: &mut Frame,
         camera: &Camera,
-    ) -> Result<Vec<FramePass>, RenderError> {
+    ) -> Result<RecordedPasses, RenderError> {
         let (rendered, passes) = self.passes_of(|headless| headless.render_once(frame, camera));
         rendered?;
         Ok(passes)
     }
 
-    /// Lists the passes of all that is recorded meanwhile on the device, in order. Of consecutive rounds, only the first is
-    /// listed.
-    pub fn passes_of<T>(&mut self, record: impl FnOnce(&mut Self) -> T) -> (T, Vec<FramePass>) {
+    /// Lists the passes of all that is recorded meanwhile on the device.
+    pub fn passes_of<T>(&mut self, record: impl FnOnce(&mut Self) -> T) -> (T, RecordedPasses) {
         let gpu = self.gpu().clone();
-        let (made, dispatches) = gpu.traced(|| record(self));
-        (made, dispatches.iter().map(FramePass::new).collect())
+        let (made, traced) = gpu.traced(|| record(self));
+        (made, traced.into())
     }
 }

@@ -4,6 +4,7 @@ use super::frame::Frame;
 use super::shadows::Casters;
 use super::{RenderError, Settings, Shadows};
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::sampler::RoundPolicy;
 use crate::engine::sampler::plan::Capacity;
 use crate::render::data::{GpuScene, SceneUploads};
 use crate::render::passes::Encoding;
@@ -225,16 +226,21 @@ impl Renderer {
         settings: &Settings,
         encoding: Option<Encoding>,
     ) -> Result<Frame, RenderError> {
-        self.prepare_with(scene, settings, encoding, Capacity::default(), 0)
+        self.prepare_with(scene, settings, encoding, self.first_capacity(), 0)
     }
 
     /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with more of what it lacked: memory for
-    /// candidates and layers, or subgroups.
+    /// candidates and layers, rounds, or subgroups.
     ///
     /// # Errors
     /// As [`Self::prepare`].
     pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
         self.prepare_like(frame, frame.capacity().more(frame.shortfall()?))
+    }
+
+    /// Capacity for the first frame of a scene.
+    pub(super) fn first_capacity(&self) -> Capacity {
+        Capacity::first(RoundPolicy::of(self.gpu.limits()))
     }
 
     /// Checks that a scene belongs to this renderer's device.

@@ -21,7 +21,7 @@ pub fn frame() -> String {
     let (mut headless, scene, camera) = stage("letters", Shadows::None);
     let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
     let mut frame = headless.prepare(&scene, &settings).unwrap();
-    draw(&headless.passes(&mut frame, &camera).unwrap())
+    draw(&headless.passes(&mut frame, &camera).unwrap().passes)
 }
 
 /// Passes of a list of locations that are sampled as superpixels.
@@ -30,10 +30,10 @@ pub fn list() -> String {
     let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
     let locations = SamplingSet::planar(SIZE).unwrap().locations();
     let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
-    let (sampled, passes) = headless
+    let (sampled, recorded) = headless
         .passes_of(|headless| headless.sample_superpixels(&scene, &pinhole, &locations, &settings));
     sampled.unwrap();
-    draw(&passes)
+    draw(&recorded.passes)
 }
 
 /// Passes by which an image of locations finds what aliases: among its cells, and beside its superpixels.
@@ -42,9 +42,10 @@ pub fn image() -> String {
     let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
     let rig = [(pinhole, SamplingSet::planar(SIZE).unwrap().locations())];
     let settings = Settings::new(SIZE[0], SIZE[1]);
-    let (rendered, passes) =
+    let (rendered, recorded) =
         headless.passes_of(|headless| headless.render_locations(&scene, &rig, SIZE, &settings));
     rendered.unwrap();
+    let passes = recorded.passes;
     let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();
     let found = place("crossings");
     let before = passes[..found]
@@ -62,7 +63,7 @@ pub fn shadows() -> String {
     let mut frame = headless.prepare(&scene, &settings).unwrap();
     // The first rendering finds how much memory the frame needs.
     headless.render(&mut frame, &camera).unwrap();
-    let passes = headless.passes(&mut frame, &camera).unwrap();
+    let passes = headless.passes(&mut frame, &camera).unwrap().passes;
     let first = passes.iter().position(|pass| pass.name == "receivers");
     let of_light = &passes[first.unwrap()..];
     let last = of_light.iter().position(|pass| pass.name == "shadow");

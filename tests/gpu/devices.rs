@@ -8,7 +8,7 @@ use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
 use gpc::vulkan::{Limits, VulkanError};
 
-use crate::scenes::ball_over_checker;
+use crate::scenes::{ball_over_checker, layered};
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
 /// Runs a test on a device with lower limits; fails if the validation layer reports a message.
@@ -28,22 +28,6 @@ fn lanes() -> u32 {
     let mut lanes = 0;
     on_gpu(|gpu| lanes = gpu.gpu().limits().lanes);
     lanes
-}
-
-/// Panes, alpha-tested triangles and a checkerboard behind each other, so that each kernel has tiles of its own.
-fn layered() -> Stage {
-    let mut stage = ball_over_checker();
-    for mode in [AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend] {
-        let material = stage.materials.len();
-        stage.materials.push(flat([0.9, 0.3, 0.2, 0.6], mode));
-        for k in 0..6_u8 {
-            let [x, y] = [f32::from(k % 3) - 1.4, f32::from(k / 3) - 0.9];
-            let z = -3.0 - f32::from(k) * 0.1 - material as f32 * 0.3;
-            let corners = [[x, y, z], [x + 0.9, y + 0.13, z], [x + 0.2, y + 0.8, z]];
-            stage.add(material, corners);
-        }
-    }
-    stage
 }
 
 /// Largest difference of colours, and the root mean squared difference.

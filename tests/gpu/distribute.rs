@@ -84,7 +84,6 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
             count: list.len() as u32,
         };
         resources.record_locations(&recorder, (set, &distribute), &region, ListLength::Known);
-        recorder.barrier();
         drop(recorder);
         for (from, to) in &kept {
             copy(gpu, commands, from, to);

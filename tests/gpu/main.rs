@@ -31,6 +31,7 @@ mod partition;
 mod pose;
 mod prefilter;
 mod region;
+mod rounds;
 #[path = "../common/scene_builder.rs"]
 mod scene_builder;
 mod scenes;

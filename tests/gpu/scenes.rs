@@ -79,3 +79,19 @@ fn ball(stage: &mut Stage, middle: [f64; 3], radius: f64) {
         stage.add_quad(0, [a, b, c, d]);
     }
 }
+
+/// Panes, alpha-tested triangles and a checkerboard behind each other, so that each kernel has tiles of its own.
+pub fn layered() -> Stage {
+    let mut stage = ball_over_checker();
+    for mode in [AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend] {
+        let material = stage.materials.len();
+        stage.materials.push(flat([0.9, 0.3, 0.2, 0.6], mode));
+        for k in 0..6_u8 {
+            let [x, y] = [f32::from(k % 3) - 1.4, f32::from(k / 3) - 0.9];
+            let z = -3.0 - f32::from(k) * 0.1 - material as f32 * 0.3;
+            let corners = [[x, y, z], [x + 0.9, y + 0.13, z], [x + 0.2, y + 0.8, z]];
+            stage.add(material, corners);
+        }
+    }
+    stage
+}

@@ -240,14 +240,12 @@ impl<'a> Passes<'a> {
             copy(gpu, commands, &tile_upload, &resources.tiles);
             copy(gpu, commands, &counter_upload, &resources.counters);
             copy(gpu, commands, &argument_upload, &resources.arguments);
-            recorder().barrier();
             schedule.record_tally(&recorder(), &resources.arguments);
             for kept in &kept {
                 schedule.record(&recorder(), &resources.arguments);
                 copy(gpu, commands, &resources.counters, &kept.counters);
                 copy(gpu, commands, &resources.tiles, &kept.tiles);
                 copy(gpu, commands, &resources.tile_lists, &kept.work);
-                recorder().barrier();
             }
         });
         kept.iter().map(|kept| kept.read(content.len())).collect()

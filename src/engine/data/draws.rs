@@ -46,11 +46,9 @@ impl Draws {
         draws: &[HostDraw],
         matrices: &[[[f32; 4]; 4]],
     ) {
-        recorder.barrier();
         recorder.update(&self.table, 0, bytemuck::cast_slice(draws));
         if let Some(buffer) = &self.matrices {
             recorder.update(buffer, 0, bytemuck::cast_slice(matrices));
         }
-        recorder.barrier();
     }
 }

@@ -1,10 +1,11 @@
 //! Sampling locations on the device, which take the place of pixels.
 
-use super::{BoundTexels, Resources, SampleSet};
+use super::{Resources, SampleSet};
 use crate::engine::passes::spirv::{LOAD_WORDS, distribute_set};
 use crate::engine::passes::{Distribute, ListLength, ListRegion};
-use crate::engine::pipelines::own_layout::{BoundBuffer, whole};
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{
+    Buffer, BufferView, Memory, MemoryUse, Recorder, ShownBinding, Texels, VulkanError,
+};
 use ash::vk;
 
 /// Kind of a cell.
@@ -200,16 +201,13 @@ impl Resources {
     ///
     /// # Errors
     /// If an application lends the list.
-    pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
+    pub fn listed(&self) -> Result<Texels, VulkanError> {
         let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
-        Ok(listed.view)
+        Ok(listed.texels())
     }
 
     /// Buffers that `distribute` reads and writes.
-    pub(crate) fn location_buffers(
-        &self,
-        locations: vk::BufferView,
-    ) -> ([BoundBuffer; 8], [BoundTexels; 2]) {
+    pub(crate) fn location_buffers(&self, locations: Texels) -> [ShownBinding; 10] {
         let LocationBuffers {
             order,
             cells,
@@ -218,22 +216,19 @@ impl Resources {
             loads,
             ..
         } = &self.locations;
-        let buffers = [
-            (distribute_set::LOADS, whole(loads)),
+        [
+            (distribute_set::LOADS, loads.into()),
             // The buffer is free, because nothing has been shaded yet.
-            (distribute_set::RANKS, whole(&self.shade_order)),
-            (distribute_set::ORDER_OUT, whole(&order.buffer)),
-            (distribute_set::CELLS_OUT, whole(&cells.buffer)),
-            (distribute_set::GROUPS_OUT, whole(&groups.buffer)),
-            (distribute_set::TILE_LOADS, whole(tile_loads)),
-            (distribute_set::MASKS, whole(&self.masks)),
-            (distribute_set::COUNTERS, whole(&self.counters)),
-        ];
-        let texels = [
-            (distribute_set::LOCATIONS, locations),
-            (distribute_set::ORDER, order.view),
-        ];
-        (buffers, texels)
+            (distribute_set::RANKS, (&self.shade_order).into()),
+            (distribute_set::ORDER_OUT, (&order.buffer).into()),
+            (distribute_set::CELLS_OUT, (&cells.buffer).into()),
+            (distribute_set::GROUPS_OUT, (&groups.buffer).into()),
+            (distribute_set::TILE_LOADS, tile_loads.into()),
+            (distribute_set::MASKS, (&self.masks).into()),
+            (distribute_set::COUNTERS, (&self.counters).into()),
+            (distribute_set::LOCATIONS, locations.into()),
+            (distribute_set::ORDER, order.texels().into()),
+        ]
     }
 
     /// Records the sorting of a list into a region that has begun.
@@ -245,7 +240,6 @@ impl Resources {
         length: ListLength<'_>,
     ) {
         recorder.clear(&self.locations.loads);
-        recorder.barrier();
         distribute.record(recorder, region, length);
         self.record_reach(recorder, set);
         self.record_bind(recorder, set);

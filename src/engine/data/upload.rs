@@ -28,11 +28,7 @@ impl Upload {
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
         let region = [vk::BufferCopy::default().size(self.size)];
         // SAFETY: guaranteed by the recorder's caller; both buffers hold `size` bytes.
-        unsafe {
-            recorder
-                .device()
-                .cmd_copy_buffer(recorder.raw(), self.from.raw, self.to, &region)
-        };
+        unsafe { recorder.copy_raw(self.from.raw, self.to, &region) };
     }
 }
 

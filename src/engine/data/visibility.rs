@@ -3,8 +3,8 @@
 use super::Resources;
 use super::draws::Draws;
 use crate::engine::passes::spirv::gpc_visibility_set;
-use crate::engine::pipelines::own_layout::{OwnSet, SetLayout, whole};
-use crate::vulkan::{Buffer, Gpu, VulkanError};
+use crate::engine::pipelines::own_layout::{OwnSet, SetLayout};
+use crate::vulkan::{Buffer, Gpu, Shown, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -39,26 +39,32 @@ impl Resources {
         uniform: &Buffer,
         geometry: &VisibleGeometry<'_>,
     ) -> Result<OwnSet, VulkanError> {
-        let set = layout.allocate()?;
-        let draw_of = whole(geometry.draw_of);
+        let mut own = layout.allocate()?;
+        let draw_of = Shown::from(geometry.draw_of);
         let buffers = [
-            (gpc_visibility_set::GPC_FRAME, whole(uniform)),
-            (gpc_visibility_set::GPC_KEYS, whole(&self.bins)),
-            (gpc_visibility_set::GPC_ORDER, whole(&self.shade_order)),
-            (gpc_visibility_set::GPC_RECORDS, whole(&self.records.buffer)),
-            (gpc_visibility_set::GPC_TRIANGLES, whole(geometry.triangles)),
-            (gpc_visibility_set::GPC_POSITIONS, geometry.positions),
-            (gpc_visibility_set::GPC_SHADED, whole(&self.shaded.buffer)),
-            (gpc_visibility_set::GPC_DRAWS, whole(&geometry.draws.table)),
+            (gpc_visibility_set::GPC_FRAME, uniform.into()),
+            (gpc_visibility_set::GPC_KEYS, (&self.bins).into()),
+            (gpc_visibility_set::GPC_ORDER, (&self.shade_order).into()),
+            (
+                gpc_visibility_set::GPC_RECORDS,
+                (&self.records.buffer).into(),
+            ),
+            (gpc_visibility_set::GPC_TRIANGLES, geometry.triangles.into()),
+            (gpc_visibility_set::GPC_POSITIONS, geometry.positions.into()),
+            (gpc_visibility_set::GPC_SHADED, (&self.shaded.buffer).into()),
+            (
+                gpc_visibility_set::GPC_DRAWS,
+                (&geometry.draws.table).into(),
+            ),
             (gpc_visibility_set::GPC_DRAW_OF, draw_of),
             // A frame's shaders read no locations.
             (
                 gpc_visibility_set::GPC_LOCATIONS,
-                geometry.locations.unwrap_or(draw_of),
+                geometry.locations.map_or(draw_of, Shown::from),
             ),
         ];
         // SAFETY: the set is new; the caller guarantees the host's buffers, and the others live as long as the frame.
-        unsafe { set.write_buffers(&buffers) };
-        Ok(set)
+        unsafe { own.set.write(&buffers) };
+        Ok(own)
     }
 }

@@ -107,7 +107,7 @@ impl Adoption {
     }
 
     /// Records positions in clip space and triangles, those of draws that fit.
-    pub fn record(&self, recorder: &mut Recorder<'_>, placed: &PlacedDraws) {
+    pub fn record(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
         if placed.triangles == 0 {
             return;
         }
@@ -131,10 +131,9 @@ impl Adoption {
             let set = &self.sets[run.mesh].adopt;
             self.shared.adopt.record(recorder, pipeline, set, counts);
         }
-        recorder.mark("adopt");
     }
 
-    fn record_vertices(&self, recorder: &mut Recorder<'_>, placed: &PlacedDraws) {
+    fn record_vertices(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
         let limits = self.shared.gpu.limits();
         let parts = self.vertex_parts(placed);
         let counts = |[first, count]: [u32; 2], before: u32, stride: u32| VertexCounts {
@@ -153,7 +152,6 @@ impl Adoption {
                     coordinates.record(recorder, pipeline, set, counts);
                 }
             }
-            recorder.mark("coordinates");
         }
         if let Some(pipeline) = &self.transform {
             for &(mesh, positions) in &parts {
@@ -167,7 +165,6 @@ impl Adoption {
                     transform.record(recorder, pipeline, set, counts);
                 }
             }
-            recorder.mark("transform");
         }
     }
 

@@ -9,7 +9,7 @@ use crate::engine::data::alpha_flags::{
 };
 use crate::engine::passes::{AlphaLevel, spirv};
 use crate::engine::pipelines::OwnSet;
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -237,22 +237,22 @@ impl AlphaReading {
     }
 
     /// Records it, where there are alpha maps.
-    pub fn record(&self, recorder: &mut Recorder<'_>, content: &HostContent) {
+    pub fn record(&self, recorder: &Recorder<'_>, content: &HostContent) {
         let Some(alpha) = content.alpha() else {
             return;
         };
         let places = &alpha.places;
-        recorder.barrier();
         recorder.update(&alpha.rows.buffer, 0, bytemuck::cast_slice(&places.rows));
         recorder.update(&alpha.atlas.buffer, 0, bytemuck::cast_slice(&places.tables));
-        recorder.barrier();
-        for (set, levels) in self.sets.iter().zip(&places.levels) {
-            for level in levels {
-                self.shared.alpha_maps.record(recorder, set, level);
-            }
-        }
-        recorder.barrier();
-        recorder.mark("alpha_map");
+        recorder.pass(spirv::AlphaMap::INTERFACE, || {
+            recorder.unordered(|| {
+                for (set, levels) in self.sets.iter().zip(&places.levels) {
+                    for level in levels {
+                        self.shared.alpha_maps.record(recorder, set, level);
+                    }
+                }
+            });
+        });
     }
 }
 

@@ -66,7 +66,7 @@ impl Base {
     /// Records it, for draws that the set's uniform block is of; IDs and depth are drawn into `targets`, where the host lends none.
     pub fn record(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         (resources, set): (&Resources, &SampleSet),
         (uniform, placed): (&FrameUniform, &PlacedDraws),
         targets: Option<&RasterTargets>,
@@ -76,7 +76,7 @@ impl Base {
         if let Some((raster, targets)) = self.raster.as_ref().zip(targets) {
             let runs = runs(placed, &uniform.transform);
             let drawn = [[0, 0], uniform.size];
-            let set = set.descriptor();
+            let set = set.set.raw;
             raster.record(
                 recorder,
                 set,
@@ -85,12 +85,10 @@ impl Base {
                 uniform.size,
                 drawn,
             );
-            recorder.mark("raster");
         }
         match &self.colors {
             Colors::Drawn(take) => {
                 take.record(recorder, width * height);
-                recorder.mark("take");
             }
             Colors::Shaded { centres, sort } => {
                 centres.record(recorder, resources, width * height, |recorder| {

@@ -127,26 +127,26 @@ impl HostContent {
     /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
     pub fn texels(&self) -> [BoundTexels; 10] {
         let positions = match &self.positions {
-            Positions::Lent { texels, .. } => texels.raw,
-            Positions::Made(made) => made.view,
+            Positions::Lent { texels, .. } => texels.texels(),
+            Positions::Made(made) => made.texels(),
         };
-        let (floats, words) = (self.unread_floats.view, self.unread_words.view);
+        let (floats, words) = (self.unread_floats.texels(), self.unread_words.texels());
         let alpha = self.alpha.as_ref();
-        let coordinates = alpha.map_or(floats, |alpha| alpha.coordinates.view);
+        let coordinates = alpha.map_or(floats, |alpha| alpha.coordinates.texels());
         [
             (frame_set::POSITIONS, positions),
-            (frame_set::TRIANGLES, self.triangles.view),
+            (frame_set::TRIANGLES, self.triangles.texels()),
             (frame_set::NORMALS, floats),
             (frame_set::TANGENTS, floats),
             (frame_set::UVS, coordinates),
             (frame_set::COLORS, coordinates),
             (
                 frame_set::MATERIALS,
-                alpha.map_or(words, |alpha| alpha.rows.view),
+                alpha.map_or(words, |alpha| alpha.rows.texels()),
             ),
             (
                 frame_set::ALPHA_ATLAS,
-                alpha.map_or(words, |alpha| alpha.atlas.view),
+                alpha.map_or(words, |alpha| alpha.atlas.texels()),
             ),
             (frame_set::INSTANCE_OF, words),
             (frame_set::INSTANCES, words),

@@ -15,7 +15,9 @@ use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
+use crate::engine::sampler::{
+    PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
+};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
@@ -176,7 +178,7 @@ impl Work {
         Ok(Self {
             base: Base::new(shared, content, image.as_ref(), !kinds.ids, &output)?,
             patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
-            timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
+            timings: Timings::new(gpu, 32 + 16 * (1 + growths) + 8 * bands)?,
             settings,
             plan,
             resources,
@@ -222,8 +224,9 @@ impl Frame {
         kinds: &ImageKinds,
         options: &Options,
     ) -> Result<Self, HostError> {
+        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, kinds, options, Capacity::default()) }
+        unsafe { Self::with_capacity(shared, geometry, kinds, options, capacity) }
     }
 
     unsafe fn with_capacity(
@@ -367,10 +370,8 @@ impl Frame {
         unsafe { work.show(set, images) };
         let resources = &work.resources;
         // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
-        let recorder = &mut recorder;
-        // The commands of another frame, before on the queue, use the same memory.
-        recorder.barrier();
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
+        let recorder = &recorder;
         let lending = &mut self.lending;
         lending.record_begin(
             recorder,
@@ -410,12 +411,10 @@ impl Frame {
             index: 0,
         };
         work.sampler.record(recorder, &run, &shading);
-        recorder.barrier();
         images.record_draw(recorder);
         let part = images.part(settings.size);
         work.patch
-            .record(recorder, set.descriptor(), images.color.view, part);
-        recorder.mark("patch");
+            .record(recorder, set.set.raw, images.color.view, part);
         images.record_end(recorder);
         lending.record_end(recorder);
         Ok(())

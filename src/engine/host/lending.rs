@@ -91,7 +91,7 @@ impl Lending {
     /// from then on.
     pub fn record_begin(
         &mut self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         triangles: u32,
         is_uploaded: &mut bool,
         upload: impl FnOnce(&Recorder<'_>),
@@ -130,7 +130,7 @@ impl Lending {
     }
 
     /// Records positions in clip space and triangles.
-    pub fn record_triangles(&self, recorder: &mut Recorder<'_>, placed: &PlacedDraws) {
+    pub fn record_triangles(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
         self.adoption.record(recorder, placed);
     }
 
@@ -148,7 +148,6 @@ impl Lending {
 
     /// Records what the host's shaders are told from here on.
     pub fn record_visible(&self, recorder: &Recorder<'_>, visible: &VisibilityUniform) {
-        recorder.barrier();
         recorder.update(&self.visibility, 0, bytemuck::bytes_of(visible));
     }
 
@@ -162,7 +161,7 @@ impl Lending {
         HostShading {
             shading,
             samples: VisibilitySamples {
-                set: visibility_set.raw,
+                set: visibility_set.set.raw,
                 arguments: resources.arguments.handle(),
                 keys: self.geometry.keys,
                 condition: None,

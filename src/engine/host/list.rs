@@ -14,7 +14,7 @@ use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, TexelView, Timings};
 use ash::vk;
@@ -133,8 +133,9 @@ impl List {
         list: &LocationList,
         options: &Options,
     ) -> Result<Self, HostError> {
+        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, list, options, Capacity::default()) }
+        unsafe { Self::with_capacity(shared, geometry, list, options, capacity) }
     }
 
     unsafe fn with_capacity(
@@ -179,7 +180,7 @@ impl List {
         let locations =
             unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.texels().to_vec();
-        shown.push((frame_set::LOCATIONS, locations.raw));
+        shown.push((frame_set::LOCATIONS, locations.texels()));
         let resources = Resources::new(
             layout,
             &memory,
@@ -206,7 +207,7 @@ impl List {
         // SAFETY: of the list as the caller says; the rest goes with this.
         let (mut sampler, visibility_set) = unsafe {
             (
-                cells.sampler(&context, (&resources, locations.raw))?,
+                cells.sampler(&context, (&resources, locations.texels()))?,
                 lending.visibility_set(shared, &resources, Some(list.info()))?,
             )
         };
@@ -297,9 +298,8 @@ impl List {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        let recorder = &mut recorder;
-        recorder.barrier();
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &recorder;
         self.lending.record_begin(
             recorder,
             placed.triangles,

@@ -46,7 +46,7 @@ pub struct Options {
     pub max_memory: Option<u64>,
     /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these.
     /// What rounds leave keeps the colours that were drawn, and is counted as left over. With `None` there are as many as an image
-    /// may need; those that it does not need take next to no time on devices with
+    /// may need or, on GPUs with plenty of memory, usually needs; those that it does not need take next to no time on devices with
     /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and little on others.
     pub max_rounds: Option<u32>,
 }

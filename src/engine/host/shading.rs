@@ -106,13 +106,14 @@ pub(super) struct HostShading<'a> {
 }
 
 impl RecordShading for HostShading<'_> {
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
         let samples = VisibilitySamples {
             condition: recorder.condition(),
             ..self.samples
         };
-        self.shading.record(recorder.raw(), &samples);
-        recorder.barrier();
+        recorder.section("shade", || {
+            self.shading.record(recorder.raw(), &samples);
+        });
         resources.record_bind(recorder, self.set);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
+use crate::engine::pipelines::OwnSet;
 use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -52,13 +52,13 @@ impl Adopt {
         draw_of: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
         let buffers = [
-            (adopt_set::DRAWS, whole(&draws.table)),
+            (adopt_set::DRAWS, (&draws.table).into()),
             (
                 adopt_set::INDICES,
-                indices.unwrap_or_else(|| whole(&draws.table)),
+                indices.map_or_else(|| (&draws.table).into(), Into::into),
             ),
-            (adopt_set::TRIANGLES_OUT, whole(triangles)),
-            (adopt_set::DRAW_OF_OUT, whole(draw_of)),
+            (adopt_set::TRIANGLES_OUT, triangles.into()),
+            (adopt_set::DRAW_OF_OUT, draw_of.into()),
         ];
         // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }

@@ -1,9 +1,10 @@
 //! alpha_map: converts a host's alpha maps to the form that the alpha test reads.
 
 use super::spirv::{self, alpha_map_set};
-use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::vulkan::{
     Buffer, Compiled, Gpu, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
+    read_image,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -37,10 +38,9 @@ impl AlphaMaps {
         let set_layout = SetLayout::new(gpu, &alpha_map_set::ALL)?;
         let layout = PipelineLayout::new(gpu, &[set_layout.raw], size_of::<AlphaLevel>() as u32)?;
         let constants = spirv::AlphaMap.constants();
-        let code = spirv::AlphaMap::code();
+        let code = (spirv::AlphaMap::code(), spirv::AlphaMap::INTERFACE);
         Ok(Self {
-            pipeline: compute_pipeline(gpu, layout.raw, code, &constants, None)?
-                .of(spirv::AlphaMap::INTERFACE),
+            pipeline: compute_pipeline(gpu, layout.raw, code, &constants, None)?,
             layout,
             set_layout,
         })
@@ -51,18 +51,19 @@ impl AlphaMaps {
     /// # Safety
     /// The view outlives the use of the set.
     pub unsafe fn set(&self, view: vk::ImageView, atlas: &Buffer) -> Result<OwnSet, VulkanError> {
-        let set = self.set_layout.allocate()?;
+        let mut own = self.set_layout.allocate()?;
         // SAFETY: the set is new; the caller guarantees the view, and the atlas lives as long as the frame.
         unsafe {
-            set.write_image(alpha_map_set::MAP, view);
-            set.write_buffers(&[(alpha_map_set::ATLAS, whole(atlas))]);
+            own.set
+                .write_images(alpha_map_set::MAP, &[read_image(view)]);
+            own.set.write(&[(alpha_map_set::ATLAS, atlas.into())]);
         }
-        Ok(set)
+        Ok(own)
     }
 
-    /// Records the pass for a level, without a barrier after it, because each level writes its own words.
-    pub fn record(&self, recorder: &Recorder<'_>, set: &OwnSet, level: &AlphaLevel) {
-        self.layout.bind(recorder, &[set.raw], level);
-        recorder.dispatch_unordered(&self.pipeline, level.words().div_ceil(64));
+    /// Records the pass for a level. Each level writes its own words.
+    pub fn record(&self, recorder: &Recorder<'_>, own: &OwnSet, level: &AlphaLevel) {
+        self.layout.bind(recorder, &[&own.set], level);
+        recorder.dispatch_each(&self.pipeline, level.words());
     }
 }

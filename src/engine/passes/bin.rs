@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -31,11 +31,14 @@ impl Bin {
 
     /// Records the pass: first for small triangles, then for large ones.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        self.arguments.record(recorder);
-        for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
-            recorder.push(self.layout, &spirv::BinPush { large });
-            recorder.dispatch_indirect_unordered(&self.pipeline, arguments, argument as u32);
-        }
-        recorder.barrier();
+        recorder.pass(spirv::Bin::INTERFACE, || {
+            self.arguments.record(recorder);
+            recorder.unordered(|| {
+                for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
+                    recorder.push(self.layout, &spirv::BinPush { large });
+                    recorder.dispatch_indirect(&self.pipeline, arguments, argument as u32);
+                }
+            });
+        });
     }
 }

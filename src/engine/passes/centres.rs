@@ -39,17 +39,15 @@ impl Centres {
     /// sorting and shading of each band, and leaves the frame's set bound.
     pub fn record(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         resources: &Resources,
         pixels: u32,
-        mut shade: impl FnMut(&mut Recorder<'_>),
+        mut shade: impl FnMut(&Recorder<'_>),
     ) {
         for band in Self::bands(pixels, resources.sizes().record_capacity) {
             self.record_half(recorder, &self.list, &band);
-            recorder.mark("centres");
             shade(recorder);
             self.record_half(recorder, &self.gather, &band);
-            recorder.mark("centres");
         }
     }
 

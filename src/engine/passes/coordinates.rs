@@ -3,8 +3,8 @@
 use super::VertexCounts;
 use super::spirv::{self, coordinates_set};
 use crate::engine::data::Draws;
+use crate::engine::pipelines::OwnSet;
 use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -41,9 +41,9 @@ impl Coordinates {
         coordinates: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
         let buffers = [
-            (coordinates_set::DRAWS, whole(&draws.table)),
-            (coordinates_set::VERTICES, vertices),
-            (coordinates_set::COORDINATES_OUT, whole(coordinates)),
+            (coordinates_set::DRAWS, (&draws.table).into()),
+            (coordinates_set::VERTICES, vertices.into()),
+            (coordinates_set::COORDINATES_OUT, coordinates.into()),
         ];
         // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }

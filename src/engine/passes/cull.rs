@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Filter for the triangles that are kept.
@@ -44,7 +44,9 @@ impl Cull {
 
     /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        self.arguments.record(recorder);
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);
+        recorder.pass(spirv::Cull::INTERFACE, || {
+            self.arguments.record(recorder);
+            recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);
+        });
     }
 }

@@ -5,8 +5,7 @@ use crate::engine::data::CellSizes;
 use crate::engine::data::{Argument, Cells, Resources};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, Texels, VulkanError};
 use std::sync::Arc;
 
 /// Steps of the shader, in their order.
@@ -40,7 +39,7 @@ pub enum ListLength<'a> {
 pub struct Distribute {
     steps: Vec<Arc<Pipeline>>,
     layout: PipelineLayout,
-    set: OwnSet,
+    own: OwnSet,
     sizes: CellSizes,
     _set_layout: SetLayout,
 }
@@ -58,10 +57,9 @@ impl Distribute {
         cells: Cells,
         sizes: CellSizes,
         resources: &Resources,
-        locations: vk::BufferView,
+        locations: Texels,
     ) -> Result<Self, VulkanError> {
         let gpu = &layout.gpu;
-        let (buffers, texels) = resources.location_buffers(locations);
         let set_layout = SetLayout::new(gpu, &distribute_set::ALL)?;
         let own_layout = PipelineLayout::new(
             gpu,
@@ -73,16 +71,13 @@ impl Distribute {
             own_layout.compute(layout, &spirv::Distribute { step, points })
         };
         let steps = STEPS.into_iter().map(step).collect::<Result<_, _>>()?;
-        let set = set_layout.allocate()?;
+        let mut own = set_layout.allocate()?;
         // SAFETY: the set is new; the caller guarantees the list, and the other buffers live as long as the resources.
-        unsafe {
-            set.write_buffers(&buffers);
-            set.write_texels(&texels);
-        }
+        unsafe { own.set.write(&resources.location_buffers(locations)) };
         Ok(Self {
             steps,
             layout: own_layout,
-            set,
+            own,
             sizes,
             _set_layout: set_layout,
         })
@@ -97,19 +92,21 @@ impl Distribute {
             in_group: self.sizes.in_group,
             samples: self.sizes.samples,
         };
-        self.layout.bind(recorder, &[self.set.raw], &push);
-        for (step, pipeline) in STEPS.into_iter().zip(&self.steps) {
-            let tiles = region.tiles[0] * region.tiles[1];
-            let invocations = match (step, length) {
-                (spirv::DISTRIBUTE_LAY_OUT, _) => tiles,
-                (spirv::DISTRIBUTE_ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
-                (_, ListLength::Known) => region.count,
-                (_, ListLength::Counted(arguments, argument)) => {
-                    recorder.dispatch_indirect(pipeline, arguments, argument as u32);
-                    continue;
-                }
-            };
-            recorder.dispatch_each(pipeline, u64::from(invocations));
-        }
+        self.layout.bind(recorder, &[&self.own.set], &push);
+        recorder.pass(spirv::Distribute::INTERFACE, || {
+            for (step, pipeline) in STEPS.into_iter().zip(&self.steps) {
+                let tiles = region.tiles[0] * region.tiles[1];
+                let invocations = match (step, length) {
+                    (spirv::DISTRIBUTE_LAY_OUT, _) => tiles,
+                    (spirv::DISTRIBUTE_ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
+                    (_, ListLength::Known) => region.count,
+                    (_, ListLength::Counted(arguments, argument)) => {
+                        recorder.dispatch_indirect(pipeline, arguments, argument as u32);
+                        continue;
+                    }
+                };
+                recorder.dispatch_each(pipeline, u64::from(invocations));
+            }
+        });
     }
 }

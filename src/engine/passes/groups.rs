@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::{Sample, spirv};
 use crate::engine::data::Argument;
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Lists groups by the kernel that their samples need, and computes the sizes of the dispatches over them.
@@ -35,7 +35,9 @@ impl Groups {
 
     /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Groups as u32);
-        self.arguments.record(recorder);
+        recorder.pass(spirv::Groups::INTERFACE, || {
+            recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Groups as u32);
+            self.arguments.record(recorder);
+        });
     }
 }

@@ -3,7 +3,7 @@
 use super::spirv::take_set;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError, compute_pipeline};
+use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError, compute_pipeline, read_image};
 use ash::vk;
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub(crate) struct HostImageLayout {
 
 /// Descriptor set of a host's image, for the kernels of one frame.
 pub(crate) struct HostImage {
-    set: OwnSet,
+    own: OwnSet,
     encoded: bool,
     layout: Arc<HostImageLayout>,
 }
@@ -40,7 +40,7 @@ impl HostImageLayout {
     /// If the driver refuses the set.
     pub fn image(self: &Arc<Self>, encoded: bool) -> Result<HostImage, VulkanError> {
         Ok(HostImage {
-            set: self.set.allocate()?,
+            own: self.set.allocate()?,
             encoded,
             layout: self.clone(),
         })
@@ -54,7 +54,11 @@ impl HostImage {
     /// No commands that use the set are pending, and the view outlives the commands that are recorded from now on.
     pub unsafe fn show(&self, view: vk::ImageView) {
         // SAFETY: guaranteed by the caller; the binding is that of an image.
-        unsafe { self.set.write_image(take_set::HOST_IMAGE, view) };
+        unsafe {
+            self.own
+                .set
+                .write_images(take_set::HOST_IMAGE, &[read_image(view)]);
+        }
     }
 
     /// Whether the image holds sRGB codes as plain numbers.
@@ -74,23 +78,13 @@ impl HostImage {
         subgroup: Option<u32>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let constants = &shader.constants();
-        let layout = self.layout.pipeline.raw;
-        let made = || compute_pipeline(&frame.gpu, layout, code, constants, subgroup);
-        frame.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
+        let (layout, shader) = (self.layout.pipeline.raw, (code, S::INTERFACE));
+        let made = || compute_pipeline(&frame.gpu, layout, shader, constants, subgroup);
+        frame.cached(code, constants, subgroup.unwrap_or(0), made)
     }
 
     /// Binds the set of the image. The frame's set stays bound.
     pub fn bind(&self, recorder: &Recorder<'_>) {
-        // SAFETY: the recorder's contract; the layout of the pipeline equals the frame's layout up to this set.
-        unsafe {
-            recorder.device().cmd_bind_descriptor_sets(
-                recorder.bindings(),
-                vk::PipelineBindPoint::COMPUTE,
-                self.layout.pipeline.raw,
-                1,
-                &[self.set.raw],
-                &[],
-            );
-        }
+        recorder.bind_sets(self.layout.pipeline.raw, 1, &[&self.own.set]);
     }
 }

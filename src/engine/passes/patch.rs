@@ -46,10 +46,11 @@ impl Patch {
         );
         let constants = &shader.constants();
         let variant = format.as_raw() as u32;
-        let pipeline = layout.cached(code, interface, constants, variant, || {
+        let pipeline = layout.cached(code, constants, variant, || {
             let pipeline = GraphicsPipeline {
                 vertex: spirv::PatchVertex::code(),
                 fragment: code,
+                interface,
                 constants,
                 samples: vk::SampleCountFlags::TYPE_1,
                 color: format,
@@ -66,6 +67,18 @@ impl Patch {
 
     /// Records the pass for a part of a view, whose image has the layout `COLOR_ATTACHMENT_OPTIMAL`.
     pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        view: vk::ImageView,
+        area: vk::Rect2D,
+    ) {
+        recorder.pass(spirv::PatchFragment::INTERFACE, || {
+            self.draw(recorder, set, view, area);
+        });
+    }
+
+    fn draw(
         &self,
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,

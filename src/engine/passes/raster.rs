@@ -160,10 +160,11 @@ impl Raster {
         let constants = &spirv::RasterFragment { instanced }.constants();
         let interface = spirv::RasterFragment::INTERFACE;
         let make = |code| {
-            layout.cached(code, interface, constants, samples.as_raw(), || {
+            layout.cached(code, constants, samples.as_raw(), || {
                 let pipeline = GraphicsPipeline {
                     vertex: spirv::RasterVertex::code(),
                     fragment: code,
+                    interface,
                     constants,
                     samples,
                     color: id_format(samples),
@@ -195,44 +196,45 @@ impl Raster {
         let scissor = rectangle(drawn[0], drawn[1]);
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         let draw = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-        recorder.transition(
-            &targets.depth,
-            vk::ImageLayout::UNDEFINED,
-            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
-        );
-        if let Some(placeholder) = &targets.placeholder {
-            recorder.transition(placeholder, vk::ImageLayout::UNDEFINED, read);
-        }
-        recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
-        self.draw(
-            recorder,
-            set,
-            runs.clone().filter(|run| !run.blended),
-            targets,
-            &targets.ids,
-            [area, scissor],
-            vk::AttachmentLoadOp::CLEAR,
-        );
-        recorder.transition(&targets.ids, draw, read);
-        if let Some(blend_ids) = &targets.blend_ids {
-            recorder.barrier();
-            recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
+        recorder.pass(spirv::RasterFragment::INTERFACE, || {
+            recorder.transition(
+                &targets.depth,
+                vk::ImageLayout::UNDEFINED,
+                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+            );
+            if let Some(placeholder) = &targets.placeholder {
+                recorder.transition(placeholder, vk::ImageLayout::UNDEFINED, read);
+            }
+            recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
             self.draw(
                 recorder,
                 set,
-                runs.filter(|run| run.blended),
+                runs.clone().filter(|run| !run.blended),
                 targets,
-                blend_ids,
+                &targets.ids,
                 [area, scissor],
-                vk::AttachmentLoadOp::LOAD,
+                vk::AttachmentLoadOp::CLEAR,
             );
-            recorder.transition(blend_ids, draw, read);
-        }
-        recorder.transition(
-            &targets.depth,
-            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
-            read,
-        );
+            recorder.transition(&targets.ids, draw, read);
+            if let Some(blend_ids) = &targets.blend_ids {
+                recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
+                self.draw(
+                    recorder,
+                    set,
+                    runs.filter(|run| run.blended),
+                    targets,
+                    blend_ids,
+                    [area, scissor],
+                    vk::AttachmentLoadOp::LOAD,
+                );
+                recorder.transition(blend_ids, draw, read);
+            }
+            recorder.transition(
+                &targets.depth,
+                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+                read,
+            );
+        });
     }
 
     #[allow(clippy::too_many_arguments)]

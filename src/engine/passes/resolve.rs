@@ -4,7 +4,7 @@ use super::host_image::HostImage;
 use super::{Composite, Sample, TileList, spirv};
 use crate::engine::data::{Cells, ColorConstants};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Pass that reads further output of [`Resolve`] besides the colours.
@@ -138,8 +138,13 @@ impl Resolve {
         if let Some(image) = &self.behind {
             image.bind(recorder);
         }
-        for (list, pipeline) in &self.kernels {
-            recorder.dispatch_indirect(pipeline, arguments, list.argument());
-        }
+        recorder.pass(spirv::Resolve::INTERFACE, || {
+            // Lists have different cells.
+            recorder.unordered(|| {
+                for (list, pipeline) in &self.kernels {
+                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
+                }
+            });
+        });
     }
 }

@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::{Scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -340,21 +340,26 @@ impl Sample {
     /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), none must
     /// be marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        for (list, pipeline) in &self.kernels {
-            if *list != TileList::Unlisted {
-                recorder.dispatch_indirect(pipeline, arguments, list.argument());
+        recorder.pass(spirv::Sample::INTERFACE, || {
+            // Lists have different cells.
+            recorder.unordered(|| {
+                for (list, pipeline) in &self.kernels {
+                    if *list != TileList::Unlisted {
+                        recorder.dispatch_indirect(pipeline, arguments, list.argument());
+                    }
+                }
+            });
+            if self.rest.is_empty() {
+                return;
             }
-        }
-        if !self.rest.is_empty() {
             self.arguments_of_rest.record(recorder);
-        }
-        for (list, pipeline) in &self.rest {
-            recorder.dispatch_indirect(
-                pipeline,
-                arguments,
-                Argument::PlainLeft as u32 + *list as u32,
-            );
-        }
+            recorder.unordered(|| {
+                for (list, pipeline) in &self.rest {
+                    let argument = Argument::PlainLeft as u32 + *list as u32;
+                    recorder.dispatch_indirect(pipeline, arguments, argument);
+                }
+            });
+        });
         // The memory of lists is used again.
         let unlisted = self
             .kernels

@@ -3,7 +3,7 @@
 use super::{RecordRate, Sample, SampleOptions, spirv};
 use crate::engine::data::{Argument, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -19,6 +19,9 @@ pub struct Schedule {
     /// Push constants of the three shaders: see `shaders/include/load.glsl`.
     pushed: spirv::SchedulePush,
 }
+
+/// Of this number of pixels, usually at most one is a superpixel that needs all the room that it may get.
+const USUAL_PIXELS: u64 = 8;
 
 impl Schedule {
     /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers a list
@@ -72,6 +75,26 @@ impl Schedule {
                 longest_layered: options.longest_layered(),
                 more_records: options.more_records(),
             },
+        })
+    }
+
+    /// Numbers of rounds to record for a scene with at most `triangles` triangles: of the cells that are found first, and of each
+    /// growth, which are fewer. With a `factor`, it is that many times what images usually need, and otherwise what any image may need.
+    pub fn rounds(&self, sizes: &ResourceSizes, triangles: u32, factor: Option<u32>) -> [u32; 2] {
+        let most = self.most_rounds(sizes, triangles);
+        let Some(factor) = factor else {
+            return [most; 2];
+        };
+        let records_of_cell = self.options.samples + self.pushed.more_records;
+        let records = match sizes.locations {
+            None => u64::from(sizes.pixels()) / USUAL_PIXELS * u64::from(records_of_cell),
+            Some(list) if self.options.cells.are_points() => list.locations.into(),
+            Some(list) => u64::from(list.cells) * u64::from(records_of_cell),
+        };
+        let usual = records.div_ceil(u64::from(sizes.record_capacity).max(1));
+        [1, 4].map(|share| {
+            let rounds = usual.div_ceil(share) * u64::from(factor);
+            rounds.clamp(1, most.into()) as u32
         })
     }
 
@@ -191,9 +214,11 @@ impl Schedule {
 
     /// Records the beginning of a round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, &self.pushed);
-        recorder.dispatch(&self.schedule, 1);
-        recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+        recorder.pass(spirv::Schedule::INTERFACE, || {
+            recorder.push(self.layout, &self.pushed);
+            recorder.dispatch(&self.schedule, 1);
+            recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+        });
     }
 }
 

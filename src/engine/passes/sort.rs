@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -55,17 +55,18 @@ impl Sort {
 
     /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, arguments: &Buffer) {
-        recorder.clear(bins);
-        recorder.barrier();
-        self.before.record(recorder);
-        if let Some(passes) = &self.passes {
-            let run = |scatter| {
-                recorder.push(self.layout, &spirv::SortPush { scatter });
-                recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
-            };
-            run(0);
-            passes.arguments.record(recorder);
-            run(1);
-        }
+        recorder.pass(spirv::Sort::INTERFACE, || {
+            recorder.clear(bins);
+            self.before.record(recorder);
+            if let Some(passes) = &self.passes {
+                let run = |scatter| {
+                    recorder.push(self.layout, &spirv::SortPush { scatter });
+                    recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
+                };
+                run(0);
+                passes.arguments.record(recorder);
+                run(1);
+            }
+        });
     }
 }

@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -55,21 +55,23 @@ impl Thin {
         arguments: &Buffer,
         indices: u32,
     ) {
-        recorder.clear(marks);
-        recorder.barrier();
-        let invocations = indices.div_ceil(spirv::THIN_PER_INVOCATION);
-        recorder.dispatch_each(&self.select, u64::from(invocations));
-        self.arguments.record(recorder);
-        for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
-            let [depth_factor, depth_constant] = self.depth_of_image;
-            let push = spirv::ThinPush {
-                long,
-                depth_factor,
-                depth_constant,
-            };
-            recorder.push(self.layout, &push);
-            recorder.dispatch_indirect_unordered(&self.walk, arguments, argument as u32);
-        }
-        recorder.barrier();
+        recorder.pass(spirv::Thin::INTERFACE, || {
+            recorder.clear(marks);
+            let invocations = indices.div_ceil(spirv::THIN_PER_INVOCATION);
+            recorder.dispatch_each(&self.select, u64::from(invocations));
+            self.arguments.record(recorder);
+            recorder.unordered(|| {
+                for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
+                    let [depth_factor, depth_constant] = self.depth_of_image;
+                    let push = spirv::ThinPush {
+                        long,
+                        depth_factor,
+                        depth_constant,
+                    };
+                    recorder.push(self.layout, &push);
+                    recorder.dispatch_indirect(&self.walk, arguments, argument as u32);
+                }
+            });
+        });
     }
 }

@@ -2,8 +2,8 @@
 
 use super::spirv::{self, transform_set};
 use crate::engine::data::Draws;
+use crate::engine::pipelines::OwnSet;
 use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -46,10 +46,10 @@ impl Transform {
         // Without matrices, the shader does not read this binding.
         let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
         let buffers = [
-            (transform_set::DRAWS, whole(&draws.table)),
-            (transform_set::VERTICES, vertices),
-            (transform_set::MATRICES, whole(matrices)),
-            (transform_set::POSITIONS_OUT, whole(positions)),
+            (transform_set::DRAWS, (&draws.table).into()),
+            (transform_set::VERTICES, vertices.into()),
+            (transform_set::MATRICES, matrices.into()),
+            (transform_set::POSITIONS_OUT, positions.into()),
         ];
         // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
         unsafe { self.0.set(&buffers) }

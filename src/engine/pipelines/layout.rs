@@ -4,8 +4,7 @@ use super::cache::Pipelines;
 use super::pool::DescriptorPool;
 use crate::engine::passes::spirv::{self, frame_set};
 use crate::vulkan::{
-    Compiled, Constants, Gpu, Interface, PUSH_STAGES, Pipeline, Specialized, VulkanError,
-    compute_pipeline,
+    Compiled, Constants, Gpu, PUSH_STAGES, Pipeline, Specialized, VulkanError, compute_pipeline,
 };
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -134,15 +133,15 @@ impl FrameLayout {
         subgroup: Option<u32>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let constants = &shader.constants();
-        let made = || compute_pipeline(&self.gpu, self.pipeline, code, constants, subgroup);
-        self.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
+        let shader = (code, S::INTERFACE);
+        let made = || compute_pipeline(&self.gpu, self.pipeline, shader, constants, subgroup);
+        self.cached(code, constants, subgroup.unwrap_or(0), made)
     }
 
     /// Pipeline for a shader, constants and variant, from the cache or made by `make`.
     pub(crate) fn cached(
         &self,
         code: &'static [u8],
-        interface: &'static Interface,
         constants: &Constants,
         variant: u32,
         make: impl FnOnce() -> Result<Pipeline, VulkanError>,
@@ -157,7 +156,7 @@ impl FrameLayout {
             return Ok(pipeline);
         }
         // The lock is not held here, so that several threads can make pipelines in parallel.
-        let made = make()?.of(interface);
+        let made = make()?;
         Ok(known().add(key, made))
     }
 

@@ -1,8 +1,9 @@
 //! Kernels that read a buffer lent by a host. Their set has only storage buffers, and a count is pushed to them.
 
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{Binding, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
-use ash::vk;
+use crate::vulkan::{
+    Binding, Compiled, Gpu, Pipeline, Recorder, ShownBinding, VulkanError, compute_pipeline,
+};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -32,9 +33,8 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, shader: &S) -> Result<Pipeline, VulkanError> {
-        let constants = shader.constants();
-        let made = compute_pipeline(gpu, self.layout.raw, S::code(), &constants, None)?;
-        Ok(made.of(S::INTERFACE))
+        let (code, constants) = ((S::code(), S::INTERFACE), shader.constants());
+        compute_pipeline(gpu, self.layout.raw, code, &constants, None)
     }
 
     /// Makes a set with these buffers.
@@ -44,14 +44,11 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
     ///
     /// # Safety
     /// The buffers outlive the use of the set.
-    pub unsafe fn set(
-        &self,
-        buffers: &[(Binding, vk::DescriptorBufferInfo)],
-    ) -> Result<OwnSet, VulkanError> {
-        let set = self.set_layout.allocate()?;
+    pub unsafe fn set(&self, buffers: &[ShownBinding]) -> Result<OwnSet, VulkanError> {
+        let mut own = self.set_layout.allocate()?;
         // SAFETY: the set is new; the caller guarantees the buffers.
-        unsafe { set.write_buffers(buffers) };
-        Ok(set)
+        unsafe { own.set.write(buffers) };
+        Ok(own)
     }
 
     /// Records a dispatch over `invocations` invocations.
@@ -59,11 +56,11 @@ impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
         &self,
         recorder: &Recorder<'_>,
         pipeline: &Pipeline,
-        set: &OwnSet,
+        own: &OwnSet,
         pushed: &C,
         invocations: u32,
     ) {
-        self.layout.bind(recorder, &[set.raw], pushed);
+        self.layout.bind(recorder, &[&own.set], pushed);
         recorder.dispatch_each(pipeline, u64::from(invocations));
     }
 }

@@ -3,7 +3,7 @@
 use super::FrameLayout;
 use super::pool::DescriptorPool;
 use crate::vulkan::{
-    Binding, Buffer, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline,
+    Binding, Compiled, DescriptorSet, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -50,8 +50,7 @@ impl SetLayout {
             .collect();
         let pool = DescriptorPool::new(&self.gpu, 1, &sizes)?;
         Ok(OwnSet {
-            gpu: self.gpu.clone(),
-            raw: pool.allocate(self.raw)?,
+            set: pool.allocate(self.raw)?,
             _pool: pool,
         })
     }
@@ -68,68 +67,10 @@ impl Drop for SetLayout {
     }
 }
 
-/// A binding and its buffer.
-pub(crate) type BoundBuffer = (Binding, vk::DescriptorBufferInfo);
-
 /// A descriptor set with its own pool.
 pub(crate) struct OwnSet {
-    gpu: Arc<Gpu>,
-    pub(crate) raw: vk::DescriptorSet,
+    pub set: DescriptorSet,
     _pool: DescriptorPool,
-}
-
-impl OwnSet {
-    /// Writes buffers to the set.
-    ///
-    /// # Safety
-    /// The set is not in use, its bindings are for buffers, and the buffers outlive its use.
-    pub unsafe fn write_buffers(&self, shown: &[BoundBuffer]) {
-        let writes: Vec<_> = shown
-            .iter()
-            .map(|(binding, buffer)| {
-                self.write(binding)
-                    .buffer_info(std::slice::from_ref(buffer))
-            })
-            .collect();
-        // SAFETY: guaranteed by the caller.
-        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
-    }
-
-    /// Writes texel buffers to the set.
-    ///
-    /// # Safety
-    /// The set is not in use, its bindings are for texel buffers, and the buffers outlive its use.
-    pub unsafe fn write_texels(&self, shown: &[(Binding, vk::BufferView)]) {
-        let writes: Vec<_> = shown
-            .iter()
-            .map(|(binding, view)| {
-                let view = std::slice::from_ref(view);
-                self.write(binding).texel_buffer_view(view)
-            })
-            .collect();
-        // SAFETY: guaranteed by the caller.
-        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
-    }
-
-    /// Writes an image, in the layout `SHADER_READ_ONLY_OPTIMAL`, to the set.
-    ///
-    /// # Safety
-    /// The set is not in use, its binding is for an image, and the image outlives its use.
-    pub unsafe fn write_image(&self, binding: Binding, view: vk::ImageView) {
-        let info = [vk::DescriptorImageInfo::default()
-            .image_view(view)
-            .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
-        let writes = [self.write(&binding).image_info(&info)];
-        // SAFETY: guaranteed by the caller.
-        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
-    }
-
-    fn write(&self, binding: &Binding) -> vk::WriteDescriptorSet<'static> {
-        vk::WriteDescriptorSet::default()
-            .dst_set(self.raw)
-            .dst_binding(binding.number)
-            .descriptor_type(binding.kind)
-    }
 }
 
 /// Layout of a pipeline.
@@ -186,30 +127,23 @@ impl PipelineLayout {
         shader: &S,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let constants = &shader.constants();
-        let made = || compute_pipeline(&self.gpu, self.raw, S::code(), constants, None);
-        frame.cached(S::code(), S::INTERFACE, constants, 0, made)
+        let shader = (S::code(), S::INTERFACE);
+        let made = || compute_pipeline(&self.gpu, self.raw, shader, constants, None);
+        frame.cached(S::code(), constants, 0, made)
     }
 
     /// Binds sets and pushes constants of this layout.
     pub fn bind(
         &self,
         recorder: &Recorder<'_>,
-        sets: &[vk::DescriptorSet],
+        sets: &[&DescriptorSet],
         push: &impl bytemuck::NoUninit,
     ) {
-        let (device, raw) = (recorder.device(), recorder.bindings());
-        // SAFETY: guaranteed by the recorder's caller; sets and constants belong to this layout.
+        recorder.bind_sets(self.raw, 0, sets);
+        // SAFETY: guaranteed by the recorder's caller; the constants belong to this layout.
         unsafe {
-            device.cmd_bind_descriptor_sets(
-                raw,
-                vk::PipelineBindPoint::COMPUTE,
-                self.raw,
-                0,
-                sets,
-                &[],
-            );
-            device.cmd_push_constants(
-                raw,
+            recorder.device().cmd_push_constants(
+                recorder.bindings(),
                 self.raw,
                 vk::ShaderStageFlags::COMPUTE,
                 0,
@@ -224,11 +158,4 @@ impl Drop for PipelineLayout {
         // SAFETY: owners drop the layout after the pipelines that were made with it have run.
         unsafe { self.gpu.device.destroy_pipeline_layout(self.raw, None) };
     }
-}
-
-/// A whole buffer, for a descriptor.
-pub(crate) fn whole(buffer: &Buffer) -> vk::DescriptorBufferInfo {
-    vk::DescriptorBufferInfo::default()
-        .buffer(buffer.handle())
-        .range(vk::WHOLE_SIZE)
 }

@@ -1,6 +1,6 @@
 //! Pools of descriptor sets.
 
-use crate::vulkan::{Gpu, VulkanError};
+use crate::vulkan::{DescriptorSet, Gpu, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ impl DescriptorPool {
     pub(crate) fn allocate(
         &self,
         layout: vk::DescriptorSetLayout,
-    ) -> Result<vk::DescriptorSet, VulkanError> {
+    ) -> Result<DescriptorSet, VulkanError> {
         let layouts = [layout];
         let info = vk::DescriptorSetAllocateInfo::default()
             .descriptor_pool(self.raw)
@@ -41,7 +41,8 @@ impl DescriptorPool {
         // SAFETY: the pool and the layout are alive.
         let sets = unsafe { self.gpu.device.allocate_descriptor_sets(&info) }
             .map_err(VulkanError::of("vkAllocateDescriptorSets"))?;
-        Ok(sets.first().copied().unwrap_or_default())
+        let raw = sets.first().copied().unwrap_or_default();
+        Ok(DescriptorSet::new(&self.gpu, raw))
     }
 }
 

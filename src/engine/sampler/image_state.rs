@@ -46,21 +46,16 @@ impl ImageState {
             base_array_layer: 0,
             layer_count: 1,
         };
-        let barriers = [vk::ImageMemoryBarrier2::default()
-            .src_stage_mask(self.stage)
-            .src_access_mask(self.access)
-            .dst_stage_mask(to.stage)
-            .dst_access_mask(to.access)
-            .old_layout(self.layout)
-            .new_layout(to.layout)
-            .image(image)
-            .subresource_range(range)];
-        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: guaranteed by the recorder's caller; the host guarantees its image and states.
-        unsafe {
-            recorder
-                .device()
-                .cmd_pipeline_barrier2(recorder.raw(), &info)
-        };
+        recorder.change_image(
+            vk::ImageMemoryBarrier2::default()
+                .src_stage_mask(self.stage)
+                .src_access_mask(self.access)
+                .dst_stage_mask(to.stage)
+                .dst_access_mask(to.access)
+                .old_layout(self.layout)
+                .new_layout(to.layout)
+                .image(image)
+                .subresource_range(range),
+        );
     }
 }

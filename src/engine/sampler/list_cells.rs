@@ -8,7 +8,7 @@ use crate::engine::sampler::plan::{
     Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
 };
 use crate::engine::sampler::{EngineError, Settings};
-use ash::vk;
+use crate::vulkan::Texels;
 
 /// Kind of the cells of a list, and the results that they need.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +125,7 @@ impl ListCells {
     pub unsafe fn sampler(
         &self,
         context: &SamplerContext<'_>,
-        (resources, locations): (&Resources, vk::BufferView),
+        (resources, locations): (&Resources, Texels),
     ) -> Result<Sampler, EngineError> {
         let SamplerContext {
             layout,

@@ -15,6 +15,7 @@ mod list_cells;
 mod method;
 mod pixel_cells;
 pub(crate) mod plan;
+mod rounds;
 mod settings;
 pub(crate) mod statistics;
 pub(crate) mod uniform;
@@ -25,6 +26,7 @@ pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
 pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions};
 pub(crate) use pixel_cells::PixelCells;
+pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
@@ -48,13 +50,13 @@ use std::sync::Arc;
 pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
     /// written to its place in the buffer of shaded records.
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
 
     /// Records marks for pixels that show more than their centres, in addition to those of [`Thin`].
-    fn record_marks(&self, _recorder: &mut Recorder<'_>) {}
+    fn record_marks(&self, _recorder: &Recorder<'_>) {}
 
     /// Records passes that read a round's visibility samples after they were shaded.
-    fn record_round_end(&self, _recorder: &mut Recorder<'_>) {}
+    fn record_round_end(&self, _recorder: &Recorder<'_>) {}
 }
 
 /// Everything that a [`Sampler`] is made from.
@@ -116,7 +118,8 @@ pub(crate) struct Sampler {
     /// Pass that makes colours; `None` if no colours are needed.
     finish: Option<Finish>,
     capacity: Capacity,
-    rounds: u32,
+    /// Numbers of recorded rounds: of the cells that are found first, and of each growth.
+    rounds: [u32; 2],
     counters: CounterLog,
     /// Number of triangles for which [`Cull`] has room, and of pairs for which [`Bin`] has.
     capacities: [u32; 2],
@@ -196,7 +199,7 @@ impl Sampler {
             sort,
             finish: finish(&sample)?,
             capacity,
-            rounds: schedule.most_rounds(sizes, scene.index_count()),
+            rounds: schedule.rounds(sizes, scene.index_count(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
             capacities: [sizes.survivor_capacity, sizes.pair_capacity],
             source,
@@ -207,7 +210,7 @@ impl Sampler {
 
     /// Limits the number of recorded rounds: of the detected superpixels, and of each growth.
     pub fn limit_rounds(&mut self, most: u32) {
-        self.rounds = self.rounds.min(most);
+        self.rounds = self.rounds.map(|rounds| rounds.min(most));
     }
 
     /// Capacity with which the sampler was made.
@@ -228,7 +231,7 @@ impl Sampler {
     /// Records a run: finding the cells, sampling and shading them, and their growth.
     pub fn record(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         run: &SamplerRun<'_>,
         shading: &dyn RecordShading,
     ) {
@@ -244,11 +247,9 @@ impl Sampler {
                 if let Some(thin) = thin {
                     let (marks, arguments) = (&resources.marks, &resources.arguments);
                     thin.record(recorder, marks, arguments, uniform.triangle_count);
-                    recorder.mark("thin");
                     shading.record_marks(recorder);
                 }
                 detect.record(recorder, tiles);
-                recorder.mark("detect");
             }
             Source::List(distribute) => {
                 let (count, length) = run.list;
@@ -257,17 +258,16 @@ impl Sampler {
                     count,
                 };
                 resources.record_locations(recorder, (set, distribute), &region, length);
-                recorder.mark("distribute");
             }
         }
         let growths = self.source.growths();
         if !growths.is_empty() || self.sample.options().leaves_cells() {
             recorder.clear(&resources.marks);
-            recorder.barrier();
         }
         let slots = 1 + growths.len();
         let first_slot = slots * run.index;
-        self.record_rounds(recorder, resources, shading);
+        let [first_rounds, grown_rounds] = self.rounds;
+        self.record_rounds(recorder, resources, first_rounds, shading);
         self.counters.record(recorder, resources, first_slot);
         let mut of_growth = *uniform;
         // Where centres have similar colours, they may miss what the superpixels beside them show.
@@ -275,45 +275,38 @@ impl Sampler {
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
             grow.record(recorder, tiles);
-            recorder.mark("grow");
-            self.record_rounds(recorder, resources, shading);
+            self.record_rounds(recorder, resources, grown_rounds, shading);
             self.counters.record(recorder, resources, slot);
         }
     }
 
     fn record_rounds(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         resources: &Resources,
+        rounds: u32,
         shading: &dyn RecordShading,
     ) {
         let arguments = &resources.arguments;
         self.cull.record(recorder, arguments);
-        recorder.mark("cull");
         self.bin.record(recorder, arguments);
-        recorder.mark("bin");
         self.schedule.record_tally(recorder, arguments);
-        resources.record_rounds(recorder, self.rounds, |recorder| {
+        resources.record_rounds(recorder, rounds, |recorder| {
             self.schedule.record(recorder, arguments);
             if let Some(groups) = &self.groups {
                 groups.record(recorder, arguments);
             }
-            recorder.mark("schedule");
             self.setup.record(recorder, arguments);
-            recorder.mark("setup");
             self.sample.record(recorder, arguments);
-            recorder.mark("sample");
             if let Some(sort) = &self.sort {
                 record_shading(recorder, resources, sort, shading);
             }
             match &self.finish {
                 Some(Finish::Points(points)) => {
                     points.record(recorder, arguments);
-                    recorder.mark("points");
                 }
                 Some(Finish::Resolve(resolve)) => {
                     resolve.record(recorder, arguments);
-                    recorder.mark("resolve");
                 }
                 None => {}
             }
@@ -404,14 +397,12 @@ pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRat
 
 /// Records sorting and shading of a round's visibility samples.
 pub(crate) fn record_shading(
-    recorder: &mut Recorder<'_>,
+    recorder: &Recorder<'_>,
     resources: &Resources,
     sort: &Sort,
     shading: &dyn RecordShading,
 ) {
     let arguments = &resources.arguments;
     sort.record(recorder, &resources.bins, arguments);
-    recorder.mark("sort");
     shading.record(recorder, resources);
-    recorder.mark("shade");
 }

@@ -1,8 +1,9 @@
 //! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
 use super::statistics::Shortfall;
-use super::{EngineError, Method, Settings, Shading};
+use super::{EngineError, Method, RoundPolicy, Settings, Shading};
 use crate::engine::data::{Content, ResourceSizes};
+use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
 /// Part of an image, in output pixels. If only a part of the image is wanted, a region is still placed and drawn as
@@ -81,6 +82,8 @@ pub(crate) struct Capacity {
     pub layers: u32,
     /// Factor for the room for candidates.
     pub lists: u32,
+    /// Factor for the number of recorded rounds that images usually need; `None` to record all that any image may need.
+    pub rounds: Option<u32>,
     /// Whether a subgroup samples one cell at a time.
     pub apart: bool,
     /// Whether tiles without a list of candidates are sampled.
@@ -99,23 +102,39 @@ impl Capacity {
         }
     }
 
-    /// Capacity with only the kernels that most frames need: compiling those for tiles without a list may take longer
-    /// than a frame.
-    pub fn least() -> Self {
+    /// Capacity for the first frame on a device.
+    pub fn first(policy: RoundPolicy) -> Self {
+        Self {
+            rounds: match policy {
+                RoundPolicy::Small => None,
+                RoundPolicy::Large { .. } => Some(1),
+            },
+            ..Self::default()
+        }
+    }
+
+    /// This capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
+    /// longer than a frame.
+    pub fn without_unlisted(self) -> Self {
         Self {
             unlisted: false,
-            ..Self::default()
+            ..self
         }
     }
 
     /// Capacity with several times as much of what a frame lacked, or as much as the frame is known to need.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
-        let of_lights = shortfall.unshadowed > 0;
+        let unshadowed = shortfall.unshadowed > 0;
+        // What lights lack is not known: rounds first, as long as there are few.
+        let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0 || of_lights;
         let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
+        let late = factor(shortfall.waiting > 0 || unshadowed, 2) * factor(unshadowed, 2);
+        let rounds = late.max(shortfall.rounds.next_power_of_two());
         Self {
             layers: self.layers.saturating_mul(factor(crowded, 4)),
+            rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
             apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
             ..self.with_lists(lists.max(shortfall.rooms))
@@ -137,6 +156,7 @@ impl Default for Capacity {
         Self {
             layers: Self::LAYERS,
             lists: 1,
+            rounds: None,
             apart: false,
             unlisted: true,
         }
@@ -151,6 +171,10 @@ const NEIGHBOURS: u32 = 3;
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
+/// Factor for the number of rounds from which on a shortage is not for want of rounds.
+const MANY_ROUNDS: u32 = 8;
+/// Number of points that take at least as long as the lines of a superpixel.
+const LINES_AS_POINTS: u32 = 64;
 /// Number of samples by which a sample is multiplied with shadows: it is projected once for each light, on up to six
 /// planes.
 const SHADOWED: u64 = 8;
@@ -204,6 +228,10 @@ impl Plan {
         let side = settings.side();
         let [width, height] = settings.size;
         let samples_a_pixel = match settings.method {
+            // A line of 64 samples takes as long as a few points.
+            Method::Superpixel(ref options) if options.pattern == Pattern::Lines => {
+                u64::from(options.samples.min(LINES_AS_POINTS))
+            }
             Method::Superpixel(_) | Method::Msaa { .. } => u64::from(settings.method.samples()),
             Method::None | Method::Ssaa { .. } => 1,
         };
@@ -320,16 +348,18 @@ impl Plan {
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
         let samples = u64::from(settings.method.samples());
+        let policy = RoundPolicy::of(limits);
         let records = match settings.method {
             Method::Superpixel(_) => {
-                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, MOST_RECORDS)
+                let most = policy.most_records(limits);
+                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
             Method::None | Method::Ssaa { .. } => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
-        let records = if detects && records > large {
+        let records = if detects && records > large && policy == RoundPolicy::Small {
             (records / 3).max(large)
         } else {
             records
@@ -344,7 +374,8 @@ impl Plan {
         };
         let most_listed = ResourceSizes::most_pairs(limits);
         let triangles = u64::from(scene.index_count());
-        let (most_pairs, most_candidates) = if scene.is_instanced() {
+        let (most_pairs, most_candidates) = if scene.is_instanced() && policy == RoundPolicy::Small
+        {
             (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
         } else {
             (MOST_PAIRS, MOST_CANDIDATES)
@@ -416,13 +447,33 @@ mod tests {
             crowded: 1,
             ..Shortfall::default()
         };
-        let more = Capacity::least().more(crowded);
+        let least = Capacity::default().without_unlisted();
+        let more = least.more(crowded);
         assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
         let unlisted = Shortfall {
             unlisted: 1,
             ..Shortfall::default()
         };
-        assert_eq!(Capacity::least().more(unlisted), Capacity::default());
+        assert_eq!(least.more(unlisted), Capacity::default());
+        // What lights lack may be rounds.
+        let unshadowed = Shortfall {
+            unshadowed: 1,
+            ..Shortfall::default()
+        };
+        let few = Capacity {
+            rounds: Some(2),
+            ..Capacity::default()
+        };
+        let more = few.more(unshadowed);
+        assert_eq!((more.rounds, more.lists, more.apart), (Some(8), 1, false));
+        let longer = more.more(unshadowed);
+        assert_eq!((longer.lists, longer.apart), (4, true));
+        let late = Shortfall {
+            waiting: 5,
+            rounds: 3,
+            ..Shortfall::default()
+        };
+        assert_eq!(few.more(late).rounds, Some(8));
         assert_eq!(
             Capacity::default().more(Shortfall::default()),
             Capacity::default()

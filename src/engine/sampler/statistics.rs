@@ -128,6 +128,8 @@ impl Statistics {
 pub(crate) struct Shortfall {
     /// Number of tiles that no round processed.
     pub waiting: u64,
+    /// Factor by which the number of rounds would have to grow for these, if they need as much as others.
+    pub rounds: u32,
     /// Number of cells whose visibility samples did not fit into their round.
     pub crowded: u64,
     /// Number of cells with more candidates than a loop may process.
@@ -155,7 +157,9 @@ impl Shortfall {
     ) {
         let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
-            self.waiting += u64::from(tiles.saturating_sub(get(Counter::NextTile)));
+            let done = get(Counter::NextTile);
+            self.waiting += u64::from(tiles.saturating_sub(done));
+            self.rounds = self.rounds.max(tiles.div_ceil(done.max(1)));
         }
         self.crowded += u64::from(get(Counter::Unfinished));
         self.stalled += u64::from(get(Counter::Stalled));

@@ -1,17 +1,66 @@
-//! Barriers between commands, and the commands that each of them orders.
+//! Barriers between commands, where one depends on another.
 
 use ash::vk;
 
-/// Kind of commands that a barrier orders.
+/// Buffers that commands read and write.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Accesses {
+    reads: Vec<vk::Buffer>,
+    writes: Vec<vk::Buffer>,
+}
+
+impl Accesses {
+    /// The accesses of a copy.
+    pub fn copy(from: vk::Buffer, to: vk::Buffer) -> Self {
+        Self {
+            reads: vec![from],
+            writes: vec![to],
+        }
+    }
+
+    pub fn read(&mut self, buffer: vk::Buffer) {
+        add(&mut self.reads, buffer);
+    }
+
+    pub fn write(&mut self, buffer: vk::Buffer) {
+        add(&mut self.writes, buffer);
+    }
+
+    /// Whether later commands have to wait for these ones.
+    fn order(&self, later: &Self) -> bool {
+        let writes_what = |read: &vk::Buffer| self.writes.contains(read);
+        let uses_what =
+            |written: &vk::Buffer| self.writes.contains(written) || self.reads.contains(written);
+        later.reads.iter().any(writes_what) || later.writes.iter().any(uses_what)
+    }
+
+    fn extend(&mut self, other: &Self) {
+        other.reads.iter().for_each(|buffer| self.read(*buffer));
+        other.writes.iter().for_each(|buffer| self.write(*buffer));
+    }
+
+    fn clear(&mut self) {
+        self.reads.clear();
+        self.writes.clear();
+    }
+}
+
+fn add(list: &mut Vec<vk::Buffer>, buffer: vk::Buffer) {
+    if !list.contains(&buffer) {
+        list.push(buffer);
+    }
+}
+
+/// Commands that a barrier orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Commands {
+pub(super) enum Ordered {
     /// Dispatches, and copies and fills of buffers.
     Dispatches,
     /// Commands of any kind.
-    Any,
+    All,
 }
 
-impl Commands {
+impl Ordered {
     /// Barrier that makes the writes of such earlier commands visible to later ones. If the device can skip commands,
     /// the writes are also visible to the test whether commands are skipped.
     pub fn barrier(self, can_skip: bool) -> vk::MemoryBarrier2<'static> {
@@ -22,7 +71,7 @@ impl Commands {
                 A::SHADER_WRITE | A::TRANSFER_WRITE,
                 A::SHADER_READ | A::UNIFORM_READ | A::INDIRECT_COMMAND_READ | A::TRANSFER_READ,
             ),
-            Self::Any => (S::ALL_COMMANDS, A::MEMORY_WRITE, A::MEMORY_READ),
+            Self::All => (S::ALL_COMMANDS, A::MEMORY_WRITE, A::MEMORY_READ),
         };
         let (stages, reads) = if can_skip {
             (
@@ -40,50 +89,78 @@ impl Commands {
     }
 }
 
-/// Commands that were recorded since the last barrier, and whether a barrier was requested.
-///
-/// If a barrier was requested between two commands, one is recorded that orders both: a barrier for commands of any
-/// kind, if either of them is not a dispatch.
-#[derive(Clone, Copy, Debug)]
+/// What was recorded since the last barriers, as far as later commands may depend on it.
+#[derive(Debug)]
 pub(super) struct Barriers {
-    /// Whether a barrier was requested.
-    asked: bool,
-    /// Whether other commands than dispatches may have been recorded since the last barrier.
-    others: bool,
-    /// Whether all barriers since the last one for commands of any kind were for dispatches only.
-    narrow: bool,
+    /// Accesses of dispatches, copies and fills since the last barrier.
+    pending: Accesses,
+    /// Accesses of a group of commands that do not depend on each other; `None` outside of groups.
+    group: Option<Accesses>,
+    /// Whether commands of unknown kinds and accesses were recorded since the last barrier for all commands.
+    unknown: bool,
+    /// Whether any command was recorded since the last barrier for all commands.
+    recorded: bool,
 }
 
 impl Barriers {
     /// State at the beginning of a recording, after unknown commands.
-    pub const fn new() -> Self {
+    pub fn new() -> Self {
         Self {
-            asked: false,
-            others: true,
-            narrow: false,
+            pending: Accesses::default(),
+            group: None,
+            unknown: true,
+            recorded: true,
         }
     }
 
-    /// Requests a barrier between the earlier and the later commands.
-    pub fn ask(&mut self) {
-        self.asked = true;
+    /// Barrier that has to be recorded before a dispatch, a copy or a fill with these accesses, if any.
+    pub fn before(&mut self, accesses: &Accesses) -> Option<Ordered> {
+        let barrier = if self.unknown {
+            self.all_ordered();
+            Some(Ordered::All)
+        } else if self.pending.order(accesses) {
+            self.pending.clear();
+            Some(Ordered::Dispatches)
+        } else {
+            None
+        };
+        self.recorded = true;
+        self.group
+            .as_mut()
+            .unwrap_or(&mut self.pending)
+            .extend(accesses);
+        barrier
     }
 
-    /// Barrier that has to be recorded before a command of kind `next`, if any.
-    pub fn before(&mut self, next: Commands) -> Option<Commands> {
-        let others_next = next == Commands::Any;
-        let wide = self.asked && (self.others || others_next) || self.narrow && others_next;
-        let narrow = self.asked && !wide;
-        if wide || narrow {
-            self.others = false;
-            self.narrow = narrow;
-        }
-        self.asked = false;
-        self.others |= others_next;
-        match (wide, narrow) {
-            (true, _) => Some(Commands::Any),
-            (_, true) => Some(Commands::Dispatches),
-            _ => None,
+    /// Barrier that has to be recorded before commands of which nothing is known, if any.
+    pub fn before_unknown(&mut self) -> Option<Ordered> {
+        let barrier = self.recorded.then_some(Ordered::All);
+        self.all_ordered();
+        self.unknown = true;
+        self.recorded = true;
+        barrier
+    }
+
+    /// Takes note of a barrier for all commands.
+    pub fn all_ordered(&mut self) {
+        self.pending.clear();
+        self.unknown = false;
+        self.recorded = false;
+    }
+
+    /// Begins a group of commands that do not depend on each other, unless it is a part of another group.
+    ///
+    /// Returns whether it began.
+    pub fn begin_group(&mut self) -> bool {
+        let begins = self.group.is_none();
+        self.group.get_or_insert_default();
+        begins
+    }
+
+    /// Ends a group.
+    pub fn end_group(&mut self) {
+        if let Some(group) = self.group.take() {
+            self.pending.extend(&group);
         }
     }
 }
@@ -91,86 +168,121 @@ impl Barriers {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ash::vk::Handle;
 
+    /// A command in a recording: whether it reads and writes each of two buffers, or that nothing is known of it.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    enum Step {
-        Ask,
-        Record(Commands),
+    enum Command {
+        Known { reads: [bool; 2], writes: [bool; 2] },
+        Unknown,
     }
 
-    const STEPS: [Step; 3] = [
-        Step::Ask,
-        Step::Record(Commands::Dispatches),
-        Step::Record(Commands::Any),
-    ];
+    /// A read; a write; both, of the other buffer; a copy; a read of both buffers; a command without data; one of which nothing is
+    /// known.
+    const COMMANDS: [Command; 7] = {
+        const fn known(reads: [bool; 2], writes: [bool; 2]) -> Command {
+            Command::Known { reads, writes }
+        }
+        [
+            known([true, false], [false, false]),
+            known([false, false], [true, false]),
+            known([false, true], [false, true]),
+            known([true, false], [false, true]),
+            known([true, true], [false, false]),
+            known([false, false], [false, false]),
+            Command::Unknown,
+        ]
+    };
 
-    /// Step of a recording: a command, or a request for a barrier.
-    #[derive(Clone, Copy, Debug, PartialEq)]
-    enum Recorded {
-        Asked,
-        Barrier(Commands),
-        Command(Commands),
+    impl Command {
+        fn accesses(self) -> Option<Accesses> {
+            let Self::Known { reads, writes } = self else {
+                return None;
+            };
+            let named = |flags: [bool; 2]| {
+                let buffers = [1, 2].map(vk::Buffer::from_raw).into_iter().zip(flags);
+                buffers.filter_map(|(buffer, named)| named.then_some(buffer))
+            };
+            let mut accesses = Accesses::default();
+            named(reads).for_each(|buffer| accesses.read(buffer));
+            named(writes).for_each(|buffer| accesses.write(buffer));
+            Some(accesses)
+        }
+
+        /// Barriers that suffice between this command and a later one, if they need one.
+        fn needs(self, later: Self) -> Option<&'static [Ordered]> {
+            let (
+                Self::Known { reads, writes },
+                Self::Known {
+                    reads: r,
+                    writes: w,
+                },
+            ) = (self, later)
+            else {
+                return Some(&[Ordered::All]);
+            };
+            let conflict = |n: usize| writes[n] && (r[n] || w[n]) || reads[n] && w[n];
+            (conflict(0) || conflict(1)).then_some(&[Ordered::All, Ordered::Dispatches])
+        }
     }
 
-    fn record(steps: impl Iterator<Item = Step>) -> Vec<Recorded> {
+    fn barrier_before(barriers: &mut Barriers, command: Command) -> Option<Ordered> {
+        match command.accesses() {
+            Some(accesses) => barriers.before(&accesses),
+            None => barriers.before_unknown(),
+        }
+    }
+
+    /// Tests all sequences of five commands after unknown ones: those that depend on each other are ordered, and no barrier is in vain.
+    #[test]
+    fn commands_that_depend_on_each_other_are_ordered() {
+        const LENGTH: u32 = 5;
+        for number in 0..COMMANDS.len().pow(LENGTH) {
+            let of = |place| COMMANDS[number / COMMANDS.len().pow(place) % COMMANDS.len()];
+            let mut commands = vec![Command::Unknown];
+            commands.extend((0..LENGTH).map(of));
+            let mut barriers = Barriers::new();
+            let mut before = vec![None];
+            before.extend(
+                commands[1..]
+                    .iter()
+                    .map(|command| barrier_before(&mut barriers, *command)),
+            );
+            for (last, command) in commands.iter().enumerate() {
+                for first in 0..last {
+                    if let Some(sufficient) = commands[first].needs(*command) {
+                        let between = before[first + 1..=last].iter().flatten();
+                        assert!(
+                            between
+                                .into_iter()
+                                .any(|barrier| sufficient.contains(barrier)),
+                            "{commands:?} {before:?}: {first}, {last}"
+                        );
+                    }
+                }
+                if before[last].is_some() {
+                    let mut earlier = commands[..last].iter();
+                    assert!(earlier.any(|first| first.needs(*command).is_some()));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn commands_of_a_group_wait_for_those_before_it_and_not_for_each_other() {
         let mut barriers = Barriers::new();
-        // The commands before the recording count as a command too.
-        let mut recorded = vec![Recorded::Command(Commands::Any)];
-        for step in steps {
-            match step {
-                Step::Ask => {
-                    barriers.ask();
-                    recorded.push(Recorded::Asked);
-                }
-                Step::Record(command) => {
-                    recorded.extend(barriers.before(command).map(Recorded::Barrier));
-                    recorded.push(Recorded::Command(command));
-                }
-            }
-        }
-        recorded
-    }
-
-    /// Tests all sequences of nine steps.
-    #[test]
-    fn commands_with_a_barrier_asked_for_between_them_are_ordered() {
-        for number in 0..3_usize.pow(9) {
-            let steps = (0..9).map(|place| STEPS[number / 3_usize.pow(place) % 3]);
-            let recorded = record(steps);
-            for (first, last) in
-                (0..recorded.len()).flat_map(|last| (0..last).map(move |first| (first, last)))
-            {
-                let (Recorded::Command(before), Recorded::Command(after)) =
-                    (recorded[first], recorded[last])
-                else {
-                    continue;
-                };
-                let between = &recorded[first..last];
-                if between.contains(&Recorded::Asked) {
-                    let for_both = Recorded::Barrier(Commands::Dispatches);
-                    let dispatches = [before, after] == [Commands::Dispatches; 2];
-                    assert!(
-                        between.contains(&Recorded::Barrier(Commands::Any))
-                            || dispatches && between.contains(&for_both),
-                        "{recorded:?}: {first}, {last}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn barriers_between_dispatches_are_for_these_alone() {
-        let dispatch = Step::Record(Commands::Dispatches);
-        let steps = [Step::Ask, dispatch, Step::Ask, dispatch, dispatch];
-        let barriers = |recorded: Vec<Recorded>| {
-            let barriers = recorded.into_iter().filter_map(|item| match item {
-                Recorded::Barrier(commands) => Some(commands),
-                _ => None,
-            });
-            barriers.collect::<Vec<_>>()
-        };
-        let found = barriers(record(steps.into_iter()));
-        assert_eq!(found, [Commands::Any, Commands::Dispatches]);
+        let [read, write, ..] = COMMANDS;
+        assert_eq!(barrier_before(&mut barriers, read), Some(Ordered::All));
+        barriers.begin_group();
+        assert_eq!(
+            barrier_before(&mut barriers, write),
+            Some(Ordered::Dispatches)
+        );
+        assert_eq!(barrier_before(&mut barriers, write), None);
+        barriers.end_group();
+        assert_eq!(
+            barrier_before(&mut barriers, write),
+            Some(Ordered::Dispatches)
+        );
     }
 }

@@ -1,11 +1,12 @@
 //! Recording into a command buffer, and timing of the passes.
 
-use super::barriers::{Barriers, Commands};
+use super::barriers::{Accesses, Barriers, Ordered};
 use super::conditions::{Change, Conditions};
+use super::descriptor_set::ShownBuffers;
 use super::trace::Dispatched;
-use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
+use super::{Access, Buffer, DescriptorSet, Gpu, Image, Interface, Pipeline, VulkanError};
 use ash::vk;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 /// Shader stages to which push constants are visible.
@@ -14,16 +15,25 @@ pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_
 );
 
 /// Recorder of a frame's commands into a caller's command buffer.
+///
+/// It records a barrier before a command that depends on an earlier one: the interface of a dispatch's shader says which bindings it
+/// reads and writes, and the bound sets say which buffers these are. Copies and fills name their buffers. Before and after commands of
+/// which it knows nothing, it orders everything.
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
     raw: vk::CommandBuffer,
-    /// Barriers: a requested barrier is recorded before the next command. A mark is recorded before it, because some
-    /// drivers delay a timestamp until the barrier that follows it.
-    barriers: Cell<Barriers>,
+    barriers: RefCell<Barriers>,
     conditions: Cell<Conditions>,
-    timings: Option<&'a mut Timings>,
-    /// Whether dispatches are labelled, and whether they are traced.
-    labels: bool,
+    /// What the sets show that are bound for compute shaders.
+    bound: RefCell<Vec<ShownBuffers>>,
+    timings: RefCell<Option<&'a mut Timings>>,
+    /// Whether timing has begun.
+    is_timed: Cell<bool>,
+    /// Whether a named section is being recorded.
+    in_section: Cell<bool>,
+    /// Whether what is recorded repeats what was recorded before.
+    repeats: Cell<bool>,
+    /// Whether commands are traced.
     traces: bool,
 }
 
@@ -46,18 +56,24 @@ impl<'a> Recorder<'a> {
         Self {
             gpu,
             raw,
-            barriers: Cell::new(Barriers::new()),
+            barriers: RefCell::new(Barriers::new()),
             conditions: Cell::new(Conditions::default()),
-            timings,
-            labels: gpu.debug_labels.is_some(),
+            bound: RefCell::default(),
+            timings: RefCell::new(timings),
+            is_timed: Cell::new(false),
+            in_section: Cell::new(false),
+            repeats: Cell::new(false),
             traces: gpu.trace.is_asked(),
         }
     }
 
-    /// Command buffer for commands of any kind, until the next [`Self::barrier`]. None of them is skipped.
+    /// Command buffer for commands of which the recorder knows nothing, until the next call of another function. They wait for all
+    /// earlier commands, all later ones wait for them, and none of them is skipped.
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
         self.change_condition(Conditions::before_others);
-        self.before(Commands::Any)
+        let barrier = self.barriers.borrow_mut().before_unknown();
+        self.record_barrier(barrier, &[]);
+        self.raw
     }
 
     /// Records dispatches that the device skips where the first word of a buffer is zero. What they are recorded with does not
@@ -65,9 +81,11 @@ impl<'a> Recorder<'a> {
     /// commands recorded with [`Self::raw`], are not skipped.
     ///
     /// The device [can skip commands](super::Limits::conditional_rendering), and the buffer was made for it.
-    pub(crate) fn unless_zero(&mut self, word: &Buffer, record: impl FnOnce(&mut Self)) {
-        let before = self.conditions.get_mut().enter(word.raw);
-        record(self);
+    pub(crate) fn unless_zero(&self, word: &Buffer, record: impl FnOnce()) {
+        let mut conditions = self.conditions.get();
+        let before = conditions.enter(word.raw);
+        self.conditions.set(conditions);
+        record();
         self.change_condition(|conditions| conditions.leave(before));
     }
 
@@ -97,11 +115,37 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Command buffer for a dispatch.
-    fn dispatching(&self) -> vk::CommandBuffer {
-        let raw = self.before(Commands::Dispatches);
+    /// Command buffer for a dispatch of a pipeline that also reads a buffer.
+    fn dispatching(&self, pipeline: &Pipeline, read: Option<vk::Buffer>) -> vk::CommandBuffer {
+        let barrier = match self.accesses(pipeline, read) {
+            Some(accesses) => self.barriers.borrow_mut().before(&accesses),
+            None => self.barriers.borrow_mut().before_unknown(),
+        };
+        self.record_barrier(barrier, &[]);
         self.change_condition(Conditions::before_dispatch);
-        raw
+        self.raw
+    }
+
+    /// Accesses of a dispatch of a pipeline that also reads a buffer; `None` if the recorder does not know the bound sets.
+    fn accesses(&self, pipeline: &Pipeline, read: Option<vk::Buffer>) -> Option<Accesses> {
+        let mut accesses = Accesses::default();
+        let bound = self.bound.borrow();
+        for used in pipeline.interface().uses {
+            // What a set does not show, a shader does not use with its constants.
+            let Some(buffer) = bound.get(used.set as usize)?.get(used.binding.number) else {
+                continue;
+            };
+            if used.access != Access::Write {
+                accesses.read(buffer);
+            }
+            if used.access != Access::Read {
+                accesses.write(buffer);
+            }
+        }
+        for buffer in read.into_iter().chain(self.condition()) {
+            accesses.read(buffer);
+        }
+        Some(accesses)
     }
 
     /// Command buffer for binding and pushing, which need no barrier.
@@ -109,46 +153,69 @@ impl<'a> Recorder<'a> {
         self.raw
     }
 
-    /// Command buffer, after the barrier that commands of this kind need.
-    fn before(&self, next: Commands) -> vk::CommandBuffer {
-        let mut barriers = self.barriers.get();
-        if let Some(commands) = barriers.before(next) {
-            let can_skip = self.gpu.conditional_rendering.is_some();
-            let barriers = [commands.barrier(can_skip)];
-            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-            // SAFETY: `new`'s contract; synchronization2 is enabled.
-            unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
-        }
-        self.barriers.set(barriers);
+    /// Command buffer, after the barrier that a dispatch, copy or fill with these accesses needs.
+    fn before(&self, accesses: &Accesses) -> vk::CommandBuffer {
+        let barrier = self.barriers.borrow_mut().before(accesses);
+        self.record_barrier(barrier, &[]);
         self.raw
+    }
+
+    /// Records a barrier, and changes of images with it.
+    fn record_barrier(&self, ordered: Option<Ordered>, images: &[vk::ImageMemoryBarrier2<'_>]) {
+        let can_skip = self.gpu.conditional_rendering.is_some();
+        let memory: Vec<_> = ordered
+            .map(|ordered| ordered.barrier(can_skip))
+            .into_iter()
+            .collect();
+        if memory.is_empty() && images.is_empty() {
+            return;
+        }
+        let info = vk::DependencyInfo::default()
+            .memory_barriers(&memory)
+            .image_memory_barriers(images);
+        // SAFETY: `new`'s contract; synchronization2 is enabled.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+        if self.traces {
+            self.gpu.trace_barrier();
+        }
     }
 
     pub(crate) fn device(&self) -> &ash::Device {
         &self.gpu.device
     }
 
-    /// Requests a barrier that makes all earlier writes visible to all later commands.
-    pub fn barrier(&self) {
-        let mut barriers = self.barriers.get();
-        barriers.ask();
-        self.barriers.set(barriers);
+    /// Records commands that do not depend on each other, although they may use the same buffers: they write different places, or
+    /// what they write does not depend on their order.
+    pub fn unordered(&self, record: impl FnOnce()) {
+        let begins = self.barriers.borrow_mut().begin_group();
+        record();
+        if begins {
+            self.barriers.borrow_mut().end_group();
+        }
     }
 
     /// Records the transition of an image to another layout, after all earlier and before all later commands.
     pub fn transition(&self, image: &Image, from: vk::ImageLayout, to: vk::ImageLayout) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
-        let barriers = [vk::ImageMemoryBarrier2::default()
-            .src_stage_mask(all)
-            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-            .dst_stage_mask(all)
-            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)
-            .old_layout(from)
-            .new_layout(to)
-            .image(image.raw)
-            .subresource_range(image.range())];
-        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: `new`'s contract; synchronization2 is enabled.
-        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw(), &info) };
+        self.change_image(
+            vk::ImageMemoryBarrier2::default()
+                .src_stage_mask(all)
+                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+                .dst_stage_mask(all)
+                .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)
+                .old_layout(from)
+                .new_layout(to)
+                .image(image.raw)
+                .subresource_range(image.range()),
+        );
+    }
+
+    /// Records the change of an image, after all earlier commands. Later commands may use the image as it says, and everything else
+    /// that was written before.
+    pub(crate) fn change_image(&self, change: vk::ImageMemoryBarrier2<'_>) {
+        self.change_condition(Conditions::before_others);
+        self.record_barrier(Some(Ordered::All), &[change]);
+        self.barriers.borrow_mut().all_ordered();
     }
 
     /// Binds a pipeline.
@@ -160,70 +227,113 @@ impl<'a> Recorder<'a> {
                 .cmd_bind_pipeline(self.bindings(), pipeline.bind_point, pipeline.raw)
         };
         if self.traces && pipeline.bind_point == vk::PipelineBindPoint::GRAPHICS {
-            self.gpu.trace(pipeline, Dispatched::Drawn);
+            self.gpu
+                .trace(pipeline, Dispatched::Drawn, !self.repeats.get());
         }
     }
 
-    /// Dispatches `groups` workgroups of a pipeline, in rows of 32,768, and requests a barrier after them.
-    pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
-        self.dispatch_unordered(pipeline, groups);
-        self.barrier();
+    /// Binds sets for compute shaders, the first of them as set `first`.
+    pub(crate) fn bind_sets(
+        &self,
+        layout: vk::PipelineLayout,
+        first: usize,
+        sets: &[&DescriptorSet],
+    ) {
+        let mut bound = self.bound.borrow_mut();
+        let end = first + sets.len();
+        let places = bound.len().max(end);
+        bound.resize_with(places, ShownBuffers::default);
+        for (place, set) in bound[first..end].iter_mut().zip(sets) {
+            *place = set.buffers().clone();
+        }
+        let sets: Vec<_> = sets.iter().map(|set| set.raw).collect();
+        let point = vk::PipelineBindPoint::COMPUTE;
+        let (raw, first) = (self.bindings(), first as u32);
+        // SAFETY: `new`'s contract.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_bind_descriptor_sets(raw, point, layout, first, &sets, &[]);
+        }
     }
 
-    /// Dispatches as [`Self::dispatch`] does, without a barrier, for dispatches that write different places.
-    pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
+    /// Dispatches `groups` workgroups of a pipeline, in rows of 32,768.
+    pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
         let rows = groups.div_ceil(32768) as u32;
-        self.run(pipeline, Dispatched::Workgroups(groups), |device, raw| {
+        let size = Dispatched::Workgroups(groups);
+        self.run(pipeline, size, None, |device, raw| {
             // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
             unsafe { device.cmd_dispatch(raw, groups.min(32768) as u32, rows, 1) };
         });
     }
 
-    /// Dispatches at least `invocations` invocations, in workgroups of the size that the pipeline's shader declares, and requests a
-    /// barrier after them.
+    /// Dispatches at least `invocations` invocations, in workgroups of the size that the pipeline's shader declares.
     pub fn dispatch_each(&self, pipeline: &Pipeline, invocations: u64) {
         self.dispatch(pipeline, invocations.div_ceil(pipeline.workgroup()));
     }
 
-    /// Dispatches the number of workgroups in vector `index` of `arguments`, and requests a barrier after them.
+    /// Dispatches the number of workgroups in vector `index` of `arguments`.
     pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
-        self.dispatch_indirect_unordered(pipeline, arguments, index);
-        self.barrier();
-    }
-
-    /// Dispatches as [`Self::dispatch_indirect`] does, without a barrier, for dispatches that write different places.
-    pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
-        self.run(pipeline, Dispatched::Indirect(index), |device, raw| {
+        let size = Dispatched::Indirect(index);
+        self.run(pipeline, size, Some(arguments.raw), |device, raw| {
             // SAFETY: `new`'s contract; the vector lies in the buffer, which was created for indirect use.
             unsafe { device.cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16) };
         });
     }
 
-    /// Records a dispatch of a pipeline, labelled with the name of its shader.
+    /// Records a dispatch of a pipeline that also reads a buffer. It is a pass, or a part of one.
     fn run(
         &self,
         pipeline: &Pipeline,
         size: Dispatched,
+        read: Option<vk::Buffer>,
         record: impl FnOnce(&ash::Device, vk::CommandBuffer),
     ) {
-        self.bind(pipeline);
-        let raw = self.dispatching();
-        let labels = self.gpu.debug_labels.as_ref().filter(|_| self.labels);
-        let labelled = labels.zip(pipeline.interface());
-        if let Some((labels, interface)) = labelled {
-            let name = std::ffi::CString::new(interface.name).unwrap_or_default();
+        self.pass(pipeline.interface(), || {
+            self.bind(pipeline);
+            record(&self.gpu.device, self.dispatching(pipeline, read));
+            if self.traces {
+                self.gpu.trace(pipeline, size, !self.repeats.get());
+            }
+        });
+    }
+
+    /// Records a pass, named like the shader with this interface.
+    pub(crate) fn pass(&self, interface: &'static Interface, record: impl FnOnce()) {
+        self.section(interface.pass(), record);
+    }
+
+    /// Records a section with a debug label. If it is not part of another one, the time from the end of the section before it is
+    /// attributed to its name.
+    pub fn section(&self, name: &'static str, record: impl FnOnce()) {
+        let outer = self.in_section.replace(true);
+        let labels = self.gpu.debug_labels.as_ref();
+        // Labels of a repetition would cost more than its skipped commands.
+        let labels = labels.filter(|_| !self.repeats.get());
+        if let Some(labels) = labels {
+            let name = std::ffi::CString::new(name).unwrap_or_default();
             let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
             // SAFETY: `new`'s contract; the name is copied, and the label is ended below.
-            unsafe { labels.cmd_begin_debug_utils_label(raw, &label) };
+            unsafe { labels.cmd_begin_debug_utils_label(self.raw, &label) };
         }
-        record(&self.gpu.device, raw);
-        if let Some((labels, _)) = labelled {
+        record();
+        if let Some(labels) = labels {
             // SAFETY: the label was begun above.
-            unsafe { labels.cmd_end_debug_utils_label(raw) };
+            unsafe { labels.cmd_end_debug_utils_label(self.raw) };
         }
-        if self.traces {
-            self.gpu.trace(pipeline, size);
+        self.in_section.set(outer);
+        if !outer && self.is_timed.get() {
+            self.mark(Some(name));
         }
+    }
+
+    /// Records a section that repeats what was recorded before: its dispatches are neither labelled nor listed.
+    pub(crate) fn repeated(&self, name: &'static str, record: impl FnOnce()) {
+        self.section(name, || {
+            let outer = self.repeats.replace(true);
+            record();
+            self.repeats.set(outer);
+        });
     }
 
     /// Sets the push constants of `layout`.
@@ -240,34 +350,31 @@ impl<'a> Recorder<'a> {
     /// Copies the first `bytes` bytes of a buffer to another one, from `first_byte` of that on. Both were created for
     /// copies and are large enough.
     pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
+        let region = vk::BufferCopy::default().dst_offset(first_byte).size(bytes);
         // SAFETY: as documented above.
-        unsafe { self.copy_raw((from.raw, 0), (to.raw, first_byte), bytes) };
+        unsafe { self.copy_raw(from.raw, to.raw, &[region]) };
     }
 
-    /// Copies bytes of a buffer to another one, from a byte of each on.
+    /// Copies regions of a buffer to another one, which may be the same.
     ///
     /// # Safety
-    /// Both buffers were created for copies, contain the bytes, and outlive the execution of the commands.
+    /// Both buffers were created for copies, contain the regions, and outlive the execution of the commands.
     pub(crate) unsafe fn copy_raw(
         &self,
-        (from, from_byte): (vk::Buffer, u64),
-        (to, to_byte): (vk::Buffer, u64),
-        bytes: u64,
+        from: vk::Buffer,
+        to: vk::Buffer,
+        regions: &[vk::BufferCopy],
     ) {
-        let region = [vk::BufferCopy::default()
-            .src_offset(from_byte)
-            .dst_offset(to_byte)
-            .size(bytes)];
-        let raw = self.before(Commands::Dispatches);
+        let raw = self.before(&Accesses::copy(from, to));
         // SAFETY: `new`'s contract; the rest is guaranteed by the caller.
-        unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, &region) };
+        unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, regions) };
     }
 
     /// Writes bytes to a buffer from `first_byte` on. Their number and `first_byte` are multiples of four.
     pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
         /// Largest number of bytes of an inline update.
         const AT_ONCE: usize = 65_536;
-        let raw = self.before(Commands::Dispatches);
+        let raw = self.writing(buffer);
         for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
             let offset = first_byte + chunk * AT_ONCE as u64;
             // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its
@@ -282,62 +389,52 @@ impl<'a> Recorder<'a> {
 
     /// Fills a buffer with zeros.
     pub fn clear(&self, buffer: &Buffer) {
-        self.clear_first(buffer, vk::WHOLE_SIZE);
+        self.fill(buffer, vk::WHOLE_SIZE, 0);
     }
 
-    /// Fills the first `bytes` bytes of a buffer with zeros.
-    pub fn clear_first(&self, buffer: &Buffer, bytes: u64) {
-        let raw = self.before(Commands::Dispatches);
+    /// Fills the first `bytes` bytes of a buffer with a word.
+    pub fn fill(&self, buffer: &Buffer, bytes: u64, word: u32) {
+        let raw = self.writing(buffer);
         // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its size.
         unsafe {
             self.gpu
                 .device
-                .cmd_fill_buffer(raw, buffer.raw, 0, bytes, 0)
+                .cmd_fill_buffer(raw, buffer.raw, 0, bytes, word)
         };
     }
 
-    /// Ends a named section of the frame: the time since the previous mark is attributed to `name`.
-    pub fn mark(&mut self, name: &'static str) {
-        if let Some(timings) = self.timings.as_deref_mut() {
-            timings.mark(self.gpu, self.raw, Some(name));
+    /// Command buffer for a command that writes a buffer.
+    fn writing(&self, buffer: &Buffer) -> vk::CommandBuffer {
+        let mut accesses = Accesses::default();
+        accesses.write(buffer.raw);
+        self.before(&accesses)
+    }
+
+    /// Starts timing. Sections that were recorded before are not timed.
+    pub fn begin(&self) {
+        self.is_timed.set(true);
+        if let Some(timings) = self.timings.borrow_mut().as_deref_mut() {
+            timings.begin(self.gpu, self.raw);
         }
     }
 
     /// Continues timing in a command buffer that follows another one.
-    pub fn go_on(&mut self) {
-        if let Some(timings) = self.timings.as_deref_mut() {
-            timings.mark(self.gpu, self.raw, None);
-        }
+    pub fn go_on(&self) {
+        self.is_timed.set(true);
+        self.mark(None);
     }
 
-    /// Records what was recorded before, without marks, labels and traces, which would cost more than skipped commands. The next
-    /// mark includes their time.
-    pub(crate) fn repeated(&mut self, record: impl FnOnce(&mut Self)) {
-        let traces = std::mem::replace(&mut self.traces, false);
-        self.untimed(record);
-        self.traces = traces;
-    }
-
-    /// Records without marks and labels. The next mark includes the time of what is recorded.
-    pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
-        let timings = self.timings.take();
-        let labels = std::mem::replace(&mut self.labels, false);
-        record(self);
-        self.timings = timings;
-        self.labels = labels;
-    }
-
-    /// Starts timing.
-    pub fn begin(&mut self) {
-        if let Some(timings) = self.timings.as_deref_mut() {
-            timings.begin(self.gpu, self.raw);
+    /// Attributes the time since the previous mark to a name, if it has one.
+    fn mark(&self, name: Option<&'static str>) {
+        if let Some(timings) = self.timings.borrow_mut().as_deref_mut() {
+            timings.mark(self.gpu, self.raw, name);
         }
     }
 }
 
 impl Drop for Recorder<'_> {
     fn drop(&mut self) {
-        // Commands that the caller records next must also wait for the last barrier.
+        // Commands that the caller records next depend on any of these.
         self.raw();
     }
 }

@@ -49,7 +49,6 @@ impl Completion {
                 vk::PipelineStageFlags2::ALL_COMMANDS,
             );
         }
-        recorder.barrier();
         was_done
     }
 

@@ -123,6 +123,8 @@ pub struct Limits {
     pub driver: String,
     /// Kind of the device.
     pub device_type: vk::PhysicalDeviceType,
+    /// Number of bytes of the device's largest heap of local memory.
+    pub local_bytes: u64,
     /// Number of invocations of a subgroup that kernels use: 4, 8, 16 or 32.
     pub lanes: u32,
     /// Number of invocations of a subgroup, at least `lanes`; the other invocations are idle.
@@ -373,10 +375,17 @@ pub(super) unsafe fn limits(
         .push_next(&mut subgroup)
         .push_next(&mut control);
     // SAFETY: guaranteed by the caller.
-    let families = unsafe {
+    let (families, memory) = unsafe {
         instance.get_physical_device_properties2(device, &mut properties);
-        instance.get_physical_device_queue_family_properties(device)
+        (
+            instance.get_physical_device_queue_family_properties(device),
+            instance.get_physical_device_memory_properties(device),
+        )
     };
+    let local = memory.memory_heaps_as_slice().iter().filter(|heap| {
+        let local = vk::MemoryHeapFlags::DEVICE_LOCAL;
+        heap.flags.contains(local)
+    });
     let basic = properties.properties;
     let can_require_subgroup_size = control
         .required_subgroup_size_stages
@@ -401,6 +410,7 @@ pub(super) unsafe fn limits(
             text(driver.driver_info_as_c_str())
         ),
         device_type: basic.device_type,
+        local_bytes: local.map(|heap| heap.size).max().unwrap_or(0),
         lanes,
         subgroup_size,
         can_require_subgroup_size,

@@ -1,7 +1,7 @@
 //! Buffers, texel views and images that free themselves.
 
 use super::allocation::{Allocation, MemoryRequest};
-use super::{Gpu, VulkanError};
+use super::{Gpu, Texels, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -351,6 +351,16 @@ pub struct BufferView {
     pub(crate) view: vk::BufferView,
 }
 
+impl BufferView {
+    /// The view, for a descriptor.
+    pub(crate) fn texels(&self) -> Texels {
+        Texels {
+            view: self.view,
+            buffer: self.buffer.raw,
+        }
+    }
+}
+
 impl Drop for BufferView {
     fn drop(&mut self) {
         // SAFETY: as for the buffer, which outlives its view here.
@@ -361,10 +371,15 @@ impl Drop for BufferView {
 /// View of the texels of a buffer with another owner.
 pub(crate) struct TexelView {
     gpu: Arc<Gpu>,
-    pub(crate) raw: vk::BufferView,
+    texels: Texels,
 }
 
 impl TexelView {
+    /// The view, for a descriptor.
+    pub fn texels(&self) -> Texels {
+        self.texels
+    }
+
     /// Makes a view of `buffer`.
     ///
     /// # Safety
@@ -382,11 +397,11 @@ impl TexelView {
             .offset(offset)
             .range(bytes);
         // SAFETY: guaranteed by the caller.
-        let raw = unsafe { gpu.device.create_buffer_view(&info, None) }
+        let view = unsafe { gpu.device.create_buffer_view(&info, None) }
             .map_err(VulkanError::of("vkCreateBufferView"))?;
         Ok(Self {
             gpu: gpu.clone(),
-            raw,
+            texels: Texels { view, buffer },
         })
     }
 }
@@ -394,7 +409,7 @@ impl TexelView {
 impl Drop for TexelView {
     fn drop(&mut self) {
         // SAFETY: owners drop a view only after the frames that use it have run.
-        unsafe { self.gpu.device.destroy_buffer_view(self.raw, None) };
+        unsafe { self.gpu.device.destroy_buffer_view(self.texels.view, None) };
     }
 }
 

@@ -92,39 +92,35 @@ pub struct Pipeline {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Pipeline,
     pub(crate) bind_point: vk::PipelineBindPoint,
-    interface: Option<&'static Interface>,
+    interface: &'static Interface,
 }
 
 impl Pipeline {
-    pub(crate) fn from_raw(
+    /// A pipeline of a shader with this interface; for debuggers, it is named like the shader.
+    fn new(
         gpu: &Arc<Gpu>,
         raw: vk::Pipeline,
         bind_point: vk::PipelineBindPoint,
+        interface: &'static Interface,
     ) -> Self {
+        gpu.name(raw, interface.name);
         Self {
             gpu: gpu.clone(),
             raw,
             bind_point,
-            interface: None,
+            interface,
         }
     }
 
-    /// Sets the interface of the pipeline's shader, and names the pipeline like the shader for debuggers.
-    pub(crate) fn of(mut self, interface: &'static Interface) -> Self {
-        self.gpu.name(self.raw, interface.name);
-        self.interface = Some(interface);
-        self
-    }
-
-    /// Interface of the shader, if it was set.
-    pub(crate) fn interface(&self) -> Option<&'static Interface> {
+    /// Interface of the shader.
+    pub(crate) fn interface(&self) -> &'static Interface {
         self.interface
     }
 
     /// Number of invocations of a workgroup, for shaders that declare it; 1 for others.
     pub(crate) fn workgroup(&self) -> u64 {
-        match self.interface.map(|interface| interface.invocations) {
-            Some(Invocations::Fixed(invocations)) => invocations.into(),
+        match self.interface.invocations {
+            Invocations::Fixed(invocations) => invocations.into(),
             _ => 1,
         }
     }
@@ -145,7 +141,7 @@ impl Drop for Pipeline {
 pub(crate) fn compute_pipeline(
     gpu: &Arc<Gpu>,
     layout: vk::PipelineLayout,
-    spirv: &[u8],
+    (spirv, interface): (&[u8], &'static Interface),
     constants: &Constants,
     subgroup: Option<u32>,
 ) -> Result<Pipeline, VulkanError> {
@@ -174,7 +170,8 @@ pub(crate) fn compute_pipeline(
     }
     .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
-    Ok(Pipeline::from_raw(gpu, raw, vk::PipelineBindPoint::COMPUTE))
+    let point = vk::PipelineBindPoint::COMPUTE;
+    Ok(Pipeline::new(gpu, raw, point, interface))
 }
 
 /// Graphics pipeline of triangles without vertex buffers, into one image and, if it has a format, a depth image in
@@ -183,6 +180,8 @@ pub(crate) struct GraphicsPipeline<'a> {
     /// SPIR-V of the vertex and the fragment shader.
     pub vertex: &'a [u8],
     pub fragment: &'a [u8],
+    /// Interface of the fragment shader.
+    pub interface: &'static Interface,
     /// Constants of both shaders; each shader takes those that it declares.
     pub constants: &'a Constants,
     pub samples: vk::SampleCountFlags,
@@ -267,10 +266,7 @@ impl GraphicsPipeline<'_> {
         }
         .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
         let raw = pipelines.first().copied().unwrap_or_default();
-        Ok(Pipeline::from_raw(
-            gpu,
-            raw,
-            vk::PipelineBindPoint::GRAPHICS,
-        ))
+        let point = vk::PipelineBindPoint::GRAPHICS;
+        Ok(Pipeline::new(gpu, raw, point, self.interface))
     }
 }

@@ -1,8 +1,8 @@
-//! Trace of recorded dispatches, on request.
+//! Trace of recorded commands, on request.
 
 use super::{Access, Gpu, Interface, Pipeline};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Size of a dispatch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +22,22 @@ pub(crate) struct Dispatch {
     pub size: Dispatched,
 }
 
-/// Dispatches that were recorded on a device while a trace is requested.
+/// What was recorded on a device while a trace was requested.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Traced {
+    /// Dispatches and draws; of consecutive rounds, only those of the first.
+    pub dispatches: Vec<Dispatch>,
+    /// Number of all dispatches.
+    pub dispatch_count: u64,
+    /// Number of all barriers.
+    pub barrier_count: u64,
+}
+
+/// A request for a trace, and what was recorded so far.
 #[derive(Default)]
 pub(crate) struct Trace {
     is_asked: AtomicBool,
-    dispatches: Mutex<Vec<Dispatch>>,
+    traced: Mutex<Traced>,
 }
 
 impl Trace {
@@ -35,36 +46,49 @@ impl Trace {
         self.is_asked.load(Ordering::Relaxed)
     }
 
-    fn add(&self, dispatch: Dispatch) {
-        let mut dispatches = self
-            .dispatches
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if dispatches.last() != Some(&dispatch) || dispatch.size != Dispatched::Drawn {
-            dispatches.push(dispatch);
-        }
+    fn traced(&self) -> MutexGuard<'_, Traced> {
+        self.traced.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Gpu {
-    /// Calls `record`, and returns the dispatches that were recorded on the device in the meantime, by any thread.
-    pub(crate) fn traced<T>(&self, record: impl FnOnce() -> T) -> (T, Vec<Dispatch>) {
+    /// Calls `record`, and returns what was recorded on the device in the meantime, by any thread.
+    pub(crate) fn traced<T>(&self, record: impl FnOnce() -> T) -> (T, Traced) {
         self.trace.is_asked.store(true, Ordering::Relaxed);
         let made = record();
         self.trace.is_asked.store(false, Ordering::Relaxed);
-        let dispatches = &self.trace.dispatches;
-        let mut dispatches = dispatches.lock().unwrap_or_else(PoisonError::into_inner);
-        (made, std::mem::take(&mut *dispatches))
+        (made, std::mem::take(&mut *self.trace.traced()))
     }
 
-    pub(super) fn trace(&self, pipeline: &Pipeline, size: Dispatched) {
-        if let Some(interface) = pipeline.interface() {
-            self.trace.add(Dispatch { interface, size });
+    /// Takes note of a dispatch or draw, and lists it unless it repeats a listed one.
+    pub(super) fn trace(&self, pipeline: &Pipeline, size: Dispatched, is_listed: bool) {
+        let mut traced = self.trace.traced();
+        let is_drawn = size == Dispatched::Drawn;
+        traced.dispatch_count += u64::from(!is_drawn);
+        let interface = pipeline.interface();
+        let dispatch = Dispatch { interface, size };
+        let continues = is_drawn && traced.dispatches.last() == Some(&dispatch);
+        if is_listed && !continues {
+            traced.dispatches.push(dispatch);
         }
+    }
+
+    /// Takes note of a barrier.
+    pub(super) fn trace_barrier(&self) {
+        self.trace.traced().barrier_count += 1;
     }
 }
 
 impl Interface {
+    /// Name of the pass whose main shader it belongs to.
+    pub(crate) fn pass(&self) -> &'static str {
+        let stages = ["_vertex", "_fragment"].into_iter();
+        let pass = stages
+            .filter_map(|stage| self.name.strip_suffix(stage))
+            .next();
+        pass.unwrap_or(self.name)
+    }
+
     /// Names of the data with this access, in the order of bindings. Data with two bindings, a texel buffer for
     /// reading and a storage buffer for writing, has one name.
     pub(crate) fn data(&self, access: Access) -> Vec<&'static str> {

@@ -155,9 +155,7 @@ impl OutputCells {
         }
         let tiles = u64::from(self.size[0].div_ceil(8) * rows.div_ceil(4));
         recorder.clear(&resources.marks);
-        recorder.barrier();
         self.record_copy(recorder, OutputPlane::Marks, &resources.marks, 4 * tiles);
-        recorder.barrier();
     }
 
     /// Records the upload of the colours of the first `rows` rows.
@@ -165,13 +163,14 @@ impl OutputCells {
         let bytes = 4 * Self::bytes_of([self.size[0], rows]);
         let colors = &resources.color.buffer;
         self.record_copy(recorder, OutputPlane::Colors, colors, bytes);
-        recorder.barrier();
     }
 
     /// Records a copy of the first bytes of a plane to a buffer, which is at least as large.
     fn record_copy(&self, recorder: &Recorder<'_>, plane: OutputPlane, to: &Buffer, bytes: u64) {
-        let first = plane.range()[0] * Self::bytes_of(self.size);
+        let region = vk::BufferCopy::default()
+            .src_offset(plane.range()[0] * Self::bytes_of(self.size))
+            .size(bytes);
         // SAFETY: both buffers have this many bytes, were created for copies, and outlive the execution.
-        unsafe { recorder.copy_raw((self.words.raw, first), (to.raw, 0), bytes) };
+        unsafe { recorder.copy_raw(self.words.raw, to.raw, &[region]) };
     }
 }

@@ -66,11 +66,7 @@ impl Recording<'_> {
             .collect();
         // SAFETY: guaranteed by the recorder's caller; the rows lie in both buffers, which have room for the region
         // and the image.
-        unsafe {
-            recorder
-                .device()
-                .cmd_copy_buffer(recorder.raw(), from, to, &rows)
-        };
+        unsafe { recorder.copy_raw(from, to, &rows) };
     }
 
     /// Copies the wanted pixels of a region to their place in an image; a pixel has `bytes` bytes.

@@ -140,7 +140,7 @@ impl Frame {
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
         let runs = 2 + settings.growths();
-        let marks = regions as u32 * (18 + runs * 14) + 8;
+        let marks = regions as u32 * (18 + runs * 16) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -259,7 +259,7 @@ impl Frame {
     ) {
         let gpu = self.memory.gpu().clone();
         // SAFETY: guaranteed by the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let is_last = regions.end == self.plan.regions.len();
         if regions.start == 0 {
             self.uploaded |= self.completion.begin(&recorder);
@@ -297,7 +297,7 @@ impl Frame {
             camera,
             target,
         };
-        recording.record(&mut recorder, regions);
+        recording.record(&recorder, regions);
         if is_last {
             self.completion.end(&recorder);
         }

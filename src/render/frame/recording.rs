@@ -48,7 +48,7 @@ pub(in crate::render) struct SceneShading<'a> {
 }
 
 impl RecordShading for SceneShading<'_> {
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
         if let Some((shadows, shadowed)) = self.shadows {
             shadows.record(recorder, shadowed, Receiving::Records);
         }
@@ -57,7 +57,7 @@ impl RecordShading for SceneShading<'_> {
         }
     }
 
-    fn record_marks(&self, recorder: &mut Recorder<'_>) {
+    fn record_marks(&self, recorder: &Recorder<'_>) {
         if let Some((shadows, shadowed)) = self.shadows {
             shadows.record_probes(recorder, shadowed);
         }
@@ -66,7 +66,7 @@ impl RecordShading for SceneShading<'_> {
 
 impl Recording<'_> {
     /// Records some of the frame's regions. The first region also begins the frame, and the last one ends it.
-    pub fn record(&self, recorder: &mut Recorder<'_>, regions: Range<usize>) {
+    pub fn record(&self, recorder: &Recorder<'_>, regions: Range<usize>) {
         if regions.start == 0 {
             self.target.record_begin(recorder);
             recorder.begin();
@@ -102,7 +102,7 @@ impl Recording<'_> {
         }))
     }
 
-    fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {
+    fn record_region(&self, recorder: &Recorder<'_>, index: usize, region: &Region) {
         let (passes, resources, scene) = (self.passes, self.resources, self.scene);
         let (Some(centre), Some(offsets)) = (resources.set(CENTRE), resources.set(OFFSETS)) else {
             return;
@@ -135,7 +135,6 @@ impl Recording<'_> {
         resources.record_begin(recorder, main, &whole);
         if let (0, Some(pose), Some(moment)) = (index, &passes.pose, self.moment) {
             pose.record(recorder, scene, self.geometry, moment);
-            recorder.mark("pose");
         }
         if let (0, Some(stroke)) = (index, &passes.stroke) {
             let to_clip = to_clip(scene, self.camera, self.settings);
@@ -146,11 +145,10 @@ impl Recording<'_> {
                 side,
             };
             stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
-            recorder.mark("stroke");
         }
         passes.raster.record(
             recorder,
-            main.descriptor(),
+            main.set.raw,
             self.geometry.runs(scene),
             self.targets,
             [width, height],
@@ -158,18 +156,17 @@ impl Recording<'_> {
                 .drawn()
                 .map(|place| place.map(|pixels| pixels * side)),
         );
-        recorder.mark("raster");
         if let Some(PixelShading { spans, shade }) = &passes.pixels {
             let background = whole.background;
-            resources.record_background(recorder, pixels, background, display_code(background));
-            recorder.mark("background");
+            recorder.section("background", || {
+                let code = display_code(background);
+                resources.record_background(recorder, pixels, background, code);
+            });
             spans.record(recorder, &resources.bins, [width, height]);
-            recorder.mark("spans");
             if let Some(shadows) = self.shadows {
                 shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
             }
             shade.record(recorder, scene, &resources.arguments);
-            recorder.mark("shade");
         }
         if let Some(Multisampling {
             multisample,
@@ -178,10 +175,8 @@ impl Recording<'_> {
         }) = &passes.multisampling
         {
             multisample.record(recorder, tiles);
-            recorder.mark("multisample");
             record_shading(recorder, resources, sort, &shading);
             resolve.record(recorder, &resources.arguments);
-            recorder.mark("resolve");
         }
         let run = |set, uniform| SamplerRun {
             resources,
@@ -201,19 +196,14 @@ impl Recording<'_> {
         }
         if let Some(attributes) = &passes.attributes {
             attributes.record(recorder, filtered);
-            recorder.mark("attributes");
         }
         if let Some(filter) = &passes.box_filter {
             filter.record(recorder, filtered, side);
             resources.record_keep_filtered(recorder, filtered);
-            recorder.mark("box_filter");
         }
         if let Some(encode) = &passes.encode {
             encode.record(recorder, pixels);
-            recorder.mark("encode");
         }
-        self.deliver(recorder, region);
-        recorder.barrier();
-        recorder.mark("copy");
+        recorder.section("copy", || self.deliver(recorder, region));
     }
 }

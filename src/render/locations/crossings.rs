@@ -98,17 +98,13 @@ impl CrossingFinder {
             run,
             ..
         } = self;
-        let record = |recorder: &mut Recorder<'_>, list: &SamplerRun<'_>, _| {
+        let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, _| {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
             resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
-            recorder.mark("distribute");
             cull.record(recorder, &resources.arguments);
-            recorder.mark("cull");
             bin.record(recorder, &resources.arguments);
-            recorder.mark("bin");
             crossings.record(recorder, (resources, set), output);
-            recorder.mark("crossings");
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));

@@ -439,25 +439,21 @@ impl BandDetector {
         let [columns, rows] = uniform.tiles;
         let tiles = columns * rows;
         // SAFETY: guaranteed by the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(timings)) };
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(timings)) };
         recorder.begin();
         resources.record_begin(&recorder, set, &uniform);
         match search {
             Search::Aliasing => {
                 detect.record(&recorder, tiles);
-                recorder.mark("detect");
                 recorder.clear(&resources.marks);
             }
             Search::Growth(growth) => {
                 cells.record_colors(&recorder, resources, band.height());
                 neighbours.record(&recorder, width * band.height());
-                recorder.mark("neighbours");
                 growths[growth].record(&recorder, tiles);
-                recorder.mark("grow");
             }
         }
         recorder.copy(&resources.masks, 4 * u64::from(tiles), masks, 0);
-        recorder.barrier();
     }
 
     /// Masks of the superpixels that the last search in a band found.

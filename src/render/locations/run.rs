@@ -91,7 +91,7 @@ impl RunMemory {
         (pinhole, window): (&Pinhole, &PlaneWindow),
         (cells, count): ((Cells, u32), usize),
         commands: vk::CommandBuffer,
-        record: impl FnOnce(&mut Recorder<'_>, &SamplerRun<'_>, bool),
+        record: impl FnOnce(&Recorder<'_>, &SamplerRun<'_>, bool),
     ) {
         let scene = &*scene.gpu_scene;
         let (settings, resources) = (&self.settings, &self.resources);
@@ -104,8 +104,8 @@ impl RunMemory {
         self.geometry.place(scene, &to_clip, None);
         let gpu = self.memory.gpu().clone();
         // SAFETY: guaranteed by the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        let recorder = &mut recorder;
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &recorder;
         let is_first = !self.uploaded;
         if is_first {
             self.geometry.record_upload(recorder, scene);
@@ -123,7 +123,6 @@ impl RunMemory {
                 side: 1,
             };
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
-            recorder.mark("stroke");
         }
         let run = SamplerRun {
             resources,
@@ -133,7 +132,6 @@ impl RunMemory {
             index: 0,
         };
         record(recorder, &run, is_first);
-        recorder.barrier();
     }
 
     /// Memory for a run of `count` locations, to be written while the device is idle.

@@ -136,19 +136,19 @@ impl LocationSampler {
         let looking = (&sight.pinhole, window);
         let background = settings.background_rgba();
         let cells = (*cells, sampler.samples());
-        let record = |recorder: &mut Recorder<'_>, list: &SamplerRun<'_>, is_first| {
+        let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, is_first| {
             let SamplerRun { resources, set, .. } = *list;
             if let Some(shadows) = shadows.as_mut() {
                 if is_first {
                     shadows.record_upload(recorder);
-                    recorder.barrier();
                 }
                 shadows.record_begin(recorder);
             }
             if cells.0 == Cells::Points {
                 let code = settings.output_code(background);
-                resources.record_background(recorder, count as u32, background, code);
-                recorder.mark("background");
+                recorder.section("background", || {
+                    resources.record_background(recorder, count as u32, background, code);
+                });
             }
             let views = shadows.as_ref().map(|shadows| shadows.views(sight));
             let views = views.unwrap_or_default();

@@ -4,9 +4,8 @@ use crate::engine::data::{Argument, Content, Resources, SampleSet};
 use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv::{self, crossings_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::own_layout::whole;
 use crate::render::beside_frame::BesideFrame;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// What a location shows, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
@@ -51,9 +50,9 @@ impl Crossings {
         (seen, marks): (&Buffer, &Buffer),
     ) -> Result<Self, VulkanError> {
         let shown = [
-            (crossings_set::LOADS, whole(&resources.locations.loads)),
-            (crossings_set::SEEN, whole(seen)),
-            (crossings_set::CELL_MARKS, whole(marks)),
+            (crossings_set::LOADS, (&resources.locations.loads).into()),
+            (crossings_set::SEEN, seen.into()),
+            (crossings_set::CELL_MARKS, marks.into()),
         ];
         // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
         let beside = unsafe { BesideFrame::new(layout, &crossings_set::ALL, &shown) }?;
@@ -76,9 +75,11 @@ impl Crossings {
         (resources, set): (&Resources, &SampleSet),
         output: &MarkedOutput,
     ) {
-        self.arguments.record(recorder);
-        self.beside.bind(recorder, set, output);
-        let arguments = &resources.arguments;
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Thin as u32);
+        recorder.pass(spirv::Crossings::INTERFACE, || {
+            self.arguments.record(recorder);
+            self.beside.bind(recorder, set, output);
+            let arguments = &resources.arguments;
+            recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Thin as u32);
+        });
     }
 }

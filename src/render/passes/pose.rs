@@ -4,7 +4,7 @@ use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Moment;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Applies morph targets, skins and transforms to meshes.
@@ -41,29 +41,31 @@ impl Pose {
         } else {
             0
         };
-        for (part, at) in motion.parts.iter().zip(&moment.parts) {
-            let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-            let flags = flag(spirv::POSE_FLAT, part.is_flat)
-                | flag(spirv::POSE_INSIDE_OUT, part.mirrored)
-                | tangents;
-            let push = spirv::PosePush {
-                count: part.vertex_count,
-                first_vertex: part.first_vertex,
-                first_resting: part.first_resting,
-                first_influence: part.first_influence,
-                sets: part.sets,
-                first_displacement: part.first_displacement,
-                displacement_vectors: part.displacement_vectors,
-                first_matrix: at.first_matrix,
-                first_weight: at.first_weight,
-                weight_count: at.weight_count,
-                flags,
-            };
-            recorder.push(self.layout.pipeline, &push);
-            let groups = u64::from(part.vertex_count.div_ceil(64));
+        recorder.pass(spirv::Pose::INTERFACE, || {
             // Parts write different vertices.
-            recorder.dispatch_unordered(&self.pipeline, groups);
-        }
-        recorder.barrier();
+            recorder.unordered(|| {
+                for (part, at) in motion.parts.iter().zip(&moment.parts) {
+                    let flag = |bit: u32, set: bool| if set { bit } else { 0 };
+                    let flags = flag(spirv::POSE_FLAT, part.is_flat)
+                        | flag(spirv::POSE_INSIDE_OUT, part.mirrored)
+                        | tangents;
+                    let push = spirv::PosePush {
+                        count: part.vertex_count,
+                        first_vertex: part.first_vertex,
+                        first_resting: part.first_resting,
+                        first_influence: part.first_influence,
+                        sets: part.sets,
+                        first_displacement: part.first_displacement,
+                        displacement_vectors: part.displacement_vectors,
+                        first_matrix: at.first_matrix,
+                        first_weight: at.first_weight,
+                        weight_count: at.weight_count,
+                        flags,
+                    };
+                    recorder.push(self.layout.pipeline, &push);
+                    recorder.dispatch_each(&self.pipeline, part.vertex_count.into());
+                }
+            });
+        });
     }
 }

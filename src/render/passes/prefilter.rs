@@ -6,7 +6,7 @@
 //! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
 use crate::engine::passes::spirv::{self, prefilter_set};
-use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::vulkan::{
     Buffer, Compiled, Memory, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
 };
@@ -26,7 +26,7 @@ pub struct Prefilter {
     layout: PipelineLayout,
     _set_layout: SetLayout,
     pipeline: Pipeline,
-    set: OwnSet,
+    own: OwnSet,
     texels: Buffer,
     _rays: Buffer,
     cubes: Vec<spirv::PrefilterPush>,
@@ -60,9 +60,9 @@ impl Prefilter {
             &[set_layout.raw],
             spirv::Prefilter::INTERFACE.push_bytes,
         )?;
-        let (code, constants) = (spirv::Prefilter::code(), spirv::Prefilter.constants());
-        let pipeline = compute_pipeline(gpu, layout.raw, code, &constants, None)?
-            .of(spirv::Prefilter::INTERFACE);
+        let code = (spirv::Prefilter::code(), spirv::Prefilter::INTERFACE);
+        let constants = spirv::Prefilter.constants();
+        let pipeline = compute_pipeline(gpu, layout.raw, code, &constants, None)?;
         let mut rays = Vec::new();
         let mut cubes = Vec::new();
         let steps = levels(side).count() as u32 - 1;
@@ -79,18 +79,18 @@ impl Prefilter {
         }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let rays = memory.filled("prefilter rays", bytemuck::cast_slice(&rays), usage)?;
-        let set = set_layout.allocate()?;
+        let mut own = set_layout.allocate()?;
         let shown = [
-            (prefilter_set::TEXELS, whole(&texels)),
-            (prefilter_set::RAYS, whole(&rays)),
+            (prefilter_set::TEXELS, (&texels).into()),
+            (prefilter_set::RAYS, (&rays).into()),
         ];
         // SAFETY: the set is new, and both buffers live as long as it.
-        unsafe { set.write_buffers(&shown) };
+        unsafe { own.set.write(&shown) };
         Ok(Self {
             layout,
             _set_layout: set_layout,
             pipeline,
-            set,
+            own,
             texels,
             _rays: rays,
             cubes,
@@ -105,13 +105,14 @@ impl Prefilter {
 
     /// Records the pass; the averages were written before.
     pub fn record(&self, recorder: &Recorder<'_>) {
-        for cube in &self.cubes {
-            self.layout.bind(recorder, &[self.set.raw], cube);
-            let groups = (6 * cube.side * cube.side).div_ceil(64);
-            // Each cube writes its own texels, and none reads another's.
-            recorder.dispatch_unordered(&self.pipeline, u64::from(groups));
-        }
-        recorder.barrier();
+        // Each cube writes its own texels, and none reads another's.
+        recorder.unordered(|| {
+            for cube in &self.cubes {
+                self.layout.bind(recorder, &[&self.own.set], cube);
+                let texels = 6 * cube.side * cube.side;
+                recorder.dispatch_each(&self.pipeline, u64::from(texels));
+            }
+        });
     }
 }
 

@@ -3,7 +3,6 @@
 use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
 use crate::engine::passes::spirv::{self, receivers_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::own_layout::whole;
 use crate::render::beside_frame::BesideFrame;
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
@@ -65,10 +64,12 @@ impl Receivers {
         resources: &Resources,
         locations: &Buffer,
     ) -> Result<Self, VulkanError> {
-        let words = whole(&resources.shadow_words.buffer);
         let shown = [
-            (receivers_set::LOCATIONS_OUT, whole(locations)),
-            (receivers_set::WORDS, words),
+            (receivers_set::LOCATIONS_OUT, locations.into()),
+            (
+                receivers_set::WORDS,
+                (&resources.shadow_words.buffer).into(),
+            ),
         ];
         // SAFETY: both buffers live as long as the frame to which this belongs.
         let beside = unsafe { BesideFrame::new(layout, &receivers_set::ALL, &shown) }?;

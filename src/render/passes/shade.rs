@@ -5,8 +5,7 @@ use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::render::data::GpuScene;
 use crate::render::data::ShadeFeatures;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use ash::vk;
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -96,32 +95,27 @@ impl Shade {
 
     /// Records the pass over the spans of a region or the visibility samples of a round.
     pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
-        for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
-            let Some(pipeline) = self.pipelines.get(*pipeline) else {
-                continue;
-            };
-            // SAFETY: guaranteed by the recorder's caller; the set matches the pipelines' layout.
-            unsafe {
-                recorder.device().cmd_bind_descriptor_sets(
-                    recorder.bindings(),
-                    vk::PipelineBindPoint::COMPUTE,
-                    self.layout.pipeline,
-                    1,
-                    &[material_bin.textures],
-                    &[],
-                );
-            }
-            recorder.push(self.layout.pipeline, &spirv::ShadePush { bin: bin as u32 });
-            let every_record =
-                matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
-            let argument = if every_record {
-                Argument::Sort as u32
-            } else {
-                Argument::Shade as u32 + bin as u32
-            };
+        let every_record =
+            matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
+        let layout = self.layout.pipeline;
+        recorder.pass(spirv::Shade::INTERFACE, || {
             // Bins write different places.
-            recorder.dispatch_indirect_unordered(pipeline, arguments, argument);
-        }
-        recorder.barrier();
+            recorder.unordered(|| {
+                for (bin, (material_bin, pipeline)) in (0..).zip(scene.bins.iter().zip(&self.bins))
+                {
+                    let Some(pipeline) = self.pipelines.get(*pipeline) else {
+                        continue;
+                    };
+                    recorder.bind_sets(layout, 1, &[&material_bin.textures]);
+                    recorder.push(layout, &spirv::ShadePush { bin });
+                    let argument = if every_record {
+                        Argument::Sort as u32
+                    } else {
+                        Argument::Shade as u32 + bin
+                    };
+                    recorder.dispatch_indirect(pipeline, arguments, argument);
+                }
+            });
+        });
     }
 }

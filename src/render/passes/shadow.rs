@@ -4,7 +4,6 @@ use crate::engine::data::{Argument, Resources, SampleSet};
 use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv::{self, shadow_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::own_layout::whole;
 use crate::render::beside_frame::BesideFrame;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
@@ -52,11 +51,10 @@ impl Shadow {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let left = words("shadows left", storage | transfer, MemoryUse::Device)?;
         let kept = words("shadows left, read back", transfer, MemoryUse::Readback)?;
-        let words = whole(&receivers.shadow_words.buffer);
         let shown = [
-            (shadow_set::WORDS, words),
-            (shadow_set::LEFT, whole(&left)),
-            (shadow_set::MARKS_OF_PIXELS, whole(&receivers.marks)),
+            (shadow_set::WORDS, (&receivers.shadow_words.buffer).into()),
+            (shadow_set::LEFT, (&left).into()),
+            (shadow_set::MARKS_OF_PIXELS, (&receivers.marks).into()),
         ];
         // SAFETY: the buffers live as long as the frame to which this belongs.
         let beside = unsafe { BesideFrame::new(layout, &shadow_set::ALL, &shown) }?;
@@ -74,7 +72,6 @@ impl Shadow {
     /// Records the beginning of a frame.
     pub fn record_begin(&self, recorder: &Recorder<'_>) {
         recorder.clear(&self.left);
-        recorder.barrier();
     }
 
     /// Records the pass for the occluders of a round, whose descriptor set is bound.
@@ -115,7 +112,6 @@ impl Shadow {
     /// Records the end of a frame.
     pub fn record_end(&self, recorder: &Recorder<'_>) {
         recorder.copy(&self.left, self.left.size(), &self.kept, 0);
-        recorder.barrier();
     }
 
     /// Number of receivers and tiles that the last frame could not finish, and whether kernels ran with another

@@ -4,7 +4,7 @@ use crate::engine::data::Content;
 use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -45,16 +45,17 @@ impl Spans {
     /// Records the pass for a region of `width` x `height` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, [width, height]: [u32; 2]) {
         let groups = (u64::from(width.div_ceil(8)) * u64::from(height)).div_ceil(64);
-        recorder.clear(bins);
-        recorder.barrier();
-        let run = |scatter| {
-            recorder.push(self.layout, &spirv::SpansPush { scatter });
-            recorder.dispatch(&self.pipeline, groups);
-        };
-        run(u32::from(self.one_bin));
-        self.arguments.record(recorder);
-        if !self.one_bin {
-            run(1);
-        }
+        recorder.pass(spirv::Spans::INTERFACE, || {
+            recorder.clear(bins);
+            let run = |scatter| {
+                recorder.push(self.layout, &spirv::SpansPush { scatter });
+                recorder.dispatch(&self.pipeline, groups);
+            };
+            run(u32::from(self.one_bin));
+            self.arguments.record(recorder);
+            if !self.one_bin {
+                run(1);
+            }
+        });
     }
 }

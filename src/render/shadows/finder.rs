@@ -67,13 +67,13 @@ impl Shadowed<'_> {
 
 impl RecordShading for Occlusion<'_> {
     /// Shades casters that let light pass, to get their opacities.
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
         if let Some(shade) = &self.finder.shade {
             shade.record(recorder, &self.finder.casters.scene, &resources.arguments);
         }
     }
 
-    fn record_round_end(&self, recorder: &mut Recorder<'_>) {
+    fn record_round_end(&self, recorder: &Recorder<'_>) {
         let occluders = (&self.finder.resources, self.set);
         let shadow = &self.finder.shadow;
         shadow.record(recorder, occluders, self.target, self.light);
@@ -156,7 +156,7 @@ impl ShadowFinder {
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
             MemoryUse::Device,
         )?;
-        texels.push((frame_set::LOCATIONS, locations.view));
+        texels.push((frame_set::LOCATIONS, locations.texels()));
         let resources = Resources::new(
             layout,
             memory,
@@ -182,7 +182,7 @@ impl ShadowFinder {
             runs: 0,
         };
         // SAFETY: the list lives as long as this, and has room for that many locations.
-        let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.view)) }?;
+        let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.texels())) }?;
         let opacities = || {
             let source = ShadeSource::Records {
                 cells: Cells::Occluders,
@@ -248,11 +248,10 @@ impl ShadowFinder {
 
     /// Records the search for the lights that reach the places to be shaded next. The places' descriptor set is bound
     /// before and after.
-    pub fn record(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
-        recorder.untimed(|recorder| {
+    pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
+        recorder.section("shadows", || {
             if shaded.views.is_empty() {
                 recorder.clear(&shaded.resources.shadow_words.buffer);
-                recorder.barrier();
                 return;
             }
             let first_place = match receiving {
@@ -265,13 +264,12 @@ impl ShadowFinder {
             }
             shaded.resources.record_bind(recorder, shaded.set);
         });
-        recorder.mark("shadows");
     }
 
     /// Records marks for pixels of a region in which lights reach other places than the centre; the centre's shadows
     /// are known. The region's descriptor set is bound before and after.
-    pub fn record_probes(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>) {
-        recorder.untimed(|recorder| {
+    pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
+        recorder.section("shadows", || {
             let receiving = Receiving::Pixels(shaded.pixels());
             let target = ShadowTarget::Marks {
                 width: shaded.size[0],
@@ -283,12 +281,11 @@ impl ShadowFinder {
             }
             shaded.resources.record_bind(recorder, shaded.set);
         });
-        recorder.mark("shadows");
     }
 
     fn record_view(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         shaded: Shadowed<'_>,
         receiving: Receiving,
         (view, plane): (&LightView, &LightPlane),

@@ -1,8 +1,10 @@
 //! `gpc info`.
 
-use super::{input, print, render};
+use super::{input, print, render, values};
 use clap::Args;
-use gpc::render::{FramePass, Headless, HeadlessOptions, Settings, Shadows};
+use gpc::render::{
+    FramePass, Headless, HeadlessOptions, RecordedPasses, Settings, Shadows, SuperpixelOptions,
+};
 use gpc::scene::{PoseRequest, Scene, SceneInfo};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -14,16 +16,19 @@ pub struct InfoArgs {
     /// A .glb or .gltf file, or - for standard input
     scene: PathBuf,
     /// List the passes of a frame instead, in order: shader, source of the number of workgroups, and what the shader
-    /// may read and write
+    /// may read and write; and count its dispatches and barriers
     #[arg(long)]
     passes: bool,
+    /// Size of the frame whose passes are listed, in pixels
+    #[arg(long, value_name = "WxH", value_parser = values::size, default_value = "256x144", requires = "passes")]
+    size: [u32; 2],
+    /// Samples of a superpixel of the frame whose passes are listed
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "passes")]
+    samples: u32,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
 }
-
-/// Size of the frame whose passes are listed, small enough for a single region.
-const SIZE: [u32; 2] = [256, 144];
 
 #[derive(Serialize)]
 struct SceneReport<'a> {
@@ -38,7 +43,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
         log::warn!("{warning}");
     }
     if args.passes {
-        let passes = passes(&loaded.scene)?;
+        let passes = passes(&loaded.scene, args)?;
         if args.json {
             print::json(&passes)?;
         } else {
@@ -58,14 +63,15 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The passes of a frame with the default settings, with shadows if the scene has lights.
-fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
+/// The passes of a frame with default settings otherwise, with shadows if the scene has lights.
+fn passes(scene: &Scene, args: &InfoArgs) -> anyhow::Result<RecordedPasses> {
     let pose = scene.pose(&PoseRequest::default())?;
-    let mut settings = Settings::new(SIZE[0], SIZE[1]);
+    let mut settings =
+        Settings::new(args.size[0], args.size[1]).method(SuperpixelOptions::new(args.samples));
     if !pose.lights.is_empty() {
         settings.shadows = Shadows::Exact;
     }
-    let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    let aspect = f64::from(args.size[0]) / f64::from(args.size[1]);
     let views = render::choose_views(&render::CameraArgs::default(), &pose, aspect)?;
     let Some(view) = views.first() else {
         anyhow::bail!("the scene has no camera");
@@ -76,14 +82,20 @@ fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
     Ok(headless.passes(&mut frame, &view.camera)?)
 }
 
-/// A table with a line for each pass.
-fn table(passes: &[FramePass]) -> String {
-    let lines = passes.iter().map(|pass| {
+/// A table with a line for each pass, and a line with the numbers of commands.
+fn table(recorded: &RecordedPasses) -> String {
+    let lines = recorded.passes.iter().map(|pass| {
         let FramePass { name, dispatch, .. } = pass;
         let (reads, writes) = (pass.reads.join(", "), pass.writes.join(", "));
         format!("{name:<16}{dispatch:<18}reads {reads}; writes {writes}")
     });
-    lines.collect::<Vec<_>>().join("\n")
+    let RecordedPasses {
+        dispatches,
+        barriers,
+        ..
+    } = recorded;
+    let counts = format!("{dispatches} dispatches and {barriers} barriers");
+    lines.chain([counts]).collect::<Vec<_>>().join("\n")
 }
 
 fn text(info: &SceneInfo) -> String {

@@ -3,11 +3,11 @@
 use super::{Resources, SampleSet};
 use crate::engine::data::Content;
 use crate::engine::passes::spirv::frame_set;
-use crate::vulkan::{Binding, Buffer};
+use crate::vulkan::{Binding, Buffer, Shown, Texels, read_image};
 use ash::vk;
 
 /// A binding of the frame's set, and the texel buffer for it.
-pub type BoundTexels = (Binding, vk::BufferView);
+pub type BoundTexels = (Binding, Texels);
 
 /// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ impl Resources {
     /// scene or to what a frame sees of it.
     pub(super) fn write_set(
         &self,
-        set: &SampleSet,
+        set: &mut SampleSet,
         scene: &dyn Content,
         (texels, lights): (&[BoundTexels], &Buffer),
     ) {
@@ -44,21 +44,11 @@ impl Resources {
             (frame_set::LOCATION_GROUPS, &self.locations.groups),
             (frame_set::SHADOW_WORDS, &self.shadow_words),
         ]
-        .map(|(binding, texels)| (binding, texels.view));
+        .map(|(binding, texels)| (binding, texels.texels()));
         let listed = self.locations.locations.as_ref();
-        let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.view));
-        let texels: Vec<_> = texels
-            .iter()
-            .copied()
-            .chain(own_texels)
-            .chain(listed)
-            .map(|(binding, view)| (binding, [view]))
-            .collect();
-        let whole = |buffer: &Buffer| {
-            [vk::DescriptorBufferInfo::default()
-                .buffer(buffer.raw)
-                .range(vk::WHOLE_SIZE)]
-        };
+        let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.texels()));
+        let texels = texels.iter().copied().chain(own_texels).chain(listed);
+        let texels = texels.map(|(binding, texels)| (binding, Shown::from(texels)));
         let buffers = [
             (frame_set::FRAME, &set.uniform),
             (frame_set::LIGHTS, lights),
@@ -83,21 +73,15 @@ impl Resources {
             (frame_set::TILE_LOADS, &self.locations.tile_loads),
             (frame_set::PATTERN, &set.offsets.buffer),
         ]
-        .map(|(binding, buffer)| (binding, whole(buffer)));
-        let environment = scene.environment_map().map(|map| [map]);
-        let write = |binding| write(set, binding);
-        let texels = texels
-            .iter()
-            .map(|(binding, view)| write(*binding).texel_buffer_view(view));
-        let buffers = buffers
-            .iter()
-            .map(|(binding, info)| write(*binding).buffer_info(info));
-        let environment = environment
-            .as_ref()
-            .map(|map| write(frame_set::ENVIRONMENT_MAP).image_info(map));
-        let writes: Vec<_> = texels.chain(buffers).chain(environment).collect();
+        .map(|(binding, buffer)| (binding, Shown::from(buffer)));
+        let shown: Vec<_> = texels.chain(buffers).collect();
         // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
-        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+        unsafe {
+            set.set.write(&shown);
+            if let Some(map) = scene.environment_map() {
+                set.set.write_images(frame_set::ENVIRONMENT_MAP, &[map]);
+            }
+        }
     }
 
     /// Has a set show images of triangle IDs and depth.
@@ -123,27 +107,9 @@ impl Resources {
             ],
             (None, None) => vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids)],
         };
-        let images: Vec<_> = images
-            .into_iter()
-            .map(|(binding, view)| {
-                let info = vk::DescriptorImageInfo::default()
-                    .image_view(view)
-                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
-                (binding, [info])
-            })
-            .collect();
-        let writes: Vec<_> = images
-            .iter()
-            .map(|(binding, info)| write(set, *binding).image_info(info))
-            .collect();
-        // SAFETY: passed on to the caller.
-        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+        for (binding, view) in images {
+            // SAFETY: passed on to the caller.
+            unsafe { set.set.write_images(binding, &[read_image(view)]) };
+        }
     }
-}
-
-fn write(set: &SampleSet, binding: Binding) -> vk::WriteDescriptorSet<'static> {
-    vk::WriteDescriptorSet::default()
-        .dst_set(set.descriptor())
-        .dst_binding(binding.number)
-        .descriptor_type(binding.kind)
 }

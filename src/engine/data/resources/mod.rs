@@ -91,11 +91,11 @@ impl Resources {
         offset_lists: &[Offsets<'_>],
     ) -> Result<Self, VulkanError> {
         let pool = layout.pool(offset_lists.len() as u32, 0)?;
-        let sets = offset_lists
+        let mut sets = offset_lists
             .iter()
             .map(|offsets| SampleSet::new(layout, memory, &pool, offsets))
             .collect::<Result<Vec<_>, VulkanError>>()?;
-        let resources = Self {
+        let mut resources = Self {
             sizes,
             counters: memory.storage_buffer(
                 "counters",
@@ -105,12 +105,13 @@ impl Resources {
             )?,
             layout: layout.clone(),
             _pool: pool,
-            sets,
+            sets: Vec::new(),
             scratch: scratch.clone(),
         };
-        for set in &resources.sets {
+        for set in &mut sets {
             resources.write_set(set, scene, others);
         }
+        resources.sets = sets;
         Ok(resources)
     }
 

@@ -12,41 +12,29 @@ impl Resources {
             set.upload.record(recorder);
         }
         recorder.clear(&self.counters);
-        recorder.barrier();
     }
 
     /// Records the beginning of a region: uniform block, cleared counters and tiles, bound sets.
     pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
-        recorder.barrier();
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
-        recorder.clear_first(&self.counters, Counter::CLEARED_BYTES);
+        recorder.fill(&self.counters, Counter::CLEARED_BYTES, 0);
         recorder.clear(&self.tiles);
-        recorder.barrier();
         self.record_bind(recorder, set);
     }
 
     /// Records binding the set of the passes.
     pub(crate) fn record_bind(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        // SAFETY: guaranteed by the recorder's caller; the set matches the layout of all pipelines.
-        unsafe {
-            recorder.device().cmd_bind_descriptor_sets(
-                recorder.bindings(),
-                vk::PipelineBindPoint::COMPUTE,
-                self.layout.pipeline,
-                0,
-                &[set.descriptor()],
-                &[],
-            );
-        }
+        recorder.bind_sets(self.layout.pipeline, 0, &[&set.set]);
     }
 
     /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.
     pub(crate) fn record_reach(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        let counter = 4 * Counter::Reach as u64;
-        let member = std::mem::offset_of!(FrameUniform, reach) as u64;
+        let region = vk::BufferCopy::default()
+            .src_offset(4 * Counter::Reach as u64)
+            .dst_offset(std::mem::offset_of!(FrameUniform, reach) as u64)
+            .size(4);
         // SAFETY: counter and member lie in the buffers, which were created for copies and live as long as the frame.
-        unsafe { recorder.copy_raw((self.counters.raw, counter), (set.uniform.raw, member), 4) };
-        recorder.barrier();
+        unsafe { recorder.copy_raw(self.counters.raw, set.uniform.raw, &[region]) };
     }
 
     /// Records `rounds` rounds. If the device can skip commands, it skips the rounds for which no tile waits.
@@ -55,33 +43,33 @@ impl Resources {
     /// devices they cost ten times as much as the rest of a skipped round.
     pub(crate) fn record_rounds(
         &self,
-        recorder: &mut Recorder<'_>,
+        recorder: &Recorder<'_>,
         rounds: u32,
-        record: impl Fn(&mut Recorder<'_>),
+        record: impl Fn(&Recorder<'_>),
     ) {
         if rounds > 0 {
             self.record_round(recorder, &record);
         }
         if rounds > 1 {
-            recorder.repeated(|recorder| {
-                (1..rounds).for_each(|_| self.record_round(recorder, &record))
+            recorder.repeated("rounds", || {
+                (1..rounds).for_each(|_| self.record_round(recorder, &record));
             });
-            recorder.mark("rounds");
         }
     }
 
-    fn record_round(&self, recorder: &mut Recorder<'_>, record: impl Fn(&mut Recorder<'_>)) {
+    fn record_round(&self, recorder: &Recorder<'_>, record: impl Fn(&Recorder<'_>)) {
         let Some(another_round) = &self.another_round else {
             record(recorder);
             return;
         };
-        let waiting = 4 * Counter::Waiting as u64;
+        let waiting = vk::BufferCopy::default()
+            .src_offset(4 * Counter::Waiting as u64)
+            .size(4);
         // SAFETY: the counter lies in its buffer; both buffers were created for copies and live as long as the frame.
-        unsafe { recorder.copy_raw((self.counters.raw, waiting), (another_round.raw, 0), 4) };
+        unsafe { recorder.copy_raw(self.counters.raw, another_round.raw, &[waiting]) };
         // Dispatches of a host are not skipped. In a skipped round they must find nothing to do.
         recorder.clear(&self.arguments);
-        recorder.barrier();
-        recorder.unless_zero(another_round, record);
+        recorder.unless_zero(another_round, || record(recorder));
     }
 
     /// Records a copy of the counters to slot `slot` of a read-back buffer.
@@ -102,8 +90,9 @@ impl Resources {
         bytes: u64,
     ) {
         if bytes > 0 {
+            let region = vk::BufferCopy::default().dst_offset(first_byte).size(bytes);
             // SAFETY: guaranteed by the caller; the resources have room for that many colours.
-            unsafe { recorder.copy_raw((self.color.buffer.raw, 0), (to, first_byte), bytes) };
+            unsafe { recorder.copy_raw(self.color.buffer.raw, to, &[region]) };
         }
     }
 
@@ -111,7 +100,6 @@ impl Resources {
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
         let (from, to) = (&self.filtered.buffer, &self.color.buffer);
         recorder.copy(from, 16 * u64::from(pixels), to, 0);
-        recorder.barrier();
     }
 
     /// Records filling the first `pixels` pixels or locations with the background: its colour, premultiplied as in the
@@ -123,22 +111,12 @@ impl Resources {
         background: [f32; 4],
         code: u32,
     ) {
-        // SAFETY: guaranteed by the recorder's caller; the buffer was created for copies.
-        unsafe {
-            recorder.device().cmd_fill_buffer(
-                recorder.raw(),
-                self.display.buffer.raw,
-                0,
-                vk::WHOLE_SIZE,
-                code,
-            );
-        }
+        recorder.fill(&self.display.buffer, vk::WHOLE_SIZE, code);
         fill(recorder, &self.color.buffer, background, pixels);
         if self.sizes.attributes && self.sizes.locations.is_some() {
             let unseen = [[0, 0, 0, code], [0; 4]];
             fill(recorder, &self.attributes, unseen, pixels);
         }
-        recorder.barrier();
     }
 }
 
@@ -147,25 +125,17 @@ fn fill<T: bytemuck::NoUninit>(recorder: &Recorder<'_>, buffer: &Buffer, value: 
     /// Number of bytes that are written inline, the largest possible. The rest is copied from them, doubling each
     /// time.
     const SEED: u64 = 65_536;
-    let device = recorder.device();
+    if bytemuck::bytes_of(&value).iter().all(|byte| *byte == 0) {
+        recorder.clear(buffer);
+        return;
+    }
     let total = u64::from(count) * size_of::<T>() as u64;
     let mut filled = SEED.min(total);
-    // SAFETY: guaranteed by the recorder's caller; sizes are multiples of 4, and each copy reads what earlier copies
-    // wrote and writes behind it.
-    unsafe {
-        if bytemuck::bytes_of(&value).iter().all(|byte| *byte == 0) {
-            device.cmd_fill_buffer(recorder.raw(), buffer.raw, 0, vk::WHOLE_SIZE, 0);
-            return;
-        }
-        let seed = vec![value; filled as usize / size_of::<T>()];
-        let seed = bytemuck::cast_slice(&seed);
-        device.cmd_update_buffer(recorder.raw(), buffer.raw, 0, seed);
-        while filled < total {
-            recorder.barrier();
-            let size = filled.min(total - filled);
-            let part = [vk::BufferCopy::default().dst_offset(filled).size(size)];
-            device.cmd_copy_buffer(recorder.raw(), buffer.raw, buffer.raw, &part);
-            filled = (2 * filled).min(total);
-        }
+    let seed = vec![value; filled as usize / size_of::<T>()];
+    recorder.update(buffer, 0, bytemuck::cast_slice(&seed));
+    while filled < total {
+        let size = filled.min(total - filled);
+        recorder.copy(buffer, size, buffer, filled);
+        filled = (2 * filled).min(total);
     }
 }

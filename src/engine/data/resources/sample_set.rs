@@ -4,7 +4,7 @@ use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::pipelines::pool::DescriptorPool;
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, BufferView, DescriptorSet, Memory, MemoryUse, VulkanError};
 use ash::vk;
 
 /// Sample offsets from the pixel's centre, in pixels.
@@ -22,7 +22,8 @@ pub struct SampleSet {
     pub(crate) offsets: BufferView,
     pub(crate) upload: Upload,
     count: u32,
-    set: vk::DescriptorSet,
+    /// Descriptor set of the passes.
+    pub(crate) set: DescriptorSet,
 }
 
 impl SampleSet {
@@ -68,11 +69,6 @@ impl SampleSet {
     #[must_use]
     pub fn count(&self) -> u32 {
         self.count
-    }
-
-    /// Descriptor set of the passes.
-    pub(crate) fn descriptor(&self) -> vk::DescriptorSet {
-        self.set
     }
 }
 

@@ -85,7 +85,7 @@ impl FrameGeometry {
         }
         texels
             .into_iter()
-            .map(|(binding, texels)| (binding, texels.view))
+            .map(|(binding, texels)| (binding, texels.texels()))
             .collect()
     }
 

@@ -167,7 +167,6 @@ impl MovingVertices {
         for (from, to) in streams.into_iter().chain(tangents) {
             recorder.copy(&from.buffer, from.buffer.size(), &to.buffer, 0);
         }
-        recorder.barrier();
     }
 
     /// Writes a moment; the device must have finished the previous recording.

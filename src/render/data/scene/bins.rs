@@ -6,8 +6,7 @@ use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::pipelines::pool::DescriptorPool;
 use crate::scene::{Geometry, Material, Scene, TextureRole};
-use crate::vulkan::VulkanError;
-use ash::vk;
+use crate::vulkan::{DescriptorSet, VulkanError};
 use std::collections::HashMap;
 
 /// Features for which a shading pipeline is specialised.
@@ -112,7 +111,7 @@ impl ShadeFeatures {
 /// Materials that the same dispatch shades: same pipeline, same textures.
 pub(in crate::render) struct MaterialBin {
     pub(in crate::render) features: ShadeFeatures,
-    pub(in crate::render) textures: vk::DescriptorSet,
+    pub(in crate::render) textures: DescriptorSet,
 }
 
 /// Key of a material bin.
@@ -188,7 +187,7 @@ impl Bins {
             .iter()
             .map(|key| {
                 let set = pool.allocate(layout.texture_set)?;
-                textures.write(layout, set, &key.textures);
+                textures.write(&set, &key.textures);
                 Ok(MaterialBin {
                     features: key.features,
                     textures: set,

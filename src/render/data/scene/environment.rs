@@ -124,7 +124,6 @@ impl GpuEnvironment {
         let texels = match upload {
             EnvironmentUpload::Levels(levels) => levels,
             EnvironmentUpload::Averages(averages) => {
-                recorder.barrier();
                 averages.record(recorder);
                 averages.texels()
             }

@@ -97,7 +97,7 @@ impl FrameLook {
     pub fn texels(&self, scene: &GpuScene) -> BoundTexels {
         (
             frame_set::MATERIALS,
-            self.materials.as_ref().unwrap_or(&scene.materials).view,
+            self.materials.as_ref().unwrap_or(&scene.materials).texels(),
         )
     }
 
@@ -116,7 +116,6 @@ impl FrameLook {
         if let Some(lights) = &self.lights {
             recorder.copy(&scene.lights, scene.lights.size(), lights, 0);
         }
-        recorder.barrier();
     }
 
     /// Prepares the updates for a moment, which the next recording writes.
@@ -161,6 +160,5 @@ impl FrameLook {
             // Updates stay within the buffer: a moment has no more materials and lights than its scene.
             recorder.update(to, update.first_byte as u64, &update.bytes);
         }
-        recorder.barrier();
     }
 }

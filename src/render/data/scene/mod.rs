@@ -83,7 +83,6 @@ impl SceneUploads {
         if let Some(upload) = &self.environment {
             scene.environment.record_upload(recorder, upload);
         }
-        recorder.barrier();
     }
 }
 

@@ -1,9 +1,9 @@
 //! Images and samplers of a scene, each created once.
 
 use super::texture::{DeviceSampler, Texture};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::passes::spirv::shade_set;
 use crate::scene::{Image as SceneImage, Sampler, Scene};
-use crate::vulkan::{Buffer, Memory, VulkanError};
+use crate::vulkan::{Buffer, DescriptorSet, Memory, VulkanError, read_image};
 use ash::vk;
 use std::collections::HashMap;
 
@@ -95,29 +95,16 @@ impl<'a> TextureSet<'a> {
     }
 
     /// Writes textures to the slots of a descriptor set, in their order.
-    pub(super) fn write(
-        &self,
-        layout: &FrameLayout,
-        set: vk::DescriptorSet,
-        textures: &[TextureIndex],
-    ) {
+    pub(super) fn write(&self, set: &DescriptorSet, textures: &[TextureIndex]) {
         let infos: Vec<vk::DescriptorImageInfo> = textures
             .iter()
             .filter_map(|(image, sampler)| {
-                Some(
-                    vk::DescriptorImageInfo::default()
-                        .image_view(self.textures.get(*image)?.image.view)
-                        .sampler(self.samplers.get(*sampler)?.1.raw)
-                        .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL),
-                )
+                let view = self.textures.get(*image)?.image.view;
+                let sampler = self.samplers.get(*sampler)?.1.raw;
+                Some(read_image(view).sampler(sampler))
             })
             .collect();
-        let write = vk::WriteDescriptorSet::default()
-            .dst_set(set)
-            .dst_binding(0)
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-            .image_info(&infos);
         // SAFETY: the set was just allocated; images and samplers live as long as the scene that holds the set.
-        unsafe { layout.gpu.device.update_descriptor_sets(&[write], &[]) };
+        unsafe { set.write_images(shade_set::TEXTURES, &infos) };
     }
 }

@@ -1,0 +1,86 @@
+//! Rounds of a device with plenty of memory, simulated on one without.
+
+use ash::vk;
+use glam::DVec3;
+use gpc::render::{Headless, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
+use gpc::scene::{Light, LightKind};
+use gpc::vulkan::Limits;
+
+use crate::devices::within;
+use crate::scenes::{ball_over_checker, layered};
+use crate::stage::{Stage, camera, on_gpu};
+
+/// A GPU with memory of its own, as far as the division into rounds depends on it.
+fn gpu(limits: &mut Limits) {
+    limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
+}
+
+fn settings(samples: u32) -> Settings {
+    Settings::new(160, 96).method(SuperpixelOptions::new(samples))
+}
+
+fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
+    let (scene, mut pose) = stage.build();
+    pose.lights = vec![Light {
+        kind: LightKind::Directional,
+        position: DVec3::ZERO,
+        direction: DVec3::new(-0.3, -1.0, -0.4).normalize(),
+        color: [1.0; 3],
+        range: None,
+    }];
+    let request = SceneRequest::new(&scene, &pose).shadowed(settings.shadows);
+    let prepared = gpu.upload(request).unwrap();
+    let mut frame = gpu.prepare(&prepared, settings).unwrap();
+    gpu.render(&mut frame, &camera()).unwrap()
+}
+
+/// Images of both divisions.
+fn both(stage: &Stage, settings: &Settings) -> [Rendered; 2] {
+    let [mut small, mut large] = [None, None];
+    on_gpu(|gpu| small = Some(render(gpu, stage, settings)));
+    within(gpu, |gpu| large = Some(render(gpu, stage, settings)));
+    [small, large].map(Option::unwrap)
+}
+
+#[test]
+fn large_rounds_make_the_same_image() {
+    for (stage, settings) in [
+        (layered(), settings(16)),
+        (layered(), settings(256)),
+        (ball_over_checker(), settings(64).shadows(Shadows::Exact)),
+    ] {
+        let [small, large] = both(&stage, &settings);
+        assert!(small.statistics.superpixels > 100);
+        assert!(small.colors == large.colors);
+    }
+}
+
+/// With little memory, a frame needs many rounds, of which the first recording has too few.
+#[test]
+fn a_frame_that_needs_more_rounds_is_recorded_again() {
+    let stage = layered();
+    let mut settings = settings(1024);
+    settings.max_memory = Some(24 << 20);
+    let [small, large] = both(&stage, &settings);
+    assert!(large.statistics.rounds > 8, "{}", large.statistics.rounds);
+    assert!(small.colors == large.colors);
+}
+
+/// The commands of a frame do not depend on what it shows, so that a small frame stands for a large one.
+#[test]
+fn a_frame_takes_few_commands() {
+    let stage = layered();
+    let (scene, pose) = stage.build();
+    let count = |gpu: &mut Headless| {
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
+        let mut frame = gpu.prepare(&prepared, &settings(64)).unwrap();
+        let recorded = gpu.passes(&mut frame, &camera()).unwrap();
+        assert!(recorded.barriers <= recorded.dispatches + 30);
+        recorded.dispatches
+    };
+    within(gpu, |gpu| {
+        let dispatches = count(gpu);
+        assert!(dispatches <= 120, "{dispatches}");
+    });
+    on_gpu(|gpu| assert!(count(gpu) > 120));
+}
