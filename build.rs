@@ -39,6 +39,7 @@ const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 const HOST: &[Variant] = &[
     ("samples", "samples.comp", &[]),
     ("corners", "corners.comp", &[]),
+    ("filters", "filters.comp", &[]),
 ];
 
 /// Name of a compiled shader, its source file, and its macro definitions.

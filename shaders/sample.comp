@@ -49,9 +49,11 @@ layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 #ifndef UNLISTED
-const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
+const uint ROOM = APART && LANES < 32u ? 3072u : 1024u; // words of `kept`: fewer lanes take more trips for what is not kept
+const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates of a cell
 
-shared uint kept[3072];                                 // by cell, then entry
+// Candidates by cell, then entry: two in a word, as no list of several cells is longer than 16 bits; APART, one.
+shared uint kept[ROOM];
 #endif
 
 #include "include/alpha.glsl"
@@ -113,7 +115,8 @@ void main() {
     trips = 0u;
 #ifndef UNLISTED
     float my_hidden = 0.0;          // nothing farther than this shows in the cell
-    uint count = header.w >> TILE_COUNT_SHIFT, my_count = 0u;
+    uint count = header.w >> TILE_COUNT_SHIFT;
+    uint my_count = 0u, my_last = 0u;   // candidates kept; the last word of them
     uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
     do {
         Candidate k = load_candidate(cell.first, min(chunk * LANES + lane, max(count, 1u) - 1u), cell.center);
@@ -136,7 +139,9 @@ void main() {
                     bool exists = j + u < chunk_count && may_touch(t, my_bit);
                     my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                     if (test.touches && test.near >= my_hidden && exists) {
-                        kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
+                        uint entry = min(my_count, KEPT - 1u), candidate = chunk * LANES + j + u;
+                        my_last = (entry & 1u) == 0u ? candidate : my_last & 0xffffu | candidate << 16;
+                        kept[(lane * KEPT + entry) / 2u] = my_last;
                         my_count++;
                     }
                 }

@@ -111,10 +111,16 @@ bool may_touch(Candidate k, uint bit) {
     return LOCATIONS || (k.pixels >> bit & 1u) != 0u;
 }
 
+// Number of the candidate that is entry `i` of what is kept of a cell.
+uint kept_candidate(Cell cell, uint i) {
+    uint at = cell.member * KEPT + min(i, KEPT - 1u);
+    return APART ? kept[at] : kept[at / 2u] >> 16u * (at & 1u) & 0xffffu;
+}
+
 // Entry `i` of a cell's candidates.
 Candidate entry_of(Cell cell, uint i) {
     uint clamped = min(i, max(cell.entries, 1u) - 1u);
-    uint index = cell.complete ? kept[cell.member * KEPT + min(clamped, KEPT - 1u)] : clamped;
+    uint index = cell.complete ? kept_candidate(cell, clamped) : clamped;
     return load_candidate(cell.first, index, cell.center);
 }
 #endif

@@ -149,6 +149,7 @@
 
 // Of one shader; `sample_masks` has those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
+#define ADOPT_CONSTANT_INDEXED 1
 #define ATTRIBUTES_CONSTANT_SUPERPIXELS 0
 #define ATTRIBUTES_CONSTANT_GROWN 1
 #define CENTRES_CONSTANT_GATHER 0
@@ -184,6 +185,7 @@
 #define SAMPLE_CONSTANT_EXACT_AREAS 7
 #define SAMPLE_CONSTANT_PART 8
 #define SAMPLE_CONSTANT_APART 9
+#define SAMPLE_MASKS_CONSTANT_ROLLED 10
 #define SAMPLE_LINES_CONSTANT_HEADER 10
 #define SAMPLE_LINES_CONSTANT_LINES 11
 #define SCATTER_CONSTANT_HAS_MASK 2
@@ -206,7 +208,6 @@
 #define SPANS_CONSTANT_ONE_BIN 2
 #define THIN_CONSTANT_SELECT 0
 #define THIN_CONSTANT_BLEND_IDS 1
-#define THIN_CONSTANT_FARTHER_IS_LARGER 2
 #define TRANSFORM_CONSTANT_OBJECT 0
 
 // Indices into `counters`.
@@ -325,6 +326,11 @@
 
 // Samples of a cell in the run with few.
 #define PROBE_SAMPLES 64u
+
+// How the corners of a host's draw make triangles.
+#define TOPOLOGY_LIST 0u
+#define TOPOLOGY_STRIP 1u
+#define TOPOLOGY_FAN 2u
 
 // Flags of the vertices that `pose` moves: they have normals of triangles; the transform is mirrored; the geometry has tangents.
 #define POSE_FLAT 1u

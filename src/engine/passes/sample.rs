@@ -5,6 +5,7 @@ use super::{Scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
@@ -143,8 +144,8 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-/// Constants of the kernels with masks, from those of the general kernel.
-fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
+/// Constants of the kernels with masks, from those of the general kernel. Loops over samples may be `rolled`.
+fn of_masks(shader: &spirv::Sample, rolled: bool) -> spirv::SampleMasks {
     spirv::SampleMasks {
         local_size: shader.local_size,
         lanes: shader.lanes,
@@ -153,6 +154,7 @@ fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
         by_part: shader.by_part,
         exact_areas: shader.exact_areas,
         part: shader.part,
+        rolled,
         locations: shader.locations,
         instanced: shader.instanced,
         unsure: shader.unsure,
@@ -219,7 +221,9 @@ impl Sample {
             } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let (_, code) = if options.samples <= few.0 { few } else { many };
-                layout.compute_variant(code, &of_masks(&shader), layout.subgroup())?
+                // Compilers of GPU drivers spill registers if the loops are unrolled; CPU drivers are slower if they are not.
+                let rolled = layout.gpu.limits().device_type != vk::PhysicalDeviceType::CPU;
+                layout.compute_variant(code, &of_masks(&shader, rolled), layout.subgroup())?
             } else {
                 let (_, code) = kernel(kernels, rows);
                 layout.compute_variant(code, &shader, layout.subgroup())?

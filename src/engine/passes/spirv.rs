@@ -150,10 +150,12 @@ pub struct Draw {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct AdoptPush {
+    pub first_triangle: u32,
     pub triangle_count: u32,
     pub draw_count: u32,
     pub first_index: u32,
     pub index_count: u32,
+    pub topology: u32,
 }
 
 /// The set of its own that `shaders/adopt.comp` binds.
@@ -176,12 +178,14 @@ pub mod adopt_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adopt {
     pub short: bool,
+    pub indexed: bool,
 }
 
 impl Default for Adopt {
     fn default() -> Self {
         Self {
             short: false,
+            indexed: true,
         }
     }
 }
@@ -195,13 +199,14 @@ impl Specialized for Adopt {
             Use { set: 0, binding: adopt_set::TRIANGLES_OUT, access: Access::Write },
             Use { set: 0, binding: adopt_set::DRAW_OF_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 24,
         invocations: Invocations::Fixed(64),
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.short)
+            .flag(1, self.indexed)
     }
 }
 
@@ -579,6 +584,7 @@ impl Compiled for Composite {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct CoordinatesPush {
+    pub first_position: u32,
     pub position_count: u32,
     pub draw_count: u32,
     pub first_word: u32,
@@ -621,7 +627,7 @@ impl Specialized for Coordinates {
             Use { set: 0, binding: coordinates_set::VERTICES, access: Access::Read },
             Use { set: 0, binding: coordinates_set::COORDINATES_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 20,
         invocations: Invocations::Fixed(64),
     };
 
@@ -1008,7 +1014,7 @@ impl Compiled for Enlist {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct GpcFrame {
     pub scale: [f32; 2],
-    pub half_size: [f32; 2],
+    pub middle: [f32; 2],
     pub place_side: f32,
     pub r#box: u32,
     pub list: u32,
@@ -1901,6 +1907,7 @@ pub struct SampleMasks {
     pub by_part: bool,
     pub exact_areas: bool,
     pub part: u32,
+    pub rolled: bool,
     pub locations: bool,
     pub instanced: bool,
     pub unsure: bool,
@@ -1916,6 +1923,7 @@ impl Default for SampleMasks {
             by_part: false,
             exact_areas: false,
             part: 4,
+            rolled: false,
             locations: false,
             instanced: false,
             unsure: false,
@@ -1962,6 +1970,7 @@ impl Specialized for SampleMasks {
             .flag(6, self.by_part)
             .flag(7, self.exact_areas)
             .with(8, self.part)
+            .flag(10, self.rolled)
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
@@ -2706,6 +2715,8 @@ impl Compiled for Tally {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ThinPush {
     pub long: u32,
+    pub depth_factor: f32,
+    pub depth_constant: f32,
 }
 
 /// Constants of `shaders/thin.comp`.
@@ -2713,7 +2724,6 @@ pub struct ThinPush {
 pub struct Thin {
     pub select: bool,
     pub blend_ids: bool,
-    pub farther_is_larger: bool,
     pub instanced: bool,
 }
 
@@ -2722,7 +2732,6 @@ impl Default for Thin {
         Self {
             select: false,
             blend_ids: false,
-            farther_is_larger: false,
             instanced: false,
         }
     }
@@ -2744,7 +2753,7 @@ impl Specialized for Thin {
             Use { set: 0, binding: frame_set::RASTER_DEPTH, access: Access::Read },
             Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
-        push_bytes: 4,
+        push_bytes: 12,
         invocations: Invocations::Fixed(64),
     };
 
@@ -2752,7 +2761,6 @@ impl Specialized for Thin {
         Constants::new()
             .flag(0, self.select)
             .flag(1, self.blend_ids)
-            .flag(2, self.farther_is_larger)
             .flag(23, self.instanced)
     }
 }
@@ -2805,7 +2813,7 @@ impl Specialized for Transform {
             Use { set: 0, binding: transform_set::MATRICES, access: Access::Read },
             Use { set: 0, binding: transform_set::POSITIONS_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 20,
         invocations: Invocations::Fixed(64),
     };
 
@@ -3002,6 +3010,9 @@ pub const RUN_WHOLE: u32 = 0;
 pub const RUN_PROBE: u32 = 1;
 pub const RUN_REST: u32 = 2;
 pub const PROBE_SAMPLES: u32 = 64;
+pub const TOPOLOGY_LIST: u32 = 0;
+pub const TOPOLOGY_STRIP: u32 = 1;
+pub const TOPOLOGY_FAN: u32 = 2;
 pub const POSE_FLAT: u32 = 1;
 pub const POSE_INSIDE_OUT: u32 = 2;
 pub const POSE_TANGENTS: u32 = 4;

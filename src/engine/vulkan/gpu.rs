@@ -121,6 +121,8 @@ pub struct Limits {
     pub device_name: String,
     /// Name and version of the driver.
     pub driver: String,
+    /// Kind of the device.
+    pub device_type: vk::PhysicalDeviceType,
     /// Number of invocations of a subgroup that kernels use: 4, 8, 16 or 32.
     pub lanes: u32,
     /// Number of invocations of a subgroup, at least `lanes`; the other invocations are idle.
@@ -335,7 +337,8 @@ impl Drop for Gpu {
 /// invocations, and at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
-        let size = usual.clamp(4, 32).clamp(least, most);
+        // Where the size can be chosen, the smallest leaves each invocation the most registers.
+        let size = least.max(4).min(most);
         (size.min(32), size)
     } else {
         // The driver may choose any size, so kernels use the smallest.
@@ -397,6 +400,7 @@ pub(super) unsafe fn limits(
             text(driver.driver_name_as_c_str()),
             text(driver.driver_info_as_c_str())
         ),
+        device_type: basic.device_type,
         lanes,
         subgroup_size,
         can_require_subgroup_size,
@@ -434,7 +438,8 @@ mod tests {
         let of = |usual, range, can_require| lanes_and_size(usual, range, can_require);
         assert_eq!(of(8, [8, 8], true), (8, 8));
         assert_eq!(of(4, [4, 4], true), (4, 4));
-        assert_eq!(of(32, [8, 32], true), (32, 32));
+        assert_eq!(of(32, [8, 32], true), (8, 8));
+        assert_eq!(of(16, [16, 32], true), (16, 16));
         assert_eq!(of(64, [32, 64], true), (32, 32));
         assert_eq!(of(64, [64, 64], true), (32, 64));
         assert_eq!(of(128, [64, 128], true), (32, 64));
