@@ -298,16 +298,16 @@ fn tiles_without_a_list_are_sampled_all_the_same() {
             })
         };
         let mut small = small.unwrap();
-        let size = [128, 96];
+        let size = [96, 64];
         for blend in [0, 8] {
             let mut stage = soup(5, size, 1, 0);
             let mut random = Random::new(6);
-            for index in 0..600 {
+            for index in 0..3000 {
                 let corners = [0; 3].map(|_| {
                     let place = [0; 2].map(|_| random.range(-90.0, 90.0));
                     seen_at(place, random.range(1.0, 9.0), size[1])
                 });
-                let material = if index + blend < 600 { index % 16 } else { 16 };
+                let material = if index + blend < 3000 { index % 16 } else { 16 };
                 stage.add(material, corners);
             }
             let settings = everywhere(size, Pattern::Sobol, 16);
