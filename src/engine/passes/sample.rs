@@ -331,22 +331,17 @@ impl Sample {
     /// be marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Sample::INTERFACE, || {
-            // Lists have different cells.
-            recorder.unordered(|| {
-                for (list, pipeline) in &self.kernels {
-                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
-                }
-            });
+            for (list, pipeline) in &self.kernels {
+                recorder.dispatch_indirect(pipeline, arguments, list.argument());
+            }
             if self.rest.is_empty() {
                 return;
             }
             self.arguments_of_rest.record(recorder);
-            recorder.unordered(|| {
-                for (list, pipeline) in &self.rest {
-                    let argument = Argument::PlainLeft as u32 + *list as u32;
-                    recorder.dispatch_indirect(pipeline, arguments, argument);
-                }
-            });
+            for (list, pipeline) in &self.rest {
+                let argument = Argument::PlainLeft as u32 + *list as u32;
+                recorder.dispatch_indirect(pipeline, arguments, argument);
+            }
         });
     }
 }
