@@ -19,8 +19,8 @@ SONAME = libgpc.so.$(shell sed -n 's/^pub const GPC_ABI_VERSION: u32 = \(.*\);/\
 # What `make view` opens.
 SCENE ?= assets/letters.glb
 
-.PHONY: help demo view test test-view test-drivers bench measure figures pictures lint shaders check-shaders header assets \
-	install dist test-dist
+.PHONY: help demo view test test-view test-drivers test-compilers bench measure figures pictures lint shaders check-shaders \
+	header assets install dist test-dist
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
@@ -28,6 +28,7 @@ help:
 	@echo "make test           run all tests, without a GPU"
 	@echo "make test-view      run the tests of the window, on a display of their own"
 	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
+	@echo "make test-compilers compile the kernels for GPUs that are not there, and check what their compilers say"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make measure        write docs/bench/*.csv of this machine's driver again (hours); KINDS='...' are some of them"
 	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
@@ -58,12 +59,17 @@ test:
 test-view:
 	@tools/setup.sh build lavapipe validation c window display
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
-		$(CARGO) test --release --features view --bin gpc --test view
+		$(CARGO) test --release --features view --bin gpc --example window --test view
 
 # Takes an hour: each driver compiles all shaders.
 test-drivers:
 	@tools/setup.sh build lavapipe validation
 	@tools/test-drivers.sh $(DRIVERS)
+
+# Takes minutes.
+test-compilers:
+	@tools/setup.sh build lavapipe c
+	@tools/test-compilers.sh $(HARDWARE)
 
 bench:
 	@tools/setup.sh build vulkan
@@ -79,14 +85,14 @@ figures:
 	GPC_FIGURES=write $(CARGO) test --release --test figures documents_agree
 
 pictures:
-	@tools/setup.sh build lavapipe
+	@tools/setup.sh build lavapipe pictures
 	@tools/pictures.sh
 
 lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
-	$(CARGO) clippy --release --features view --bin gpc --test view -- -D warnings
+	$(CARGO) clippy --release --features view --bin gpc --example window --test view -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings

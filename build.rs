@@ -39,6 +39,7 @@ const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 const HOST: &[Variant] = &[
     ("samples", "samples.comp", &[]),
     ("corners", "corners.comp", &[]),
+    ("filters", "filters.comp", &[]),
 ];
 
 /// Name of a compiled shader, its source file, and its macro definitions.
@@ -73,6 +74,7 @@ const VARIANTS: &[Variant] = &[
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("setup", "setup.comp", &[]),
+    ("scatter", "scatter.comp", &[]),
     ("spans", "spans.comp", &[]),
     ("tally", "tally.comp", &[]),
     ("schedule", "schedule.comp", &[]),
@@ -168,6 +170,7 @@ const VARIANTS: &[Variant] = &[
     ("receivers", "receivers.comp", &[]),
     ("shadow", "shadow.comp", &[]),
     ("shade", "shade.comp", &[]),
+    ("composite", "composite.comp", &[]),
     ("resolve", "resolve.comp", &[]),
     ("resolve_drawn", "resolve.comp", &[("DRAWN", "")]),
     ("points", "points.comp", &[]),

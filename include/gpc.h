@@ -8,8 +8,8 @@
 // - Functions that can fail answer a GpcResult; gpc_last_error has the message. No error leaves anything behind, and no
 //   panic of the library crosses this boundary.
 // - A struct that is handed over is first filled by its gpc_init function, which sets size, type and defaults. Later versions of
-//   the library may add members to its end, and take structs without them. So may they of GpcDraw and GpcAlphaMap, which stand in
-//   arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
+//   the library may add members to its end, and take structs without them. So may they of GpcDraw, GpcMesh and GpcAlphaMap, which stand
+//   in arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
 // - Numbers of type uint32_t that stand for one of a few values name the enumeration that has them.
 // - A pointer or handle is null, which is an error where nothing else is said, or alive, of the type named and of the device
 //   lent. That it is null is found out; the rest is the application's affair, as with Vulkan itself.
@@ -32,6 +32,9 @@
 
 // The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
 #define GPC_CONTRAST_OF_SAMPLES UINT32_MAX
+
+// The value of GpcOptions.growths for the number that suits the samples: 1, and 2 from 128 samples on.
+#define GPC_GROWTHS_OF_SAMPLES UINT32_MAX
 
 // The version of the header: gpc_version says that of the library.
 #define GPC_VERSION_MAJOR 0
@@ -168,6 +171,28 @@ enum GpcPositionSpace
 typedef enum GpcPositionSpace GpcPositionSpace;
 #else
 typedef uint32_t GpcPositionSpace;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// How the corners of a draw make triangles: which of its indices, or of its vertices where there are none, belong to which.
+// Primitive restart is not known: a draw is one strip or fan.
+enum GpcTopology
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: each three make one.
+    GPC_TOPOLOGY_LIST = 0,
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each one from the third on makes one with the two before it.
+    GPC_TOPOLOGY_STRIP = 1,
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each one from the third on makes one with the one before it and the first.
+    GPC_TOPOLOGY_FAN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcTopology GpcTopology;
+#else
+typedef uint32_t GpcTopology;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -332,7 +357,7 @@ typedef struct GpcDevice {
 
 // A run of triangles that are shaded alike.
 typedef struct GpcDraw {
-    // Its first index.
+    // Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
     uint32_t first_index;
     // How many triangles it has.
     uint32_t triangle_count;
@@ -359,6 +384,10 @@ typedef struct GpcDraw {
     // VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
     // lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
     VkBool32 blended;
+    // The buffers that it reads: 0 for those of GpcGeometry itself, n for GpcGeometry.more_meshes[n - 1].
+    uint32_t mesh;
+    // How its indices, or its vertices, make triangles: a GpcTopology.
+    uint32_t topology;
 } GpcDraw;
 
 // What a recording shows.
@@ -378,6 +407,10 @@ typedef struct GpcScenery {
     // The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     // clip space. It tells how far apart two depths are.
     float projection[4][4];
+    // Where clip space lies on the images: x, y, width and height of the application's VkViewport, in pixels of the images. The height
+    // is negative with GpcGeometry.y_up. It holds the frame's part of the images, which is the application's scissor rectangle: the
+    // pixels of the size in GpcOptions from GpcImages.corner on. Four zeros, as gpc_init_scenery gives, for a viewport that is the part.
+    float viewport[4];
 } GpcScenery;
 
 // What a recording did.
@@ -432,6 +465,34 @@ typedef struct GpcAlphaMap {
     uint32_t reserved;
 } GpcAlphaMap;
 
+// Buffers that draws read, as they are bound for them: those of a mesh, or of many meshes. Members are as those of GpcGeometry.
+typedef struct GpcMesh {
+    // Positions of vertices.
+    VkBuffer positions;
+    // Where the first one is, in bytes.
+    uint64_t positions_offset;
+    // Bytes from one to the next.
+    uint32_t position_stride;
+    // How many vertices there can be.
+    uint32_t vertex_capacity;
+    // Indices; ignored with VK_INDEX_TYPE_NONE_KHR.
+    VkBuffer indices;
+    // Where they begin, in bytes.
+    uint64_t indices_offset;
+    // VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR.
+    VkIndexType index_type;
+    // How many indices there can be.
+    uint32_t index_capacity;
+    // Texture coordinates of the vertices. VK_NULL_HANDLE where no draw of them has an alpha map.
+    VkBuffer coordinates;
+    // Where those of the first vertex are, in bytes.
+    uint64_t coordinates_offset;
+    // Bytes from one vertex to the next.
+    uint32_t coordinates_stride;
+    // 0.
+    uint32_t reserved;
+} GpcMesh;
+
 // Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
 // executed.
 typedef struct GpcGeometry {
@@ -455,10 +516,11 @@ typedef struct GpcGeometry {
     // With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
     // Otherwise ignored.
     uint32_t position_capacity;
-    // VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32.
+    // VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR if there are no indices, so that draws take vertices in
+    // their order, as vkCmdDraw does.
     VkIndexType index_type;
-    // Indices, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a
-    // multiple of 4 bytes.
+    // Indices. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a multiple of 4 bytes.
+    // Ignored with VK_INDEX_TYPE_NONE_KHR.
     VkBuffer indices;
     // Where they begin, in bytes: a multiple of an index's size.
     uint64_t indices_offset;
@@ -491,6 +553,19 @@ typedef struct GpcGeometry {
     // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
     // be NULL where there are none.
     const struct GpcAlphaMap *alpha_maps;
+    // Further buffers that draws may read, read during the call alone. The members `positions` to `index_capacity` and
+    // `coordinates` to `coordinates_stride` are mesh 0, the first of these is mesh 1: see GpcDraw.mesh. May be NULL where there are
+    // none.
+    const struct GpcMesh *more_meshes;
+    // How many there are.
+    uint32_t more_mesh_count;
+    // sizeof(GpcMesh), where there are some.
+    uint32_t more_mesh_stride;
+    // What the image of depth holds where depth in clip space is 0: minDepth of the application's VkViewport. gpc_init_geometry
+    // gives 0.
+    float min_depth;
+    // The same where it is 1: maxDepth. gpc_init_geometry gives 1.
+    float max_depth;
 } GpcGeometry;
 
 // The kinds of images that a frame is recorded with.
@@ -566,6 +641,11 @@ typedef struct GpcOptions {
     const float (*locations)[2];
     // Bound on the device memory of a frame in bytes, 0 for none.
     uint64_t max_memory;
+    // How often pixels become superpixels because they contrast with a superpixel beside them, with GPC_DETECTION_CONTRAST: 0 to 8, or
+    // GPC_GROWTHS_OF_SAMPLES.
+    uint32_t growths;
+    // 0.
+    uint32_t reserved;
 } GpcOptions;
 
 // State of an image, as in VkImageMemoryBarrier2.

@@ -1,4 +1,5 @@
-// adopt: a host's triangles, in the order of its draws, as the other passes read them.
+// adopt: a host's triangles, in the order of its draws, as the other passes read them. A dispatch takes draws that follow each
+// other and have one mesh and one topology. Twin: `gpc::reference::topology`.
 // Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: what
 // they draw is wrong, and nothing else is.
 #version 460
@@ -8,28 +9,44 @@
 #include "include/draws.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = ADOPT_CONSTANT_SHORT) const bool SHORT = false;       // indices have 16 bits
+layout(constant_id = ADOPT_CONSTANT_INDEXED) const bool INDEXED = true;    // otherwise index n is n, and there is no buffer
 layout(std430, set = SET_OWN, binding = ADOPT_BINDING_INDICES) readonly buffer Indices { uint indices[]; };
 layout(std430, set = SET_OWN, binding = ADOPT_BINDING_TRIANGLES_OUT) writeonly buffer TrianglesOut { uvec4 triangles_out[]; };
 layout(std430, set = SET_OWN, binding = ADOPT_BINDING_DRAW_OF_OUT) writeonly buffer DrawOfOut { uint draw_of_out[]; };
 layout(push_constant) uniform Push {
+    uint first_triangle;    // among those of all draws
     uint triangle_count;
     uint draw_count;
     uint first_index;       // in the buffer, of those that there are
     uint index_count;
+    uint topology;          // TOPOLOGY_LIST, _STRIP or _FAN
 } push;
 
-uint position(Draw draw, uint index) {
-    uint at = push.first_index + min(index, push.index_count - 1u);
-    uint found = SHORT ? indices[at >> 1] >> 16u * (at & 1u) & 0xffffu : indices[at];
-    return draw.first_position + min(found + draw.vertex_offset, draw.last_position);
+uint index_at(uint number) {
+    if (!INDEXED) return number;
+    uint at = push.first_index + min(number, push.index_count - 1u);
+    return SHORT ? indices[at >> 1] >> 16u * (at & 1u) & 0xffffu : indices[at];
+}
+
+uint position(Draw draw, uint number) {
+    uint vertex = index_at(draw.first_index + number) + draw.vertex_offset;
+    return draw.first_position + min(vertex, draw.last_position);
+}
+
+// Numbers of the corners of a draw's triangle, in the order in which Vulkan has them.
+uvec3 corners(uint triangle) {
+    uint odd = triangle & 1u;
+    if (push.topology == TOPOLOGY_STRIP) return triangle + uvec3(0u, 1u + odd, 2u - odd);
+    if (push.topology == TOPOLOGY_FAN) return uvec3(triangle + 1u, triangle + 2u, 0u);
+    return 3u * triangle + uvec3(0u, 1u, 2u);
 }
 
 void main() {
-    uint t = invocation_number();
-    if (t >= push.triangle_count) return;
-    uint d = draw_of(t, push.draw_count);
+    uint i = invocation_number();
+    if (i >= push.triangle_count) return;
+    uint t = push.first_triangle + i, d = draw_of(t, push.draw_count);
     Draw draw = draws[d];
-    uint index = draw.first_index + 3u * (t - draw.first_triangle);
-    triangles_out[t] = uvec4(position(draw, index), position(draw, index + 1u), position(draw, index + 2u), draw.word);
+    uvec3 numbers = corners(t - draw.first_triangle);
+    triangles_out[t] = uvec4(position(draw, numbers.x), position(draw, numbers.y), position(draw, numbers.z), draw.word);
     draw_of_out[t] = d;
 }

@@ -2,12 +2,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/owners.glsl"
 #include "include/pairs.glsl"
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push {
     uint after;
     uint subgroups_first;   // as in schedule.comp
     uint subgroups;
+    uint subgroups_unlisted;
 } push;
 
 void main() {
@@ -25,7 +27,11 @@ void main() {
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
     } else if (push.after == AFTER_GROUPS) {
         for (uint list = 0u; list < TILE_LISTS; list++)
-            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < TILE_LIST_BLENDED ? push.subgroups_first : push.subgroups));
+            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < TILE_LIST_BLENDED ? push.subgroups_first : list < TILE_LIST_UNLISTED ? push.subgroups : push.subgroups_unlisted));
+        arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(counters[COUNTER_UNLISTED_TILES]);
+    } else if (push.after == AFTER_SCATTER) {
+        uint layers = min(counters[COUNTER_LAYERS], owners_room());
+        arguments[ARGUMENT_LAYERS] = groups((layers - min(counters[COUNTER_OWNERS], layers) + 63u) / 64u);
     } else if (push.after == AFTER_PROBE) {
         arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * push.subgroups);
         arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);

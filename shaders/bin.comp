@@ -1,7 +1,7 @@
 // bin: survivors into pairs of a triangle and a tile, with the pair's rank in the tile's list.
 // Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
-// A pair that finds no room marks its tile: every triangle is then a candidate there.
+// A pair that finds no room marks its tile: `scatter` then tries every triangle there.
 // Large or small is a matter of what a region shows of a triangle, so that both are tested alike against a tile: which
 // kernel samples it is the same however an image is divided.
 #version 460
@@ -45,11 +45,11 @@ void main() {
         uint slot = append(COUNTER_PAIRS, touches);
         if (touches) {
             uint rank = atomicAdd(tiles[index].x, 1u);
-            bool kept = slot < frame.pair_capacity && rank < pair_ranks();
+            bool kept = slot < frame.pair_capacity;
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
             if (flags != 0u) atomicOr(tiles[index].w, flags);
-            // One that is not kept leaves no gap: its tile gets no list.
-            if (slot < frame.pair_capacity) pairs_out[slot] = make_pair(t, index, rank);
+            // One that is not kept leaves no gap: its tile gets no list. Neither does one with more ranks than there is room for.
+            if (kept) pairs_out[slot] = make_pair(t, index, rank);
         }
         k += large ? 64u : 1u;
     } while (subgroupAny(k < count));

@@ -11,6 +11,7 @@ layout(constant_id = COORDINATES_CONSTANT_OBJECT) const bool OBJECT = false;
 layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_VERTICES) readonly buffer Vertices { uint vertices[]; };
 layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_COORDINATES_OUT) writeonly buffer CoordinatesOut { uvec2 coordinates_out[]; };
 layout(push_constant) uniform Push {
+    uint first_position;    // of those of one mesh, that follow each other
     uint position_count;
     uint draw_count;
     uint first_word;        // of the first vertex
@@ -18,9 +19,9 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-    uint i = invocation_number();
-    if (i >= push.position_count) return;
-    uint vertex = OBJECT ? i + draws[draw_of(i, push.draw_count)].shift : i;
+    if (invocation_number() >= push.position_count) return;
+    uint i = push.first_position + invocation_number();
+    uint vertex = OBJECT ? i + draws[draw_of(i, push.draw_count)].shift : invocation_number();
     uint word = push.first_word + vertex * push.stride;
     coordinates_out[i] = uvec2(vertices[word], vertices[word + 1u]);
 }

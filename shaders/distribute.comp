@@ -28,7 +28,7 @@ layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_RANKS) buffer Ranks {
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_ORDER_OUT) writeonly buffer OrderOut { uint order_out[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_CELLS_OUT) buffer CellsOut { uvec4 cells_out[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_GROUPS_OUT) writeonly buffer GroupsOut { uvec4 groups_out[]; };
-layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_TILE_LOADS) writeonly buffer TileLoads { uvec2 tile_loads[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_TILE_LOADS) writeonly buffer TileLoads { uvec4 tile_loads[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_MASKS) writeonly buffer Masks { uint masks[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_COUNTERS) buffer Counters { uint counters[]; };
 // Bound twice, BOUND_TWICE of workarounds.glsl.
@@ -99,10 +99,12 @@ void lay_out(uint tile) {
     }
     uint cells = (count + push.in_cell - 1u) / push.in_cell, groups = (cells + push.in_group - 1u) / push.in_group;
     masks[tile] = mask;
-    tile_loads[tile] = uvec2(cells, POINTS ? count : cells * push.samples);
+    tile_loads[tile] = uvec4(0u);
     if (count == 0u) return;
     // Places are as many as cells have room for: a tile's locations begin with a cell.
-    uint first = atomicAdd(counters[COUNTER_CELLS], cells) * push.in_cell, next = first;
+    uint first_cell = atomicAdd(counters[COUNTER_CELLS], cells), first = first_cell * push.in_cell, next = first;
+    tile_loads[tile] = uvec4(cells, POINTS ? count : cells * push.samples, first_cell, 0u);
+    atomicMax(counters[COUNTER_MOST_CELLS], cells);
     [[unroll]] for (uint place = 0u; place < 32u; place++) {
         uint more = loads[base + bit_at(place)];
         loads[base + bit_at(place)] = next;

@@ -1,5 +1,5 @@
 // enlist: gives the tiles of a round their places in the round's memory, and enters them in the work lists.
-// Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists, COUNTER_UNLISTED_TOTAL.
+// Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists, counters.
 // A subgroup takes a stretch, in tile order, so that lists are the same in every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,7 @@ void main() {
     if (stretch >= stretch_count()) return;
     begin_loads();
     Load before = load_kept(stretch);
-    uint unlisted = 0u, i = 0u;
+    uint unlisted = 0u, owned = 0u, i = 0u;
     do {
         uint index = stretch * STRETCH + i + gl_SubgroupInvocationID;
         bool taken = in_round(index);
@@ -28,7 +28,7 @@ void main() {
         uvec2 added = uvec2(load.needs.x, load.needs.z);
         uvec2 at = uvec2(before.needs.x, before.needs.z) + subgroupExclusiveAdd(added);
         uint length_ = list == TILE_LIST_UNLISTED ? 0u : tile.x;
-        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (list == TILE_LIST_UNLISTED ? 0u : TILE_LISTED);
+        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND | TILE_OVERFLOW)) | (list == TILE_LIST_UNLISTED ? 0u : TILE_LISTED);
         if (busy) tiles[index] = uvec4(tile.x, at, flags | length_ << TILE_COUNT_SHIFT);
         // Lengths of all lists in one scan, a byte each.
         uvec4 lengths = load.entries << uvec4(0u, 8u, 16u, 24u);
@@ -41,7 +41,13 @@ void main() {
         before.needs += uvec4(added.x, 0u, added.y, 0u);
         before.entries += (uvec4(subgroupAdd(together)) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu;
         unlisted += subgroupBallotBitCount(subgroupBallot(busy && list == TILE_LIST_UNLISTED));
+        owned += list == TILE_LIST_UNLISTED ? load.needs.x : 0u;
         i += LANES;
     } while (i < STRETCH);
-    if (unlisted != 0u && subgroupElect()) atomicAdd(counters[COUNTER_UNLISTED_TOTAL], unlisted);
+    owned = lanes_add(owned);
+    if (unlisted != 0u && subgroupElect()) {
+        atomicAdd(counters[COUNTER_UNLISTED_TOTAL], unlisted);
+        // `schedule` has counted their room as candidates.
+        atomicAdd(counters[COUNTER_CANDIDATES_TOTAL], 0u - owned);
+    }
 }

@@ -3,14 +3,15 @@
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display or marks.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn, in its image, instead of the background.
 // LOCATIONS: the cells of a group, into the colours of their locations.
-// LAYERED records are layers over an opaque surface, composited from those of the header on, the leaves of their lists.
+// LAYERED records are layers over an opaque surface, and those of the header the leaves of their lists, of which `composite` has made
+// colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
-#include "include/composite.glsl"
+#include "include/layer_list.glsl"
 #include "include/work.glsl"
 #include "include/seen_beside.glsl"
 #ifdef DRAWN
@@ -64,10 +65,9 @@ void main() {
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
             uvec4 record = texelFetch(records, int(at));
-            uint nearest = LAYERED ? farther(at) : at;
-            bool seen = LAYERED ? nearest != ~0u : record.y != 0u;
+            bool seen = LAYERED ? farther(at) != ~0u : record.y != 0u;
             float weight = seen ? uintBitsToFloat(LAYERED ? record.z : record.w) : 0.0;
-            vec4 c = LAYERED ? composite(nearest) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
+            vec4 own = texelFetch(shaded, int(at)), c = LAYERED ? own : to_output(vec4(own.rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;
         }
@@ -80,6 +80,5 @@ void main() {
     if (mine && uncovered > 1e-3) background = behind(place);
 #endif
     sum = (sum + background * uncovered) * share;
-    if (LAYERED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
     if (mine) write(place, sum);
 }

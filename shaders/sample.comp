@@ -1,5 +1,5 @@
 // sample: the nearest triangle of every sub-sample of every superpixel of a list of tiles.
-// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, every triangle), offsets.
+// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets.
 // Writes: records, headers. No colour is known here.
 //
 // A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
@@ -8,6 +8,7 @@
 // ROWS samples, with their depth and ID in
 // registers, and the short list passes by, block by block of samples. A list that outgrows its room is replaced by all
 // candidates of the tile. Ties in depth go to the smaller ID, so that the order of candidates does not matter.
+// Samples of UNLISTED tiles know what they see.
 //
 // Coverage. A triangle that loses none of the samples that it covers is taken to be seen whole, and weighs the exact
 // area of its part of the cell; what is left is shared by the others in proportion to their samples. Small areas are
@@ -37,16 +38,23 @@ layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;           // which of the tile lists
 layout(constant_id = SAMPLE_CONSTANT_RUN) const uint RUN = 0u;
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // records for each part of a block, to shade at
+#ifdef UNLISTED
+const bool EXACT_AREAS = false;
+#else
 layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // where a block has all samples of a cell
+#endif
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
 layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
-const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
-const uint LONGEST = APART ? LONGEST_LIST_APART : LONGEST_LIST;     // list that MOST_TRIPS are enough for
+#ifndef UNLISTED
+const uint ROOM = APART && LANES < 32u ? 3072u : 1024u; // words of `kept`: fewer lanes take more trips for what is not kept
+const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates of a cell
 
-shared uint kept[3072];                                 // by cell, then entry
+// Candidates by cell, then entry: two in a word, as no list of several cells is longer than 16 bits; APART, one.
+shared uint kept[ROOM];
+#endif
 
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
@@ -85,16 +93,7 @@ void main() {
 
     Cell cell;
     cell.center = tile_center(tile_at);
-#ifdef UNLISTED
-    uint count = frame.triangle_count;
-    cell.first = 0u;
-#else
-    uint count = header.w >> TILE_COUNT_SHIFT;
     cell.first = header.y;
-#endif
-    bool manageable = count <= LONGEST;
-    if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], group);
-    count = manageable ? count : 0u;
 
     // The cell of each invocation, and what it keeps of the tile's candidates.
     uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
@@ -113,8 +112,11 @@ void main() {
     uint cell_bit = subgroupShuffle(my_bit, 0u);
     vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
+    trips = 0u;
+#ifndef UNLISTED
     float my_hidden = 0.0;          // nothing farther than this shows in the cell
-    uint my_count = 0u;
+    uint count = header.w >> TILE_COUNT_SHIFT;
+    uint my_count = 0u, my_last = 0u;   // candidates kept; the last word of them
     uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
     do {
         Candidate k = load_candidate(cell.first, min(chunk * LANES + lane, max(count, 1u) - 1u), cell.center);
@@ -137,7 +139,9 @@ void main() {
                     bool exists = j + u < chunk_count && may_touch(t, my_bit);
                     my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                     if (test.touches && test.near >= my_hidden && exists) {
-                        kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
+                        uint entry = min(my_count, KEPT - 1u), candidate = chunk * LANES + j + u;
+                        my_last = (entry & 1u) == 0u ? candidate : my_last & 0xffffu | candidate << 16;
+                        kept[(lane * KEPT + entry) / 2u] = my_last;
                         my_count++;
                     }
                 }
@@ -148,6 +152,7 @@ void main() {
     subgroupBarrier();
 
     trips = (APART ? 1u : 4u) * chunks;
+#endif
     uint unsettled = 0u, block = first_block;
     do {
         load_offsets(first_sample + block * BLOCK, first_sample + samples - 1u);
@@ -176,6 +181,10 @@ void main() {
                 cell.location += cell.samples == 0u ? 0u : passed;
             }
             if (LOCATIONS) cell_id = cell.location;
+            uint number = location_group.w + uint(bitCount(cells_word & ((1u << bit) - 1u)));
+#ifdef UNLISTED
+            see_owners(cell, owner_of(cell.first, number, block * BLOCK));
+#else
             cell.hidden = subgroupShuffle(my_hidden, cell.member);
             uint listed = subgroupShuffle(my_count, cell.member);
             cell.complete = listed <= KEPT;
@@ -185,6 +194,7 @@ void main() {
 
             begin_cell(cell);
             show_candidates(cell);
+#endif
             uvec2 records_made;
 #ifdef LAYERED
             records_made = record_layers(cell, cell_id);

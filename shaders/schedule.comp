@@ -79,9 +79,16 @@ void main() {
         uint pairs_of_group = 64u * PAIRS_OF_SETUP;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + pairs_of_group - 1u) / pairs_of_group);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((counters[COUNTER_GROUPS] + 63u) / 64u);
+        counters[COUNTER_OWNERS] = 4u * min(taken.needs.x, frame.list_capacity);
+        counters[COUNTER_LAYERS] = counters[COUNTER_OWNERS];
+        bool scattered = taken.needs.w != 0u;
+        uint most_cells = LOCATIONS ? counters[COUNTER_MOST_CELLS] : 32u;
+        arguments[ARGUMENT_OWNERS] = scattered ? groups((counters[COUNTER_OWNERS] + 63u) / 64u) : uvec4(0u);
+        arguments[ARGUMENT_SCATTER] = scattered ? scatter_groups(scatter_groups_of(min(counters[COUNTER_PAIRS], frame.pair_capacity)), most_cells) : uvec4(0u);
+        arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(taken.entries.w);
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);
         arguments[ARGUMENT_SAMPLE_MASKED] = groups(taken.entries.y * push.subgroups_first);
         arguments[ARGUMENT_SAMPLE_BLENDED] = groups(taken.entries.z * push.subgroups);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(taken.entries.w * push.subgroups);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(taken.entries.w * push.subgroups_unlisted);
     }
 }

@@ -20,12 +20,15 @@
 layout(local_size_x = 64) in;
 layout(constant_id = THIN_CONSTANT_SELECT) const bool SELECT = false;
 layout(constant_id = THIN_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
-layout(constant_id = THIN_CONSTANT_FARTHER_IS_LARGER) const bool FARTHER_IS_LARGER = false;   // in raster's depth
 
 layout(set = SET_FRAME, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
 const float LONG = 64.0;            // pixels: a longer one is walked by a workgroup, not an invocation
-layout(push_constant) uniform Push { uint long_; } push;    // 1: of WALK, the long ones
+layout(push_constant) uniform Push {
+    uint long_;             // 1: of WALK, the long ones
+    float depth_factor;     // what raster's depth is multiplied by, and what is added then, so that it is that of triangles
+    float depth_constant;
+} push;
 
 void select_thin() {
     uint first = workgroup_number() * 64u * THIN_PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
@@ -49,8 +52,8 @@ void select_thin() {
 
 // `depths`: the farthest and the nearest of the triangle there.
 void mark(ivec2 pixel, uint t, vec2 depths) {
-    float seen = texelFetch(raster_depth, ivec2(frame.seen_corner) + pixel, 0).x;
-    seen = FARTHER_IS_LARGER ? 1.0 - seen : seen;
+    float drawn = texelFetch(raster_depth, ivec2(frame.seen_corner) + pixel, 0).x;
+    float seen = push.depth_factor * drawn + push.depth_constant;
     bool unseen = !BLEND_IDS || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = depths.x - seen > frame.gap.x * depths.x + frame.gap.y;
     bool painted = depths.y >= seen && id_at(pixel) != t + 1u;

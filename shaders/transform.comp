@@ -14,6 +14,7 @@ layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_VERTICES) readonly buf
 layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_MATRICES) readonly buffer Matrices { mat4 matrices[]; };
 layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_POSITIONS_OUT) writeonly buffer PositionsOut { uvec4 positions_out[]; };
 layout(push_constant) uniform Push {
+    uint first_position;    // of those of one mesh, that follow each other
     uint position_count;
     uint draw_count;
     uint first_word;        // of the first vertex
@@ -21,10 +22,10 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-    uint i = invocation_number();
-    if (i >= push.position_count) return;
+    if (invocation_number() >= push.position_count) return;
+    uint i = push.first_position + invocation_number();
     uint d = OBJECT ? draw_of(i, push.draw_count) : 0u;
-    uint vertex = OBJECT ? i + draws[d].shift : i;
+    uint vertex = OBJECT ? i + draws[d].shift : invocation_number();
     uint word = push.first_word + vertex * push.stride;
     uvec3 xyz = uvec3(vertices[word], vertices[word + 1u], vertices[word + 2u]);
     positions_out[i] = OBJECT ? floatBitsToUint(gpc_clip_position(matrices[d], uintBitsToFloat(xyz)))

@@ -62,7 +62,7 @@
 //!
 //! let antialiaser = unsafe { Antialiaser::new(host) }?;
 //! let mut frame = unsafe { antialiaser.prepare(&geometry, &kinds, &Options::new(1280, 720)) }?; // one for each frame in flight
-//! unsafe { frame.record(commands, &images, &Scenery { draws, projection }, materials) }?; // after the application has drawn
+//! unsafe { frame.record(commands, &images, &Scenery::new(draws, projection), materials) }?; // after the application has drawn
 //! # Ok(())
 //! # }
 //! ```

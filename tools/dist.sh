@@ -11,12 +11,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-for program in deb deny; do
-    cargo "$program" --version >/dev/null 2>&1 || {
-        echo "cargo-$program is not installed: cargo install --locked cargo-$program" >&2
-        exit 1
-    }
-done
+cargo deb --version >/dev/null 2>&1 || {
+    echo "cargo-deb is not installed: cargo install --locked cargo-deb" >&2
+    exit 1
+}
 
 version="$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)"
 triple="$(rustc -vV | sed -n 's/^host: //p')"
@@ -39,19 +37,7 @@ install -m 644 "$dist/manual/completions/gpc.fish" "$root/share/fish/vendor_comp
 install -m 644 "$dist/manual/completions/_gpc" "$root/share/zsh/site-functions/"
 rm -r "$dist/manual"
 
-# Licences of this program and of all that is compiled into it.
-cargo deny --locked check licenses
-licences() { # FILE FEATURES...
-    local file="$1"
-    shift
-    {
-        echo "Crates that are compiled into gpc $version, by licence. Their sources, with the texts of the licences, are at"
-        echo "https://crates.io/crates/NAME."
-        echo
-        cargo deny --locked "$@" list --format human --layout license
-    } | sed 's/\x1b\[[0-9;]*m//g' >"$file"
-}
-licences "$doc/THIRD-PARTY.txt" --features "$features"
+tools/licences.sh --features "$features" >"$doc/THIRD-PARTY.txt"
 install -m 644 LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md CITATION.cff "$doc/"
 # A scene to try, and what a golden-image workflow looks like.
 install -m 644 assets/fence.glb assets/letters.glb examples/ci/golden-images.yml "$doc/"
@@ -70,7 +56,7 @@ make --no-print-directory install PREFIX="$PWD/$library"
 sed -i 's,^prefix=.*,prefix=${pcfiledir}/../..,' "$library/lib/pkgconfig/gpc.pc"
 strip --strip-debug "$library"/lib/libgpc.so."$version" "$library"/lib/libgpc.a
 install -d "$library/share/gpc/examples"
-licences "$library/share/doc/gpc/THIRD-PARTY.txt" --no-default-features --features capi
+tools/licences.sh --no-default-features --features capi >"$library/share/doc/gpc/THIRD-PARTY.txt"
 cp -r examples/forward "$library/share/gpc/examples/"
 archive "libgpc-$version-$triple" "$library"
 rm -r "$library"

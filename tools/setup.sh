@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the named parts of the build need and the machine lacks.
 #
-#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display ...
+#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display|pictures ...
 #
 # Where everything is there, it changes nothing and asks for no rights. Packages come from apt, as root or through
 # sudo without a password; elsewhere the script prints what to install and fails.
@@ -112,6 +112,11 @@ needs_display() {
     has grim || lacks "grim" grim
 }
 
+# What enlarges pictures.
+needs_pictures() {
+    has ffmpeg || lacks "ffmpeg" ffmpeg
+}
+
 if ! has cargo; then
     echo "Rust is not installed, or cargo is not in PATH: see https://rustup.rs" >&2
     exit 1
@@ -119,9 +124,9 @@ fi
 
 for part in "$@"; do
     case "$part" in
-        build | vulkan | lavapipe | validation | shaders | c | window | display) "needs_$part" ;;
+        build | vulkan | lavapipe | validation | shaders | c | window | display | pictures) "needs_$part" ;;
         *)
-            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders, c, window and display" >&2
+            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders, c, window, display and pictures" >&2
             exit 2
             ;;
     esac

@@ -29,50 +29,7 @@ swiftshader   |SwiftShader of Debian's chromium-common
 gpu           |the machine's GPU
 "
 
-release="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
-
-# apt with lists, status and cache of its own. The first argument is a folder with a sources.list, or nothing for the
-# machine's sources.
-private_apt() { # FOLDER COMMAND...
-    local own="$1" options=()
-    shift
-    mkdir -p "$own/lists/partial" "$own/archives/partial"
-    : >>"$own/status"
-    options=(-q -o "Dir::State::Lists=$own/lists" -o "Dir::State::status=$own/status" -o "Dir::Cache=$own"
-        -o "Dir::Cache::archives=$own/archives" -o APT::Sandbox::User= -o Debug::NoLocking=1)
-    if [ -e "$own/sources.list" ]; then
-        options+=(-o "Dir::Etc::SourceList=$own/sources.list" -o Dir::Etc::SourceParts=/dev/null
-            -o Dir::Etc::Preferences=/dev/null -o Dir::Etc::PreferencesParts=/dev/null)
-    fi
-    apt-get "${options[@]}" "$@"
-}
-
-# Unpacks lavapipe of a release, with all that it needs from the loader down, into $folder/RELEASE/root.
-fetch_release() { # RELEASE
-    local own="$folder/$1" site keys package
-    [ -e "$own/lavapipe.json" ] && return
-    site="$(apt-get indextargets --format '$(SITE) $(RELEASE)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' |
-        sed -nE "s/^([^ ]+) $release\$/\1/p" | head -n 1)"
-    keys=/usr/share/keyrings/debian-archive-keyring.gpg
-    if [ -z "$site" ] || [ ! -e "$keys" ]; then
-        echo "the machine's apt gets no packages of Debian"
-        return 1
-    fi
-    mkdir -p "$own/root"
-    echo "deb [signed-by=$keys] $site $1 main" >"$own/sources.list"
-    if ! { private_apt "$own" update && private_apt "$own" install -y --no-install-recommends --download-only \
-        mesa-vulkan-drivers libvulkan1 vulkan-validationlayers; } >"$own/log" 2>&1; then
-        echo "apt could not fetch it: $(tail -n 1 "$own/log")"
-        return 1
-    fi
-    for package in "$own"/archives/*.deb; do
-        dpkg-deb -x "$package" "$own/root" || return 1
-    done
-    local library
-    library="$(find "$own/root/usr/lib" -name libvulkan_lvp.so | head -n 1)"
-    printf '{"file_format_version": "1.0.0", "ICD": {"library_path": "%s", "api_version": "1.3.0"}}\n' "$library" \
-        >"$own/lavapipe.json"
-}
+. tools/debian.sh
 
 fetch_swiftshader() {
     local own="$folder/swiftshader" package
@@ -93,7 +50,7 @@ manifest_of_swiftshader() {
 
 # Makes a driver ready: sets `environment`, `runner` and `kibibytes` for its programs. Prints why where it can't.
 prepare() { # NAME
-    local root json
+    local json
     environment=(VK_DRIVER_FILES= VK_ICD_FILENAMES=)
     runner=()
     kibibytes=$((8 << 20))
@@ -108,12 +65,9 @@ prepare() { # NAME
         bookworm* | trixie*)
             [ "${1%-*}" != "$release" ] || { echo "it is the installed one"; return 1; }
             fetch_release "${1%-*}" || return 1
-            root="$folder/${1%-*}/root"
-            json="$folder/${1%-*}/lavapipe.json"
-            environment+=("VK_LAYER_PATH=$root/usr/share/vulkan/explicit_layer.d")
-            # With the C library that it was built for.
-            runner=("$(find "$root" -name 'ld-linux-*.so.*' | head -n 1)"
-                --library-path "$(find "$root/usr/lib" -maxdepth 1 -name '*-linux-gnu*' | paste -sd :)")
+            json="$(manifest_of_release "${1%-*}" lvp)"
+            environment+=("VK_LAYER_PATH=$folder/${1%-*}/root/usr/share/vulkan/explicit_layer.d")
+            mapfile -t runner < <(runner_of_release "${1%-*}")
             ;;
         swiftshader)
             fetch_swiftshader || return 1

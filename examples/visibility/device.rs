@@ -7,6 +7,7 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{
     Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
 };
+use std::ffi::CStr;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,25 +16,35 @@ pub struct Device {
     pub raw: ash::Device,
     pub queue: vk::Queue,
     pub pool: vk::CommandPool,
-    instance: ash::Instance,
-    physical: vk::PhysicalDevice,
-    family: u32,
+    pub instance: ash::Instance,
+    pub physical: vk::PhysicalDevice,
+    pub family: u32,
     /// Functions of conditional rendering, if the device supports it.
     pub conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
     /// Allocator, shared with the library; `None` only in `Drop`, which frees its blocks before the device.
     allocator: Option<SharedAllocator>,
     /// Vulkan loader, whose library stays open until the end.
-    _entry: ash::Entry,
+    #[allow(dead_code, reason = "only a window's surface reads it")]
+    pub entry: ash::Entry,
 }
 
 impl Device {
     pub fn new() -> Result<Self, Failure> {
+        Self::with_extensions(&[], &[])
+    }
+
+    /// A device, with extensions of the instance and its own.
+    pub fn with_extensions(of_instance: &[&CStr], own: &[&CStr]) -> Result<Self, Failure> {
+        let of_instance: Vec<_> = of_instance.iter().map(|name| name.as_ptr()).collect();
+        let mut extensions: Vec<_> = own.iter().map(|name| name.as_ptr()).collect();
         // SAFETY: plain creations whose structures live until after the call. Handles that were made before a failure
         // leak, but the program ends then.
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(Requirements::API_VERSION);
-            let info = vk::InstanceCreateInfo::default().application_info(&application);
+            let info = vk::InstanceCreateInfo::default()
+                .application_info(&application)
+                .enabled_extension_names(&of_instance);
             let instance = entry.create_instance(&info, None)?;
             let (physical, family) = instance
                 .enumerate_physical_devices()?
@@ -47,7 +58,9 @@ impl Device {
                 Requirements::has_conditional_rendering(&instance, physical);
             let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
                 .conditional_rendering(true);
-            let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
+            if conditional_rendering {
+                extensions.push(ash::ext::conditional_rendering::NAME.as_ptr());
+            }
             // The host's own fragment shader needs this feature for gl_PrimitiveID.
             let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
             let priorities = [1.0];
@@ -57,11 +70,10 @@ impl Device {
             let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_features(&features)
+                .enabled_extension_names(&extensions)
                 .push_next(&mut features13);
             if conditional_rendering {
-                info = info
-                    .enabled_extension_names(&extensions)
-                    .push_next(&mut conditional);
+                info = info.push_next(&mut conditional);
             }
             let raw = instance.create_device(physical, &info, None)?;
             let info = vk::CommandPoolCreateInfo::default()
@@ -85,7 +97,7 @@ impl Device {
                 physical,
                 family,
                 conditional_rendering: conditional_rendering.then_some(functions),
-                _entry: entry,
+                entry,
             })
         }
     }

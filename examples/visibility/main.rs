@@ -18,16 +18,17 @@ mod meshes;
 mod pipelines;
 mod slot;
 mod textures;
+mod view;
 
 use device::{Device, Image};
-use glam::{Mat4, Vec3};
 use gpc::host::{Antialiaser, Options};
 use gpc::render::Shading;
 use gpc::sampling::Pattern;
 use lens::Lens;
 use meshes::World;
 use pipelines::Pipelines;
-use slot::{Antialiasing, SKY, Slot};
+use slot::{Antialiasing, Slot};
+use view::{camera, options, time};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -65,13 +66,7 @@ fn main() -> Result<(), Failure> {
         if let Some(slot) = slots.get_mut(index) {
             slot.wait()?;
             if slot.size() != size {
-                *slot = Slot::new(
-                    &device,
-                    &world,
-                    &pipelines,
-                    size,
-                    Some((&antialiaser, &options(size))),
-                )?;
+                slot.resize(&pipelines, size)?;
             }
         } else {
             slots.push(Slot::new(
@@ -152,21 +147,4 @@ fn print_errors(view: &str, reference: &Image, images: [&Image; COMPARED.len()])
     for (what, image) in COMPARED.iter().zip(images) {
         println!("{view}error of {what}: {:.6}", image.error(reference));
     }
-}
-
-/// Time of the animation in seconds.
-fn time(frame: usize) -> f32 {
-    0.4 * frame as f32
-}
-
-/// Matrix from the world to clip space, y up, and the projection in it.
-fn camera([width, height]: [u32; 2]) -> (Mat4, Mat4) {
-    let aspect = width as f32 / height as f32;
-    let projection = Mat4::perspective_infinite_reverse_rh(0.9, aspect, 0.1);
-    let view = Mat4::look_at_rh(Vec3::new(1.0, 2.2, 5.5), Vec3::new(0.0, 0.7, 0.0), Vec3::Y);
-    (projection * view, projection)
-}
-
-fn options(size: [u32; 2]) -> Options {
-    Options::new(size[0], size[1]).background(Some(SKY))
 }

@@ -7,8 +7,8 @@ use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Materials, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
-    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images,
-    LentImage, Options, PositionSpace, Scenery,
+    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images, Indices,
+    LentImage, Mesh, Options, PositionSpace, Scenery,
 };
 
 /// The library's frame for a slot.
@@ -23,15 +23,50 @@ pub struct Slot<'a> {
     antialiasing: Option<Antialiasing>,
     commands: vk::CommandBuffer,
     fence: vk::Fence,
+    /// Whether commands are submitted that were not waited for.
+    is_submitted: bool,
     pool: vk::DescriptorPool,
     set: vk::DescriptorSet,
     instances: Buffer<'a>,
     positions: Buffer<'a>,
     _posed: Buffer<'a>,
+    targets: Targets<'a>,
+}
+
+/// Images of one size, and what the colours are copied to.
+struct Targets<'a> {
     ids: Texture<'a>,
     depth: Texture<'a>,
     color: Texture<'a>,
     read_back: Buffer<'a>,
+}
+
+/// An image of a window, in which a frame is shown.
+#[derive(Clone, Copy)]
+pub struct Shown {
+    pub image: vk::Image,
+    pub size: [u32; 2],
+    /// Signalled when it may be written.
+    pub free: vk::Semaphore,
+    /// To signal when it is written.
+    pub written: vk::Semaphore,
+}
+
+impl<'a> Targets<'a> {
+    fn new(device: &'a Device, size: [u32; 2]) -> Result<Self, Failure> {
+        let sampled = vk::ImageUsageFlags::SAMPLED;
+        let drawn = sampled | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        let plain = vk::ImageAspectFlags::COLOR;
+        let depth_usage = sampled | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+        let copied = drawn | vk::ImageUsageFlags::TRANSFER_SRC;
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        Ok(Self {
+            ids: device.image(IDS, size, 1, drawn, plain)?,
+            depth: device.image(DEPTH, size, 1, depth_usage, vk::ImageAspectFlags::DEPTH)?,
+            color: device.image(COLOR, size, 1, copied, plain)?,
+            read_back: device.buffer(16 * pixels, vk::BufferUsageFlags::TRANSFER_DST)?,
+        })
+    }
 }
 
 /// The kinds of images that the library is lent.
@@ -67,16 +102,7 @@ impl<'a> Slot<'a> {
         let instances = device.buffer(instance_bytes, storage)?;
         let positions = device.buffer(16 * posed_count, texels)?;
         let posed = device.buffer(32 * posed_count, storage)?;
-        let sampled = vk::ImageUsageFlags::SAMPLED;
-        let drawn = sampled | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        let plain = vk::ImageAspectFlags::COLOR;
-        let ids = device.image(IDS, size, 1, drawn, plain)?;
-        let depth_usage = sampled | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
-        let depth = device.image(DEPTH, size, 1, depth_usage, vk::ImageAspectFlags::DEPTH)?;
-        let copied = drawn | vk::ImageUsageFlags::TRANSFER_SRC;
-        let color = device.image(COLOR, size, 1, copied, plain)?;
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let read_back = device.buffer(16 * pixels, vk::BufferUsageFlags::TRANSFER_DST)?;
+        let targets = Targets::new(device, size)?;
         let raw = &device.raw;
         // SAFETY: plain creations on a live device. Handles that were made before a failure leak, but the program ends
         // then.
@@ -116,7 +142,7 @@ impl<'a> Slot<'a> {
                 .buffer(buffer.raw)
                 .range(vk::WHOLE_SIZE)]
         });
-        let images = [&world.bricks, &world.fence, &ids].map(|texture| {
+        let images = [&world.bricks, &world.fence, &targets.ids].map(|texture| {
             [vk::DescriptorImageInfo::default()
                 .sampler(pipelines.sampler)
                 .image_view(texture.view)
@@ -145,15 +171,13 @@ impl<'a> Slot<'a> {
             antialiasing: None,
             commands,
             fence,
+            is_submitted: false,
             pool,
             set,
             instances,
             positions,
             _posed: posed,
-            ids,
-            depth,
-            color,
-            read_back,
+            targets,
         };
         if let Some((antialiaser, options)) = antialiasing {
             let geometry = slot.geometry(world);
@@ -167,31 +191,61 @@ impl<'a> Slot<'a> {
         Ok(slot)
     }
 
+    /// Goes on with images of another size. The slot's previous commands must have run.
+    pub fn resize(&mut self, pipelines: &Pipelines<'_>, size: [u32; 2]) -> Result<(), Failure> {
+        let targets = Targets::new(self.device, size)?;
+        if let Some(antialiasing) = &mut self.antialiasing {
+            // SAFETY: the frame's commands have run; its buffers stay.
+            unsafe { antialiasing.frame.resize(size) }?;
+        }
+        let ids = [vk::DescriptorImageInfo::default()
+            .sampler(pipelines.sampler)
+            .image_view(targets.ids.view)
+            .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
+        let last = BINDINGS.len() - 1;
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(self.set)
+            .dst_binding(last as u32)
+            .descriptor_type(BINDINGS[last])
+            .image_info(&ids);
+        // SAFETY: no commands use the set.
+        unsafe { self.device.raw.update_descriptor_sets(&[write], &[]) };
+        self.targets = targets;
+        self.size = size;
+        Ok(())
+    }
+
     /// Buffers that the library is lent.
     pub fn geometry(&self, world: &World<'_>) -> Geometry {
-        Geometry {
+        let mesh = Mesh {
             positions: self.positions.raw,
             positions_offset: 0,
             position_stride: 16,
-            position_space: PositionSpace::Clip,
             vertex_capacity: world.posed_count,
-            indices: world.indices.raw,
-            indices_offset: 0,
-            index_type: vk::IndexType::UINT32,
-            index_capacity: world.index_count,
-            triangle_capacity: world.triangle_count,
-            draw_capacity: world.draws.len() as u32,
-            keys: KEYS,
             coordinates: Some(Coordinates {
                 buffer: world.coordinates.raw,
                 offset: 0,
                 stride: 8,
             }),
+            indices: Some(Indices {
+                buffer: world.indices.raw,
+                offset: 0,
+                index_type: vk::IndexType::UINT32,
+                capacity: world.index_count,
+            }),
+        };
+        Geometry {
+            meshes: vec![mesh],
+            position_space: PositionSpace::Clip,
+            triangle_capacity: world.triangle_count,
+            draw_capacity: world.draws.len() as u32,
+            keys: KEYS,
             alpha_maps: vec![world.alpha_map()],
             blended: false,
             clip: ClipSpace {
                 y_up: true,
                 reversed_depth: true,
+                ..ClipSpace::default()
             },
         }
     }
@@ -206,9 +260,9 @@ impl<'a> Slot<'a> {
             after,
         };
         Images {
-            ids: Some(lent(&self.ids, SHOWN, SHOWN)),
-            depth: Some(lent(&self.depth, DEPTH_DRAWN, SHOWN)),
-            color: lent(&self.color, COLOR_DRAWN, COPIED),
+            ids: Some(lent(&self.targets.ids, SHOWN, SHOWN)),
+            depth: Some(lent(&self.targets.depth, DEPTH_DRAWN, SHOWN)),
+            color: lent(&self.targets.color, COLOR_DRAWN, COPIED),
             corner: [0, 0],
         }
     }
@@ -242,8 +296,18 @@ impl<'a> Slot<'a> {
         Ok(())
     }
 
-    /// Records the host's frame, which includes the library's part, and submits it.
+    /// Records the host's frame, which includes the library's part, and submits it: its colours are copied to the CPU.
     pub fn submit(&mut self, world: &World<'_>, pipelines: &Pipelines<'_>) -> Result<(), Failure> {
+        self.submit_to(world, pipelines, None)
+    }
+
+    /// The same, shown in an image of a window, if there is one.
+    pub fn submit_to(
+        &mut self,
+        world: &World<'_>,
+        pipelines: &Pipelines<'_>,
+        shown: Option<Shown>,
+    ) -> Result<(), Failure> {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: the slot's previous commands have run; all handles live as long as the slot, whose drop waits.
         unsafe {
@@ -253,25 +317,39 @@ impl<'a> Slot<'a> {
             self.record_screen(pipelines);
             let (materials, images) = (self.materials(pipelines), self.images());
             if let Some(Antialiasing { frame, projection }) = &mut self.antialiasing {
-                let scenery = Scenery {
-                    draws: &world.draws,
-                    projection: projection.to_cols_array_2d(),
-                };
+                let scenery = Scenery::new(&world.draws, projection.to_cols_array_2d());
                 frame.record(commands, &images, &scenery, &materials)?;
             } else {
-                self.change(&self.color, COLOR_DRAWN, COPIED);
+                self.change(&self.targets.color, COLOR_DRAWN, COPIED);
             }
-            self.record_read_back();
+            match shown {
+                Some(shown) => self.record_show(&shown),
+                None => self.record_read_back(),
+            }
             raw.end_command_buffer(commands)?;
             let buffers = [commands];
-            let submitted = [vk::SubmitInfo::default().command_buffers(&buffers)];
+            let (free, written) = match shown {
+                Some(shown) => (vec![shown.free], vec![shown.written]),
+                None => (Vec::new(), Vec::new()),
+            };
+            // The window's image is first used by the copy to it.
+            let stages = vec![vk::PipelineStageFlags::TRANSFER; free.len()];
+            let submitted = [vk::SubmitInfo::default()
+                .command_buffers(&buffers)
+                .wait_semaphores(&free)
+                .wait_dst_stage_mask(&stages)
+                .signal_semaphores(&written)];
             raw.queue_submit(self.device.queue, &submitted, self.fence)?;
         }
+        self.is_submitted = true;
         Ok(())
     }
 
-    /// Waits for the submitted commands.
+    /// Waits for the submitted commands, if there are any.
     pub fn wait(&mut self) -> Result<(), Failure> {
+        if !std::mem::take(&mut self.is_submitted) {
+            return Ok(());
+        }
         // SAFETY: the fence was submitted.
         unsafe {
             let fences = [self.fence];
@@ -284,7 +362,7 @@ impl<'a> Slot<'a> {
     /// Picture of the slot's colours; each of its pixels is the mean of `side` x `side` of them.
     pub fn pixels(&self, side: u32) -> Result<Image, Failure> {
         let size = self.size.map(|pixels| pixels / side);
-        Ok(Image::means(self.read_back.colors()?, size, side))
+        Ok(Image::means(self.targets.read_back.colors()?, size, side))
     }
 
     unsafe fn bind(
@@ -342,9 +420,9 @@ impl<'a> Slot<'a> {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: guaranteed by the caller.
         unsafe {
-            self.change(&self.ids, UNDEFINED, COLOR_DRAWN);
-            self.change(&self.depth, UNDEFINED, DEPTH_DRAWN);
-            self.begin_rendering(&self.ids, Some(&self.depth));
+            self.change(&self.targets.ids, UNDEFINED, COLOR_DRAWN);
+            self.change(&self.targets.depth, UNDEFINED, DEPTH_DRAWN);
+            self.begin_rendering(&self.targets.ids, Some(&self.targets.depth));
             raw.cmd_bind_index_buffer(commands, world.indices.raw, 0, vk::IndexType::UINT32);
             let mut first_triangle = 0_u32;
             for draw in &world.draws {
@@ -365,7 +443,7 @@ impl<'a> Slot<'a> {
                 first_triangle += draw.triangle_count;
             }
             raw.cmd_end_rendering(commands);
-            self.change(&self.ids, COLOR_DRAWN, SHOWN);
+            self.change(&self.targets.ids, COLOR_DRAWN, SHOWN);
         }
     }
 
@@ -374,8 +452,8 @@ impl<'a> Slot<'a> {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: guaranteed by the caller.
         unsafe {
-            self.change(&self.color, UNDEFINED, COLOR_DRAWN);
-            self.begin_rendering(&self.color, None);
+            self.change(&self.targets.color, UNDEFINED, COLOR_DRAWN);
+            self.begin_rendering(&self.targets.color, None);
             self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipelines.screen);
             self.push(pipelines, &self.size.map(|side| 0.5 * side as f32));
             raw.cmd_draw(commands, 3, 1, 0, 0);
@@ -438,12 +516,68 @@ impl<'a> Slot<'a> {
                 height,
                 depth: 1,
             });
-        let (from, to) = (self.color.raw, self.read_back.raw);
+        let (from, to) = (self.targets.color.raw, self.targets.read_back.raw);
         // SAFETY: guaranteed by the caller; image and buffer have the same size.
         unsafe {
             raw.cmd_copy_image_to_buffer(commands, from, COPIED.layout, to, &[region]);
             self.device.show_to_host(commands);
         }
+    }
+
+    /// Records the copy of the colours to an image of a window, which encodes them.
+    unsafe fn record_show(&self, shown: &Shown) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        let corners = |[width, height]: [u32; 2]| {
+            let end = vk::Offset3D {
+                x: width as i32,
+                y: height as i32,
+                z: 1,
+            };
+            [vk::Offset3D::default(), end]
+        };
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let region = [vk::ImageBlit::default()
+            .src_subresource(layers)
+            .src_offsets(corners(self.size))
+            .dst_subresource(layers)
+            .dst_offsets(corners(shown.size))];
+        let (from, to) = (self.targets.color.raw, shown.image);
+        let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        // SAFETY: guaranteed by the caller.
+        unsafe {
+            self.change_shown(shown.image, UNDEFINED.layout, written);
+            let filter = vk::Filter::NEAREST;
+            raw.cmd_blit_image(commands, from, COPIED.layout, to, written, &region, filter);
+            self.change_shown(shown.image, written, vk::ImageLayout::PRESENT_SRC_KHR);
+        }
+    }
+
+    /// Records the change of a window's image around the copy to it.
+    unsafe fn change_shown(&self, image: vk::Image, from: vk::ImageLayout, to: vk::ImageLayout) {
+        let transfer = vk::PipelineStageFlags2::ALL_TRANSFER;
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(transfer)
+            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(transfer)
+            .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .old_layout(from)
+            .new_layout(to)
+            .image(image)
+            .subresource_range(vk::ImageSubresourceRange {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                base_mip_level: 0,
+                level_count: 1,
+                base_array_layer: 0,
+                layer_count: 1,
+            })];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: guaranteed by the caller.
+        unsafe { self.device.raw.cmd_pipeline_barrier2(self.commands, &info) };
     }
 
     unsafe fn change(&self, texture: &Texture<'_>, from: ImageState, to: ImageState) {
@@ -492,7 +626,7 @@ const DEPTH_DRAWN: ImageState = ImageState {
 };
 const COPIED: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-    stage: vk::PipelineStageFlags2::COPY,
+    stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_READ,
 };
 

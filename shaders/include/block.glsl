@@ -4,6 +4,7 @@
 // and candidates are tested against the block's rectangle before its samples.
 #ifndef BLOCK_GLSL
 #define BLOCK_GLSL
+#include "owners.glsl"
 #include "place.glsl"
 
 const uint BLOCK = ROWS * LANES;                        // samples of one
@@ -104,21 +105,25 @@ void end_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
 }
 
+#ifndef UNLISTED
 // Whether a candidate may touch the cell of a bit of its tile.
 bool may_touch(Candidate k, uint bit) {
-#ifdef UNLISTED
-    return true;
-#else
     return LOCATIONS || (k.pixels >> bit & 1u) != 0u;
-#endif
+}
+
+// Number of the candidate that is entry `i` of what is kept of a cell.
+uint kept_candidate(Cell cell, uint i) {
+    uint at = cell.member * KEPT + min(i, KEPT - 1u);
+    return APART ? kept[at] : kept[at / 2u] >> 16u * (at & 1u) & 0xffffu;
 }
 
 // Entry `i` of a cell's candidates.
 Candidate entry_of(Cell cell, uint i) {
     uint clamped = min(i, max(cell.entries, 1u) - 1u);
-    uint index = cell.complete ? kept[cell.member * KEPT + min(clamped, KEPT - 1u)] : clamped;
+    uint index = cell.complete ? kept_candidate(cell, clamped) : clamped;
     return load_candidate(cell.first, index, cell.center);
 }
+#endif
 
 // What `inside` and `area_in_cell` need of one of two candidates.
 Candidate choose(bool first, Candidate a, Candidate b) {
@@ -146,6 +151,27 @@ uint place_of(vec2 sum_of_offsets, float samples) {
     return place_of_part(sum_of_offsets, samples, false);
 }
 
+#ifdef UNLISTED
+uint layers[ROWS];          // of BLEND before what samples see, and where these lie in their order
+uint first_layer[ROWS];
+
+// What the samples see by what `scatter` found, from owner `first` on.
+void see_owners(Cell cell, uint first) {
+    uint last = max(cell.samples, 1u) - 1u;
+    bool fits = first + last < owners_room();
+    if (!fits && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        bool exists = fits && sample_of(g) < cell.samples;
+        uvec4 owner = texelFetch(candidates, int(exists ? first + sample_of(g) : 0u));
+        id[g] = exists && owner.y != 0u ? ~owner.y : 0u;
+        layers[g] = exists ? owner.w : 0u;
+        first_layer[g] = owner.z - owner.w;
+    }
+    nearby.id = 0u;
+    nearby_covered = 0.0;
+    nearby_count = 0u;
+}
+#else
 bool wins(float d, uint by, int g) {
     return (!OCCLUDERS || by != own[g]) && (d > depth[g] || (d == depth[g] && by < id[g]));
 }
@@ -234,5 +260,7 @@ void show_candidates(Cell cell) {
         }
     } while (++batch < batches);
 }
+
+#endif
 
 #endif

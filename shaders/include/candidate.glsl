@@ -15,20 +15,12 @@ struct Candidate {
 
 Candidate load_candidate(uint first, uint index, vec2 center) {
     Candidate k;
-#ifdef UNLISTED
-    Triangle t = triangle_at(index);
-    Setup s = setup_triangle(t.v0, t.v1, t.v2, center, (t.word >> 31) == 0u);
-    bool usable = s.valid && !footprint_of(t.v0, t.v1, t.v2).outside;
-    k.a = s.a; k.b = s.b; k.c = usable ? s.c : vec3(-3.4e38);
-    k.depth = s.depth; k.near = s.near; k.far = s.far; k.id = index + 1u; k.pixels = ~0u;
-#else
     int o = int(first + index) * 4;
     uvec4 last = texelFetch(candidates, o + 3);
     vec4 q0 = uintBitsToFloat(texelFetch(candidates, o)), q1 = uintBitsToFloat(texelFetch(candidates, o + 1));
     vec4 q2 = uintBitsToFloat(texelFetch(candidates, o + 2)), q3 = uintBitsToFloat(last);
     k.a = vec3(q0.x, q0.w, q1.z); k.b = vec3(q0.y, q1.x, q1.w); k.c = vec3(q0.z, q1.y, q2.x);
     k.depth = q2.yzw; k.near = q3.x; k.far = q3.y; k.id = last.z; k.pixels = last.w;
-#endif
     return k;
 }
 

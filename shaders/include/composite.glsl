@@ -4,8 +4,6 @@
 #include "layer_list.glsl"
 #include "tint.glsl"
 
-uint trips = 0u;            // of loops over lists of layers, by this invocation
-
 // The surfaces of a list of layers, from the record of the nearest one on.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
@@ -16,9 +14,7 @@ vec4 composite(uint node) {
         light += TINTED ? through * layer.rgb : through * layer.a * layer.rgb;
         through *= TINTED ? unpack_tint(layer.a) : vec3(1.0 - layer.a);
         node = farther(node);
-        trips++;
     }
-    trips += 2u;
     // What is behind shows as much as channels let it through on average.
     float left = TINTED ? dot(through, vec3(1.0 / 3.0)) : through.x;
     return to_output(vec4(light + through * frame.background.rgb, 1.0 - left * (1.0 - frame.background.a)));

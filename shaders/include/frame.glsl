@@ -83,8 +83,8 @@ layout(std430, set = SET_FRAME, binding = BINDING_MASKS) buffer Masks { uint mas
 layout(std430, set = SET_FRAME, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags; then stretches, see load.glsl
 layout(std430, set = SET_FRAME, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
-layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits
-layout(std430, set = SET_FRAME, binding = BINDING_CANDIDATES_OUT) writeonly buffer CandidatesOut { uvec4 candidates_out[]; };
+layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits; or what owners.glsl describes
+layout(std430, set = SET_FRAME, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
 layout(set = SET_FRAME, binding = BINDING_RECORDS) uniform utextureBuffer records;
 layout(std430, set = SET_FRAME, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };

@@ -38,7 +38,7 @@ layout(constant_id = 2046) const uint GPC_SHADER_VERSION = 1u;
 
 layout(set = GPC_SET, binding = 0) uniform GpcFrame {
     vec2 scale;         // clip space to pixels from the image's centre, times w
-    vec2 half_size;     // of the image, in pixels
+    vec2 middle;        // of clip space on the image, in pixels
     float place_side;   // of the square that textures are filtered over; with `box`, in what the sample's place says
     uint box;           // whether each place says how wide and how high a part of the pixel it stands for
     uint list;          // whether locations are sampled in the place of pixels
@@ -64,6 +64,7 @@ struct GpcSample {
     vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the sum of the vertices' weighted
     vec3 dx, dy;        // their change over the rectangle that the sample stands for, to the right and down: gradients of an
                         // attribute for textureGrad, or for gpc_texture.glsl
+    vec2 right, down;   // the sides of this rectangle, in pixels of the image
     bool front;         // the triangle is seen from its front, counter-clockwise on the screen
 };
 
@@ -87,12 +88,12 @@ bool gpc_sample(uint key, out GpcSample s) {
         vec4 axes = uintBitsToFloat(gpc_locations[2u * s.location + 1u]);
         jacobian = mat2(axes.xy, axes.zw);
         // From the middle of a tile of 8 x 4 pixels, as samples lie.
-        vec2 middle = vec2((ivec2(at.xy) & ~ivec2(7, 3)) + ivec2(4, 2)) - gpc_frame.half_size;
-        centred = middle + place_in_tile(at) + jacobian * place;
+        vec2 tile = vec2((ivec2(at.xy) & ~ivec2(7, 3)) + ivec2(4, 2)) - gpc_frame.middle;
+        centred = tile + place_in_tile(at) + jacobian * place;
     } else {
-        centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place;
+        centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.middle + place;
     }
-    s.position = centred + gpc_frame.half_size;
+    s.position = centred + gpc_frame.middle;
     vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);
     Barycentric b = barycentric(gpc_positions[words.x] * scale, gpc_positions[words.y] * scale, gpc_positions[words.z] * scale, centred);
     vec2 sides = gpc_frame.place_side * (gpc_frame.box != 0u ? place_sides(record.z) : vec2(1.0));
@@ -101,9 +102,29 @@ bool gpc_sample(uint key, out GpcSample s) {
     if (gpc_frame.list != 0u) change = change * jacobian;
     s.dx = change[0] * sides.x;
     s.dy = change[1] * sides.y;
+    s.right = jacobian[0] * sides.x;
+    s.down = jacobian[1] * sides.y;
     s.front = b.facing;
     // Compilers drop a constant that nothing reads.
     return i < listed.x && GPC_SHADER_VERSION != 0u;
+}
+
+// A part of what a sample stands for: number i of side x side parts. Material code that knows no gradients is the mean of what it
+// gives for all parts:
+//
+//     vec4 light = vec4(0.0);
+//     for (uint i = 0u; i < 16u; ++i) light += material(gpc_part(s, i, 4u));
+//     gpc_store(s, light / 16.0);
+GpcSample gpc_part(GpcSample s, uint i, uint side) {
+    float share = 1.0 / float(side);
+    vec2 at = (vec2(i % side, i / side) + 0.5) * share - 0.5;
+    s.position += at.x * s.right + at.y * s.down;
+    s.weights += at.x * s.dx + at.y * s.dy;
+    s.dx *= share;
+    s.dy *= share;
+    s.right *= share;
+    s.down *= share;
+    return s;
 }
 
 // Writes what a sample shows: linear light that the image's encoding is averaged in, and its opacity, which is 1 where the

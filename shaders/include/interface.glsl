@@ -149,6 +149,7 @@
 
 // Of one shader; `sample_masks` has those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
+#define ADOPT_CONSTANT_INDEXED 1
 #define ATTRIBUTES_CONSTANT_SUPERPIXELS 0
 #define ATTRIBUTES_CONSTANT_GROWN 1
 #define CENTRES_CONSTANT_GATHER 0
@@ -184,8 +185,10 @@
 #define SAMPLE_CONSTANT_EXACT_AREAS 7
 #define SAMPLE_CONSTANT_PART 8
 #define SAMPLE_CONSTANT_APART 9
+#define SAMPLE_MASKS_CONSTANT_ROLLED 10
 #define SAMPLE_LINES_CONSTANT_HEADER 10
 #define SAMPLE_LINES_CONSTANT_LINES 11
+#define SCATTER_CONSTANT_HAS_MASK 2
 #define SHADE_CONSTANT_PIXELS 0
 #define SHADE_CONSTANT_ONE_BIN 1
 #define SHADE_CONSTANT_DISPLAY_CODES 2
@@ -205,7 +208,6 @@
 #define SPANS_CONSTANT_ONE_BIN 2
 #define THIN_CONSTANT_SELECT 0
 #define THIN_CONSTANT_BLEND_IDS 1
-#define THIN_CONSTANT_FARTHER_IS_LARGER 2
 #define TRANSFORM_CONSTANT_OBJECT 0
 
 // Indices into `counters`.
@@ -244,7 +246,10 @@
 #define COUNTER_WIDEST 32
 #define COUNTER_THIN_LONG 33
 #define COUNTER_WAITING 34
-#define COUNTER_SUBGROUPS 35
+#define COUNTER_OWNERS 35
+#define COUNTER_LAYERS 36
+#define COUNTER_MOST_CELLS 37
+#define COUNTER_SUBGROUPS 38
 
 // Indices into `arguments`.
 #define ARGUMENT_CULL 0
@@ -263,7 +268,11 @@
 #define ARGUMENT_TALLY 13
 #define ARGUMENT_ENLIST 14
 #define ARGUMENT_THIN_LONG 15
-#define ARGUMENT_SHADE 16
+#define ARGUMENT_OWNERS 16
+#define ARGUMENT_SCATTER 17
+#define ARGUMENT_SCATTER_EVERY 18
+#define ARGUMENT_LAYERS 19
+#define ARGUMENT_SHADE 20
 
 // What has counted when `arguments` runs.
 #define AFTER_DETECT 0u
@@ -275,6 +284,7 @@
 #define AFTER_GROUPS 6u
 #define AFTER_PROBE 7u
 #define AFTER_PAIRS 8u
+#define AFTER_SCATTER 9u
 
 // What makes a pixel a superpixel, in `detect`.
 #define DETECT_CONTRAST 0u
@@ -288,6 +298,15 @@
 #define DISTRIBUTE_LAY_OUT 1u
 #define DISTRIBUTE_ARRANGE 2u
 #define DISTRIBUTE_ENCLOSE 3u
+
+// Steps of `scatter`, in their order.
+#define SCATTER_CLEAR 0u
+#define SCATTER_DEPTHS 1u
+#define SCATTER_IDS 2u
+#define SCATTER_COUNT 3u
+#define SCATTER_PLACE 4u
+#define SCATTER_LAYERS 5u
+#define SCATTER_ORDER 6u
 
 // Formats that `encode` writes.
 #define ENCODE_RGBA8_SRGB 0u
@@ -307,6 +326,11 @@
 
 // Samples of a cell in the run with few.
 #define PROBE_SAMPLES 64u
+
+// How the corners of a host's draw make triangles.
+#define TOPOLOGY_LIST 0u
+#define TOPOLOGY_STRIP 1u
+#define TOPOLOGY_FAN 2u
 
 // Flags of the vertices that `pose` moves: they have normals of triangles; the transform is mirrored; the geometry has tangents.
 #define POSE_FLAT 1u
@@ -370,14 +394,16 @@
 // Tiles of a stretch, see load.glsl.
 #define STRETCH 256
 
-// Trials of a triangle in a cell that a round takes where tiles have no list: some tenths of a second on small GPUs, well
-// below what systems let a dispatch take.
-#define MOST_TRIALS 0x80000000u
+// Trials of a triangle in a tile that a round takes where tiles have no list: some tenths of a second on small GPUs, well
+// below what systems let a dispatch take. A round takes FEWEST_TRIED entries of such tiles in any case.
+#define MOST_TRIALS 0x10000000u
+#define FEWEST_TRIED 4096u
 
-// Most triangles that `sample` tries in a cell, whose loops end after so many trips; and where it takes a block of one cell at
-// a time.
-#define LONGEST_LIST 40000u
-#define LONGEST_LIST_APART 350000u
+// Longest lists of candidates; tiles with more triangles have none. Loops of `sample` that take a block of one cell at a time
+// end in time with LONGEST_LIST opaque or alpha-tested triangles or LONGEST_LAYERED_APART of which some are BLEND.
+#define LONGEST_LIST 2500u
+#define LONGEST_LAYERED 1000u
+#define LONGEST_LAYERED_APART 160u
 
 // Records that `sample_lines` makes of a cell beyond its number of samples, at the most: visible triangles share parts.
 #define MORE_RECORDS 16u

@@ -4,12 +4,13 @@
 // Samples that see the same surfaces, from the farthest one on, share their records. A surface's record is a node that
 // links to the one behind it; it is shaded at the centroid of the samples that share it. Each layer parts those of a node
 // by the triangle that they see next, so that nodes form a tree. Leaves say how many samples end at which node.
-// Where samples are shaded apart (EACH), none share.
+// Where samples are shaded apart (EACH), none share, and behind SHARED_LAYERS others, so that loops end in time.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "surfaces.glsl"
 
 const bool EACH = PER_SAMPLE || POINTS;
+const uint SHARED_LAYERS = 256u;
 
 // Parts are merged in pairs.
 uint layered_part(int g) { return part_number(g) >> 1; }
@@ -45,12 +46,12 @@ Group first_group(uint left) {
     return r;
 }
 
-// Moves the samples to nodes of their next surfaces. Returns whether there was room for these.
-bool add_nodes(uint cell_id, uint samples) {
+// Moves the samples to nodes of their next surfaces, one each or shared. Returns whether there was room for these.
+bool add_nodes(uint cell_id, uint samples, bool each) {
     uint lane = gl_SubgroupInvocationID, left = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
     bool fits = true;
-    if (EACH) {
+    if (each) {
         uint mine = uint(bitCount(left)), before = subgroupExclusiveAdd(mine);
         uint slot = allocate_records(subgroupAdd(mine), fits) + before;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
@@ -124,8 +125,20 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     return uvec2(base, fits ? count : 0u);
 }
 
+#ifdef UNLISTED
+// Finds each sample's next BLEND layer, number `layer` from the farthest one on. Returns whether there may be more.
+bool find_layers(Cell cell, uint layer) {
+    uint most = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        next_id[g] = layer < layers[g] ? texelFetch(candidates, int(first_layer[g] + layer)).w : 0u;
+        most = max(most, layers[g]);
+    }
+    trips++;
+    return subgroupAny(layer + 1u < most);
+}
+#else
 // Finds each sample's next BLEND layer in front of what it has seen, and moves there. Returns whether there may be more.
-bool find_layers(Cell cell) {
+bool find_layers(Cell cell, uint layer) {
     uint ahead[ROWS];
     float behind = 3.4e38;      // what lies farther hides from all samples
     [[unroll]] for (int g = 0; g < ROWS; g++) {
@@ -173,6 +186,7 @@ bool find_layers(Cell cell) {
     }
     return subgroupAny(most > 1u);
 }
+#endif
 
 // Returns the first leaf and their number.
 uvec2 record_layers(Cell cell, uint cell_id) {
@@ -180,11 +194,13 @@ uvec2 record_layers(Cell cell, uint cell_id) {
         node[g] = ~0u;
         next_id[g] = id[g];
     }
-    bool fits = add_nodes(cell_id, cell.samples);
+    bool fits = add_nodes(cell_id, cell.samples, EACH);
     bool more;
+    uint layer = 0u;
     do {
-        more = find_layers(cell);
-        fits = add_nodes(cell_id, cell.samples) && fits;
+        more = find_layers(cell, layer);
+        fits = add_nodes(cell_id, cell.samples, EACH || layer >= SHARED_LAYERS) && fits;
+        layer++;
     } while (more && trips <= MOST_TRIPS);
     if (subgroupElect() && more) atomicAdd(counters[COUNTER_STALLED], 1u);
     return add_leaves(cell_id, cell.samples, fits);

@@ -2,6 +2,8 @@
 // one after the other, in the order of the region. Twin: src/reference/schedule.rs.
 #ifndef LOAD_GLSL
 #define LOAD_GLSL
+#include "owners.glsl"
+#include "pairs.glsl"
 #include "tiles.glsl"
 #include "work.glsl"
 
@@ -13,12 +15,14 @@ layout(push_constant) uniform Push {
     uint parts;             // records of a triangle in a block
     uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
     uint subgroups;         // and where it takes all samples
-    uint longest_list;      // most triangles that `sample` tries in a cell; where there are more, it leaves the cell
+    uint subgroups_unlisted;// and of tiles without a list
+    uint longest_list;      // most candidates of a tile; where there are more, it has no list
+    uint longest_layered;   // the same where some of them are BLEND
     uint more_records;      // that a cell of opaque or alpha-tested triangles makes beyond its number of samples, at the most
 } push;
 
 struct Load {
-    uvec4 needs;    // candidates, records, headers; cells of tiles without a list, in which every triangle is tried
+    uvec4 needs;    // candidates, or room for owners in their place; records, headers; entries of tiles without a list
     uvec4 entries;  // of the work lists
 };
 
@@ -29,7 +33,7 @@ uvec4 room;     // of a round, for needs
 uint blocks;    // of a cell
 
 void begin_loads() {
-    room = uvec4(frame.list_capacity, uvec2(frame.record_capacity), MOST_TRIALS / max(frame.triangle_count, 1u));
+    room = uvec4(frame.list_capacity, uvec2(frame.record_capacity), max(MOST_TRIALS / max(frame.triangle_count, 1u), FEWEST_TRIED));
     blocks = (frame.sample_count + push.block - 1u) / push.block;
 }
 
@@ -51,13 +55,14 @@ void keep_load(uint stretch, Load load) {
 
 // Number of the work list of a tile that has superpixels, one of TILE_LIST_.
 uint list_of(uvec4 tile) {
-    bool listed = (tile.w & TILE_OVERFLOW) == 0u && tile.x <= frame.list_capacity;
+    uint longest = min((tile.w & TILE_HAS_BLEND) != 0u ? push.longest_layered : push.longest_list, pair_ranks());
+    bool listed = (tile.w & TILE_OVERFLOW) == 0u && tile.x <= min(longest, frame.list_capacity);
     return !listed ? TILE_LIST_UNLISTED : (tile.w & TILE_HAS_BLEND) != 0u ? TILE_LIST_BLENDED : (tile.w & TILE_HAS_MASK) != 0u ? TILE_LIST_MASKED : TILE_LIST_PLAIN;
 }
 
 // What tile `index` needs as `bin` left it.
 Load load_of(uint index, uvec4 tile) {
-    uvec2 located = LOCATIONS ? tile_loads[index] : uvec2(0u);
+    uvec2 located = LOCATIONS ? tile_loads[index].xy : uvec2(0u);
     uint cells = LOCATIONS ? located.x : uint(bitCount(masks[index]));
     uint samples = LOCATIONS ? located.y : cells * frame.sample_count;
     uint list = list_of(tile);
@@ -70,11 +75,12 @@ Load load_of(uint index, uvec4 tile) {
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
-    uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
+    uint entries = (cells + LANES - 1u) / LANES;
+    // Layers are as many as they happen to be; a round has room for some.
+    uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;
-    bool tried = !listed && frame.triangle_count <= push.longest_list;
-    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, tried ? cells : 0u);
-    load.entries = entries * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
+    load.needs = uvec4(!busy ? 0u : listed ? tile.x : owners, records_, cells * blocks, listed ? 0u : entries);
+    load.entries = (LOCATIONS ? 0u : entries) * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
     return load;
 }
 

@@ -20,7 +20,7 @@ layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer loca
 layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
 // One vector: tile, first cell, cells, number of the first cell within its tile
 layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
-layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec2 tile_loads[]; };     // cells, samples
+layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
 
 // Locations of POINTS tile by tile, those of a cell one after the other.
 layout(set = SET_FRAME, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;

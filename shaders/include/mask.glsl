@@ -3,13 +3,18 @@
 #define MASK_GLSL
 #include "interface.glsl"
 
+// Whether loops over samples take four at a time: fewer registers and instructions. CPU drivers want them unrolled.
+layout(constant_id = SAMPLE_MASKS_CONSTANT_ROLLED) const bool ROLLED = false;
+
 // Offsets of samples from the middle of their cell, two a vector.
 layout(std140, set = SET_FRAME, binding = BINDING_PATTERN) uniform Pattern { vec4 pattern[32]; };
 
-vec2 offsets[SAMPLES];      // the same, read once
+vec2 offsets[SAMPLES];      // the same, read once where loops are unrolled
+
+vec2 offset_of(int n) { return n % 2 == 0 ? pattern[n / 2].xy : pattern[n / 2].zw; }
 
 void load_offsets() {
-    [[unroll]] for (int n = 0; n < SAMPLES; n++) offsets[n] = n % 2 == 0 ? pattern[n / 2].xy : pattern[n / 2].zw;
+    [[unroll]] for (int n = 0; n < SAMPLES; n++) offsets[n] = offset_of(n);
 }
 
 // A bit for each sample that there is.
@@ -26,19 +31,29 @@ struct Comparison {
     vec2 low, high;         // bounds of the first and the second E
 };
 
+// Whether a comparison holds at the offset `p` from where its functions are `c`.
+bool holds_at(Comparison k, vec3 c, vec2 p) {
+    precise float e0 = k.a.x * p.x + k.b.x * p.y + c.x;
+    precise float e1 = k.a.y * p.x + k.b.y * p.y + c.y;
+    precise float e2 = k.a.z * p.x + k.b.z * p.y + c.z;
+    e0 = clamp(e0, k.low.x, k.high.x);
+    e1 = clamp(e1, k.low.y, k.high.y);
+    return e0 >= (k.depths ? e1 : k.least.x) && e1 >= k.least.y && e2 >= k.least.z;
+}
+
 // The samples of a cell around `at` where a comparison holds.
 uvec2 mask_of(Comparison k, vec2 at) {
     precise vec3 c = k.a * at.x + k.b * at.y + k.c;
     uvec2 mask = uvec2(0u);
-    [[unroll]] for (int n = 0; n < SAMPLES; n++) {
-        vec2 p = offsets[n];
-        precise float e0 = k.a.x * p.x + k.b.x * p.y + c.x;
-        precise float e1 = k.a.y * p.x + k.b.y * p.y + c.y;
-        precise float e2 = k.a.z * p.x + k.b.z * p.y + c.z;
-        e0 = clamp(e0, k.low.x, k.high.x);
-        e1 = clamp(e1, k.low.y, k.high.y);
-        bool holds = e0 >= (k.depths ? e1 : k.least.x) && e1 >= k.least.y && e2 >= k.least.z;
-        mask[n / 32] |= holds ? 1u << (n % 32) : 0u;
+    if (ROLLED) {
+        [[dont_unroll]] for (int four = 0; four < SAMPLES; four += 4) {
+            uint bits = 0u;
+            [[unroll]] for (int n = 0; n < 4; n++) bits |= holds_at(k, c, offset_of(four + n)) ? 1u << n : 0u;
+            bits <<= four & 31;
+            mask |= four < 32 ? uvec2(bits, 0u) : uvec2(0u, bits);
+        }
+    } else {
+        [[unroll]] for (int n = 0; n < SAMPLES; n++) mask[n / 32] |= holds_at(k, c, offsets[n]) ? 1u << (n % 32) : 0u;
     }
     return mask;
 }
@@ -50,9 +65,16 @@ uint samples_of(uvec2 mask) {
 // The sum of the offsets of a mask's samples.
 vec2 sum_of_offsets(uvec2 mask) {
     vec2 sum = vec2(0.0);
-    [[unroll]] for (int n = 0; n < SAMPLES; n++) {
-        int inside = int(mask[n / 32]) << (31 - n % 32) >> 31;
-        sum += intBitsToFloat(floatBitsToInt(offsets[n]) & inside);
+    if (ROLLED) {
+        [[dont_unroll]] for (int four = 0; four < SAMPLES; four += 4) {
+            uint bits = (four < 32 ? mask.x : mask.y) >> (four & 31);
+            [[unroll]] for (int n = 0; n < 4; n++) sum += (bits >> n & 1u) != 0u ? offset_of(four + n) : vec2(0.0);
+        }
+    } else {
+        [[unroll]] for (int n = 0; n < SAMPLES; n++) {
+            int inside = int(mask[n / 32]) << (31 - n % 32) >> 31;
+            sum += intBitsToFloat(floatBitsToInt(offsets[n]) & inside);
+        }
     }
     return sum;
 }

@@ -10,7 +10,7 @@ uint pair_tile_bits() {
     return uint(findMSB(frame.tiles.x * frame.tiles.y) + 1);
 }
 
-// Ranks that there is room for; a tile whose list is longer has every triangle as a candidate.
+// Ranks that there is room for; a tile with more triangles has no list.
 uint pair_ranks() {
     return 1u << (32u - pair_tile_bits());
 }

@@ -126,25 +126,31 @@ impl Error {
             Self::ShaderSize(_) | Self::Shader(ShaderError::NotSpirv(_)) => GpcResult::Value,
             Self::Shader(_) => GpcResult::ShaderVersion,
             Self::Panic(_) => GpcResult::Panic,
-            Self::Host(error) => match error {
-                HostError::NullHandle(_) => GpcResult::Null,
-                HostError::Capacity { .. }
-                | HostError::Indices { .. }
-                | HostError::Vertices { .. } => GpcResult::Capacity,
-                HostError::Engine(EngineError::Vulkan(error)) => match error {
-                    VulkanError::Missing { .. }
-                    | VulkanError::NoFunction(_)
-                    | VulkanError::NotEnabled { .. } => GpcResult::Unsupported,
-                    VulkanError::QueueFamily { .. } => GpcResult::Value,
-                    VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
-                    VulkanError::DeviceLost => GpcResult::DeviceLost,
-                    VulkanError::TooLarge { .. } => GpcResult::Value,
-                    VulkanError::NotRecorded | VulkanError::NotDone => GpcResult::NotReady,
-                    _ => GpcResult::Vulkan,
-                },
-                HostError::Engine(EngineError::Memory { .. }) => GpcResult::OutOfMemory,
-                _ => GpcResult::Value,
+            Self::Host(error) => Self::of_host(error),
+        }
+    }
+
+    fn of_host(error: &HostError) -> GpcResult {
+        match error {
+            HostError::Mesh { error, .. } => Self::of_host(error),
+            HostError::NullHandle(_) | HostError::NoCoordinates => GpcResult::Null,
+            HostError::Capacity { .. }
+            | HostError::Indices { .. }
+            | HostError::Corners { .. }
+            | HostError::Vertices { .. } => GpcResult::Capacity,
+            HostError::Engine(EngineError::Vulkan(error)) => match error {
+                VulkanError::Missing { .. }
+                | VulkanError::NoFunction(_)
+                | VulkanError::NotEnabled { .. } => GpcResult::Unsupported,
+                VulkanError::QueueFamily { .. } => GpcResult::Value,
+                VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
+                VulkanError::DeviceLost => GpcResult::DeviceLost,
+                VulkanError::TooLarge { .. } => GpcResult::Value,
+                VulkanError::NotRecorded | VulkanError::NotDone => GpcResult::NotReady,
+                _ => GpcResult::Vulkan,
             },
+            HostError::Engine(EngineError::Memory { .. }) => GpcResult::OutOfMemory,
+            _ => GpcResult::Value,
         }
     }
 }

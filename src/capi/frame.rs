@@ -9,7 +9,7 @@ use super::input::{
     write,
 };
 use super::options::GpcOptions;
-use crate::host::{Frame, Scenery, ShadeSamples, VisibilitySamples};
+use crate::host::{Frame, Scenery, ShadeSamples, Viewport, VisibilitySamples};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -37,12 +37,16 @@ pub struct GpcScenery {
     /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     /// clip space. It tells how far apart two depths are.
     pub projection: [[f32; 4]; 4],
+    /// Where clip space lies on the images: x, y, width and height of the application's VkViewport, in pixels of the images. The height
+    /// is negative with GpcGeometry.y_up. It holds the frame's part of the images, which is the application's scissor rectangle: the
+    /// pixels of the size in GpcOptions from GpcImages.corner on. Four zeros, as gpc_init_scenery gives, for a viewport that is the part.
+    pub viewport: [f32; 4],
 }
 
 // SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
 unsafe impl Element for GpcScenery {
     const NAME: &'static str = "GpcScenery";
-    const SIZES: &'static [usize] = sizes!(GpcScenery, projection);
+    const SIZES: &'static [usize] = sizes!(GpcScenery, projection, viewport);
 }
 
 // SAFETY: it begins with size, type and next.
@@ -261,10 +265,15 @@ pub unsafe extern "C" fn gpc_frame_record(
                 ("GpcScenery.draws", "GpcScenery.draw_stride"),
             )
         }?;
-        let scenery = Scenery {
-            draws: &draws,
-            projection: scenery.projection,
+        let [x, y, width, height] = scenery.viewport;
+        let viewport = Viewport {
+            x,
+            y,
+            width,
+            height,
         };
+        let viewport = (scenery.viewport != [0.0; 4]).then_some(viewport);
+        let scenery = Scenery::new(&draws, scenery.projection).viewport(viewport);
         // SAFETY: passed on to the caller.
         unsafe {
             frame

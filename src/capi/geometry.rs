@@ -2,7 +2,9 @@
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes};
-use crate::host::{AlphaMap, ClipSpace, Coordinates, Draw, Geometry, PositionSpace};
+use crate::host::{
+    AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, Mesh, PositionSpace, Topology,
+};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -52,6 +54,64 @@ unsafe impl Element for GpcAlphaMap {
     const SIZES: &'static [usize] = sizes!(GpcAlphaMap, reserved);
 }
 
+/// Buffers that draws read, as they are bound for them: those of a mesh, or of many meshes. Members are as those of GpcGeometry.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcMesh {
+    /// Positions of vertices.
+    pub positions: vk::Buffer,
+    /// Where the first one is, in bytes.
+    pub positions_offset: u64,
+    /// Bytes from one to the next.
+    pub position_stride: u32,
+    /// How many vertices there can be.
+    pub vertex_capacity: u32,
+    /// Indices; ignored with VK_INDEX_TYPE_NONE_KHR.
+    pub indices: vk::Buffer,
+    /// Where they begin, in bytes.
+    pub indices_offset: u64,
+    /// VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR.
+    pub index_type: vk::IndexType,
+    /// How many indices there can be.
+    pub index_capacity: u32,
+    /// Texture coordinates of the vertices. VK_NULL_HANDLE where no draw of them has an alpha map.
+    pub coordinates: vk::Buffer,
+    /// Where those of the first vertex are, in bytes.
+    pub coordinates_offset: u64,
+    /// Bytes from one vertex to the next.
+    pub coordinates_stride: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
+unsafe impl Element for GpcMesh {
+    const NAME: &'static str = "GpcMesh";
+    const SIZES: &'static [usize] = sizes!(GpcMesh, reserved);
+}
+
+impl GpcMesh {
+    fn mesh(&self) -> Mesh {
+        Mesh {
+            positions: self.positions,
+            positions_offset: self.positions_offset,
+            position_stride: self.position_stride,
+            vertex_capacity: self.vertex_capacity,
+            coordinates: (self.coordinates != vk::Buffer::null()).then_some(Coordinates {
+                buffer: self.coordinates,
+                offset: self.coordinates_offset,
+                stride: self.coordinates_stride,
+            }),
+            indices: (self.index_type != vk::IndexType::NONE_KHR).then_some(Indices {
+                buffer: self.indices,
+                offset: self.indices_offset,
+                index_type: self.index_type,
+                capacity: self.index_capacity,
+            }),
+        }
+    }
+}
+
 /// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
 /// executed.
 #[derive(Clone, Copy)]
@@ -77,10 +137,11 @@ pub struct GpcGeometry {
     /// With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
     /// Otherwise ignored.
     pub position_capacity: u32,
-    /// VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32.
+    /// VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR if there are no indices, so that draws take vertices in
+    /// their order, as vkCmdDraw does.
     pub index_type: vk::IndexType,
-    /// Indices, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a
-    /// multiple of 4 bytes.
+    /// Indices. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a multiple of 4 bytes.
+    /// Ignored with VK_INDEX_TYPE_NONE_KHR.
     pub indices: vk::Buffer,
     /// Where they begin, in bytes: a multiple of an index's size.
     pub indices_offset: u64,
@@ -113,16 +174,30 @@ pub struct GpcGeometry {
     /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
     /// be NULL where there are none.
     pub alpha_maps: *const GpcAlphaMap,
+    /// Further buffers that draws may read, read during the call alone. The members `positions` to `index_capacity` and
+    /// `coordinates` to `coordinates_stride` are mesh 0, the first of these is mesh 1: see GpcDraw.mesh. May be NULL where there are
+    /// none.
+    pub more_meshes: *const GpcMesh,
+    /// How many there are.
+    pub more_mesh_count: u32,
+    /// sizeof(GpcMesh), where there are some.
+    pub more_mesh_stride: u32,
+    /// What the image of depth holds where depth in clip space is 0: minDepth of the application's VkViewport. gpc_init_geometry
+    /// gives 0.
+    pub min_depth: f32,
+    /// The same where it is 1: maxDepth. gpc_init_geometry gives 1.
+    pub max_depth: f32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcGeometry {
     const NAME: &'static str = "GpcGeometry";
-    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps);
+    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps, max_depth);
 
     fn defaults() -> Self {
         Self {
             keys: 1,
+            max_depth: 1.0,
             // SAFETY: any bytes are a value of it.
             ..unsafe { std::mem::zeroed() }
         }
@@ -160,8 +235,27 @@ impl GpcAlphaMap {
 }
 
 impl GpcGeometry {
+    /// Mesh 0.
+    fn own_mesh(&self) -> Mesh {
+        let mesh = GpcMesh {
+            positions: self.positions,
+            positions_offset: self.positions_offset,
+            position_stride: self.position_stride,
+            vertex_capacity: self.vertex_capacity,
+            indices: self.indices,
+            indices_offset: self.indices_offset,
+            index_type: self.index_type,
+            index_capacity: self.index_capacity,
+            coordinates: self.coordinates,
+            coordinates_offset: self.coordinates_offset,
+            coordinates_stride: self.coordinates_stride,
+            reserved: 0,
+        };
+        mesh.mesh()
+    }
+
     /// # Safety
-    /// `alpha_maps` shows as many as are counted.
+    /// `alpha_maps` and `more_meshes` show as many as are counted.
     pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
         // SAFETY: passed on to the caller.
         let maps = unsafe {
@@ -185,39 +279,51 @@ impl GpcGeometry {
                 },
             ),
         ];
+        // SAFETY: passed on to the caller.
+        let more_meshes = unsafe {
+            elements(
+                self.more_meshes,
+                (self.more_mesh_count, self.more_mesh_stride),
+                ("GpcGeometry.more_meshes", "GpcGeometry.more_mesh_stride"),
+            )
+        }?;
         Ok(Geometry {
-            positions: self.positions,
-            positions_offset: self.positions_offset,
-            position_stride: self.position_stride,
+            meshes: std::iter::once(self.own_mesh())
+                .chain(more_meshes.iter().map(GpcMesh::mesh))
+                .collect(),
             position_space: choice("GpcGeometry.position_space", self.position_space, &spaces)?,
-            vertex_capacity: self.vertex_capacity,
-            indices: self.indices,
-            indices_offset: self.indices_offset,
-            index_type: self.index_type,
-            index_capacity: self.index_capacity,
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
             keys: self.keys,
-            coordinates: (!maps.is_empty()).then_some(Coordinates {
-                buffer: self.coordinates,
-                offset: self.coordinates_offset,
-                stride: self.coordinates_stride,
-            }),
             alpha_maps: maps.iter().map(GpcAlphaMap::alpha_map).collect(),
             blended: flag("GpcGeometry.blended", self.blended)?,
             clip: ClipSpace {
                 y_up: flag("GpcGeometry.y_up", self.y_up)?,
                 reversed_depth: flag("GpcGeometry.reversed_depth", self.reversed_depth)?,
+                depth_range: [self.min_depth, self.max_depth],
             },
         })
     }
+}
+
+/// How the corners of a draw make triangles: which of its indices, or of its vertices where there are none, belong to which.
+/// Primitive restart is not known: a draw is one strip or fan.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcTopology {
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: each three make one.
+    List = 0,
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each one from the third on makes one with the two before it.
+    Strip = 1,
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each one from the third on makes one with the one before it and the first.
+    Fan = 2,
 }
 
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcDraw {
-    /// Its first index.
+    /// Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
     pub first_index: u32,
     /// How many triangles it has.
     pub triangle_count: u32,
@@ -244,12 +350,16 @@ pub struct GpcDraw {
     /// VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
     /// lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
     pub blended: vk::Bool32,
+    /// The buffers that it reads: 0 for those of GpcGeometry itself, n for GpcGeometry.more_meshes[n - 1].
+    pub mesh: u32,
+    /// How its indices, or its vertices, make triangles: a GpcTopology.
+    pub topology: u32,
 }
 
 // SAFETY: `repr(C)`; numbers may have any bytes.
 unsafe impl Element for GpcDraw {
     const NAME: &'static str = "GpcDraw";
-    const SIZES: &'static [usize] = sizes!(GpcDraw, blended);
+    const SIZES: &'static [usize] = sizes!(GpcDraw, blended, topology);
 }
 
 impl GpcDraw {
@@ -268,9 +378,24 @@ impl GpcDraw {
     }
 
     fn draw(&self) -> Result<Draw, Error> {
+        let topologies = [
+            (
+                GpcTopology::List as u32,
+                "GPC_TOPOLOGY_LIST",
+                Topology::List,
+            ),
+            (
+                GpcTopology::Strip as u32,
+                "GPC_TOPOLOGY_STRIP",
+                Topology::Strip,
+            ),
+            (GpcTopology::Fan as u32, "GPC_TOPOLOGY_FAN", Topology::Fan),
+        ];
         Ok(Draw {
+            mesh: self.mesh,
             first_index: self.first_index,
             triangle_count: self.triangle_count,
+            topology: choice("GpcDraw.topology", self.topology, &topologies)?,
             vertex_offset: self.vertex_offset,
             vertex_count: self.vertex_count,
             to_clip: self.to_clip,

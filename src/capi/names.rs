@@ -1,6 +1,7 @@
 //! C's names in messages of the engine.
 
 use super::error::Error;
+use super::options::GROWTHS;
 use crate::host::{EngineError, HostError};
 use crate::vulkan::VulkanError;
 
@@ -27,8 +28,40 @@ pub(super) fn in_c(error: &HostError) -> String {
             what.to_lowercase()
         ),
         HostError::NoCoordinates => {
-            "there are alpha maps and no texture coordinates: lend GpcGeometry.coordinates".to_owned()
+            "GpcGeometry.coordinates is VK_NULL_HANDLE: alpha maps are looked up by texture coordinates".to_owned()
         }
+        HostError::DrawCoordinates { draw, mesh } => format!(
+            "draw {draw} has an alpha map, and its mesh {mesh} has no texture coordinates: lend {}.coordinates",
+            if *mesh == 0 { "GpcGeometry" } else { "GpcMesh" }
+        ),
+        HostError::NoMesh { draw, mesh, meshes } => format!(
+            "GpcDraw.mesh of draw {draw} is {mesh}; it can be 0 to {}, as GpcGeometry.more_mesh_count is {0}",
+            meshes.saturating_sub(1)
+        ),
+        HostError::Mesh { mesh: 0, error } => in_c(error),
+        HostError::Mesh { mesh, error } => format!(
+            "GpcGeometry.more_meshes[{}]: {}",
+            mesh - 1,
+            in_c(error).replace("GpcGeometry.", "GpcMesh.")
+        ),
+        HostError::DepthRange([least, most]) => format!(
+            "GpcGeometry.min_depth is {least} and GpcGeometry.max_depth is {most}; they have to be finite numbers that differ"
+        ),
+        HostError::Viewport {
+            x,
+            y,
+            width,
+            height,
+            height_sign,
+            y_up,
+        } => format!(
+            "GpcScenery.viewport is {width} x {height} pixels at ({x}, {y}); it needs finite numbers, a positive width, and a height that is {height_sign} as GpcGeometry.y_up is {}",
+            if *y_up { "VK_TRUE" } else { "VK_FALSE" }
+        ),
+        HostError::ViewportPart { viewport, part } => format!(
+            "GpcScenery.viewport holds the pixels from ({}, {}) to ({}, {}), and the frame is of those from ({}, {}) to ({}, {}): a frame's part of the images has to lie in the viewport; make the size in GpcOptions smaller, or begin it elsewhere by GpcImages.corner",
+            viewport[0], viewport[1], viewport[2], viewport[3], part[0], part[1], part[2], part[3]
+        ),
         HostError::BlendedCentres => {
             "GpcGeometry.blended with GpcOptions.shade_all: centres are shaded by the nearest surface alone; draw the colours yourself".to_owned()
         }
@@ -46,7 +79,7 @@ pub(super) fn in_c(error: &HostError) -> String {
             "GpcScenery.projection has a scale of 0 along y: it is projection[1][1], in columns".to_owned()
         }
         HostError::IndexType { found } => format!(
-            "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)",
+            "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0), VK_INDEX_TYPE_UINT32 (1) or VK_INDEX_TYPE_NONE_KHR (1000165000)",
             found.as_raw()
         ),
         HostError::NullHandle(what) => HostError::NullHandle(c_name(what)).to_string(),
@@ -130,6 +163,9 @@ pub(super) fn in_c(error: &HostError) -> String {
             limit: *limit,
         }
         .to_string(),
+        HostError::Engine(EngineError::Growths { asked, .. }) => {
+            format!("GpcOptions.growths is {asked}; it can be {GROWTHS}")
+        }
         HostError::Engine(EngineError::Background(found)) => {
             format!("GpcOptions.background is {found:?}: its light must be finite")
         }
@@ -163,7 +199,7 @@ fn image_name(what: &str) -> &str {
 }
 
 /// What the engine's errors call members, and C's names of these.
-const NAMES: [(&str, &str); 30] = [
+const NAMES: [(&str, &str); 32] = [
     ("the buffer of positions", "GpcGeometry.positions"),
     ("the buffer of indices", "GpcGeometry.indices"),
     ("the buffer of coordinates", "GpcGeometry.coordinates"),
@@ -177,6 +213,8 @@ const NAMES: [(&str, &str); 30] = [
         "the capacity of positions in object space",
         "GpcGeometry.position_capacity",
     ),
+    ("vertices of all meshes", "the sum of all vertex_capacity"),
+    ("the number of meshes", "1 + GpcGeometry.more_mesh_count"),
     ("index_capacity", "GpcGeometry.index_capacity"),
     ("triangle_capacity", "GpcGeometry.triangle_capacity"),
     ("draw_capacity", "GpcGeometry.draw_capacity"),

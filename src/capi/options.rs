@@ -58,6 +58,12 @@ pub enum GpcDetection {
 /// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
 pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
 
+/// The value of GpcOptions.growths for the number that suits the samples: 1, and 2 from 128 samples on.
+pub const GPC_GROWTHS_OF_SAMPLES: u32 = u32::MAX;
+
+/// What GpcOptions.growths can be.
+pub(super) const GROWTHS: &str = "0 to 8, or GPC_GROWTHS_OF_SAMPLES";
+
 /// How a frame is antialiased; gpc_init_options gives defaults.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -114,12 +120,17 @@ pub struct GpcOptions {
     pub locations: *const [f32; 2],
     /// Bound on the device memory of a frame in bytes, 0 for none.
     pub max_memory: u64,
+    /// How often pixels become superpixels because they contrast with a superpixel beside them, with GPC_DETECTION_CONTRAST: 0 to 8, or
+    /// GPC_GROWTHS_OF_SAMPLES.
+    pub growths: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcOptions {
     const NAME: &'static str = "GpcOptions";
-    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory);
+    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, reserved);
 
     fn defaults() -> Self {
         let defaults = Options::new(0, 0);
@@ -129,6 +140,7 @@ unsafe impl Element for GpcOptions {
             shading: GpcShading::Part as u32,
             detection: GpcDetection::Contrast as u32,
             contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
+            growths: defaults.growths.map_or(GPC_GROWTHS_OF_SAMPLES, u32::from),
             thin: u32::from(defaults.thin),
             high_dynamic_range: u32::from(defaults.high_dynamic_range),
             sharp: u32::from(defaults.sharp),
@@ -207,6 +219,14 @@ impl GpcOptions {
                     name: "GpcOptions.contrast",
                     found: asked,
                     possible: "0 to 255, or GPC_CONTRAST_OF_SAMPLES".to_owned(),
+                })?),
+            },
+            growths: match self.growths {
+                GPC_GROWTHS_OF_SAMPLES => None,
+                asked => Some(u8::try_from(asked).map_err(|_| Error::Value {
+                    name: "GpcOptions.growths",
+                    found: asked,
+                    possible: GROWTHS.to_owned(),
                 })?),
             },
             thin: flag("GpcOptions.thin", self.thin)?,

@@ -5,8 +5,10 @@
 
 use std::ops::Range;
 
-/// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
-const MOST_TRIALS: u64 = 1 << 31;
+/// Largest number of tests of a triangle in a tile that a round makes for tiles without a list.
+const MOST_TRIALS: u32 = 1 << 28;
+/// Number of entries of such tiles that a round takes in any case.
+const FEWEST_TRIED: u32 = 4096;
 
 /// Facts about a tile before the first round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +34,7 @@ pub enum ScheduledList {
     Masked,
     /// Tiles that also have BLEND triangles.
     Blended,
-    /// Tiles without a list, for which every triangle is a candidate.
+    /// Tiles without a list, to whose samples triangles are shown one by one.
     Unlisted,
 }
 
@@ -51,8 +53,12 @@ pub struct Rounds {
     pub layers: u32,
     /// Number of triangles of the scene.
     pub triangles: u32,
-    /// Largest number of triangles that can be tested in a cell.
+    /// Number of invocations of a subgroup; an entry has as many cells.
+    pub lanes: u32,
+    /// Largest number of candidates of a tile with a list.
     pub longest_list: u32,
+    /// The same for tiles with BLEND triangles.
+    pub longest_layered: u32,
     /// Whether the scene has BLEND triangles.
     pub blends: bool,
     /// Number of candidates for which a round has room.
@@ -87,7 +93,12 @@ impl Rounds {
     /// List in which a tile with superpixels is entered.
     #[must_use]
     pub fn list(&self, tile: Tile) -> ScheduledList {
-        if tile.overflows || tile.candidates > self.candidates {
+        let longest = if tile.has_blend {
+            self.longest_layered
+        } else {
+            self.longest_list
+        };
+        if tile.overflows || tile.candidates > longest.min(self.candidates) {
             ScheduledList::Unlisted
         } else if tile.has_blend {
             ScheduledList::Blended
@@ -98,7 +109,8 @@ impl Rounds {
         }
     }
 
-    /// Needs of a tile: candidates, records, headers, and cells in which every triangle is tested.
+    /// Needs of a tile: candidates or the room of its samples in their place, records, headers, and entries without a
+    /// list.
     fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] =
             [self.samples, self.block, self.parts, self.layers].map(u64::from);
@@ -111,7 +123,8 @@ impl Rounds {
         } else {
             tile.candidates
         });
-        let records = if tile.has_blend || (unlisted && self.blends) {
+        let layered = tile.has_blend || (unlisted && self.blends);
+        let records = if layered {
             let lists_of_block = if parts > 8 {
                 layers * parts / 4
             } else {
@@ -129,10 +142,10 @@ impl Rounds {
             all_samples.min(headers * block.min(parts * candidates))
         };
         let cells = u64::from(tile.cells);
+        let owners = all_samples.div_ceil(4) * if layered { layers / 2 } else { 1 };
         match (unlisted, cells) {
             (_, 0) => [0; 4],
-            (true, _) if self.triangles > self.longest_list => [0, records, headers, 0],
-            (true, _) => [0, records, headers, cells],
+            (true, _) => [owners, records, headers, cells.div_ceil(self.lanes.into())],
             (false, _) => [candidates, records, headers, 0],
         }
     }
@@ -141,8 +154,8 @@ impl Rounds {
     #[must_use]
     pub fn of(&self, tiles: &[Tile]) -> Vec<Round> {
         let [candidates, records] = [self.candidates, self.records].map(u64::from);
-        let tried = MOST_TRIALS / u64::from(self.triangles);
-        let room = [candidates, records, records, tried];
+        let tried = (MOST_TRIALS / self.triangles).max(FEWEST_TRIED);
+        let room = [candidates, records, records, tried.into()];
         let mut rounds = Vec::new();
         let mut next = 0;
         while next < tiles.len() {

@@ -129,8 +129,8 @@ pub struct PixelAttributes {
     pub padding: u32,
 }
 
-/// Number of times that a frame's capacity is doubled before its error is reported.
-const RETRIES: u32 = 6;
+/// Number of times that a frame's capacity is raised before its error is reported.
+const RETRIES: u32 = 10;
 
 impl Headless {
     /// Opens a device and makes a renderer on it.
@@ -281,9 +281,10 @@ impl Headless {
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
-                    // The image is complete: tiles without a candidate list tried every triangle, which is slow.
-                    if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
-                        self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
+                    // The image is complete: where pairs were not kept, every triangle was tried, which is slow.
+                    let rooms = frame.shortfall()?.rooms;
+                    if rooms > 1 && frame.lists_can_grow() {
+                        self.prepare_again(frame, frame.capacity().with_lists(rooms))?;
                     }
                     return Ok(image);
                 }

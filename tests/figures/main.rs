@@ -12,6 +12,7 @@ mod plot;
 mod sets;
 mod table;
 mod text;
+mod time_to_error;
 
 /// Compares the files in the repository with the generated ones, or writes them.
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::data::{self, Measurement, Row, Spread, spread};
 use crate::text::{Table, cells, error, grouped, short};
+use crate::time_to_error;
 
 /// Column of a quality file.
 type Column = fn(&Row) -> f64;
@@ -84,6 +85,10 @@ pub fn readme() -> String {
     line("superpixel time / `ssaa` time", &|n| {
         with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n)))
     });
+    line(
+        "superpixel time to the RMSE of `ssaa` / `ssaa` time",
+        &|n| with_worst(time_to_error::shares(of, &scenes, n)),
+    );
     line("superpixel RMSE / `ssaa` RMSE", &|n| {
         with_worst(ratios(of, &scenes, RMSE, ("superpixel", n), ("ssaa", n)))
     });

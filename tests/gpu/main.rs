@@ -4,6 +4,7 @@ mod area;
 mod bare;
 mod blend;
 mod coverage;
+mod dense;
 mod detect;
 mod devices;
 #[path = "../common/difference.rs"]

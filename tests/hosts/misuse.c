@@ -363,6 +363,17 @@ static void recordings(GpcFrame *frame, GpcImages images) {
     draws[1].key = 1;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.key of draw 1 is 1; it can be 0 to 0, as GpcGeometry.keys is 1");
     draws[1].key = 0;
+    draws[1].mesh = 1;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.mesh of draw 1 is 1; it can be 0 to 0, as GpcGeometry.more_mesh_count is 0");
+    draws[1].mesh = 0;
+    draws[1].topology = 3;
+    ANSWERS(RECORD, GPC_RESULT_VALUE,
+            "GpcDraw.topology is 3; it can be GPC_TOPOLOGY_LIST (0), GPC_TOPOLOGY_STRIP (1), GPC_TOPOLOGY_FAN (2)");
+    draws[1].topology = GPC_TOPOLOGY_STRIP;
+    draws[1].triangle_count = 5;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 reads indices up to 13, and there are 12");
+    draws[1].topology = GPC_TOPOLOGY_LIST;
+    draws[1].triangle_count = 2;
     draws[1].alpha_map = 70000;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.alpha_map is 70000; it can be 0 to 65536");
     draws[1].alpha_map = 1;
@@ -391,6 +402,16 @@ static void recordings(GpcFrame *frame, GpcImages images) {
     scenery.projection[1][1] = 0;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcScenery.projection has a scale of 0 along y");
     scenery.projection[1][1] = 1;
+    scenery.viewport[2] = scenery.viewport[3] = SIDE;
+    ANSWERS(RECORD, GPC_RESULT_VALUE,
+            "GpcScenery.viewport is 64 x 64 pixels at (0, 0); it needs finite numbers, a positive width, and a height that is negative "
+            "as GpcGeometry.y_up is VK_TRUE");
+    scenery.viewport[0] = 0.5f;
+    scenery.viewport[1] = SIDE;
+    scenery.viewport[3] = -SIDE;
+    ANSWERS(RECORD, GPC_RESULT_VALUE,
+            "GpcScenery.viewport holds the pixels from (0.5, 0) to (64.5, 64), and the frame is of those from (0, 0) to (64, 64)");
+    memset(scenery.viewport, 0, sizeof scenery.viewport);
     images.corner[1] = 0xffffffffu;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "the frame's part of the images ends at");
     images.corner[1] = 0;
@@ -584,13 +605,28 @@ static void frames(void) {
     geometry.vertex_capacity = 0xffffffffu;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.positions needs");
     geometry.vertex_capacity = VERTICES;
-    geometry.index_type = VK_INDEX_TYPE_NONE_KHR;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.index_type is 1000165000; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)");
+    geometry.index_type = (VkIndexType)2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.index_type is 2; it can be VK_INDEX_TYPE_UINT16 (0), VK_INDEX_TYPE_UINT32 (1) or VK_INDEX_TYPE_NONE_KHR (1000165000)");
     geometry.index_type = VK_INDEX_TYPE_UINT16;
     geometry.indices_offset = 1;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.indices_offset is 1 bytes; it can be a multiple of 2");
     geometry.index_type = VK_INDEX_TYPE_UINT32;
     geometry.indices_offset = 0;
+    GpcMesh mesh = {.positions = positions, .position_stride = 16, .vertex_capacity = VERTICES, .index_type = VK_INDEX_TYPE_NONE_KHR};
+    geometry.more_mesh_count = 1;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.more_meshes is NULL");
+    geometry.more_meshes = &mesh;
+    ANSWERS(CREATE, GPC_RESULT_STRUCT_SIZE, "GpcGeometry.more_mesh_stride is 0; it can be sizeof(GpcMesh), which is");
+    geometry.more_mesh_stride = sizeof mesh;
+    mesh.positions = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.more_meshes[0]: GpcMesh.positions is VK_NULL_HANDLE");
+    mesh.positions = positions;
+    mesh.position_stride = 8;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.more_meshes[0]: GpcMesh.position_stride is 8 bytes; it can be any multiple of 4 from 12 on");
+    geometry.more_mesh_count = 0;
+    geometry.max_depth = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.min_depth is 0 and GpcGeometry.max_depth is 0; they have to be finite numbers that differ");
+    geometry.max_depth = 1;
     geometry.y_up = 3;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.y_up is 3");
     geometry.y_up = VK_TRUE;
@@ -633,6 +669,11 @@ static void frames(void) {
     options.contrast = 256;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.contrast is 256");
     options.contrast = 10;
+    options.growths = 9;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 9; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
+    options.growths = 300;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 300; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
+    options.growths = 3;
     options.width = 0;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "an image of 0 x 64 pixels");
     options.width = SIDE;

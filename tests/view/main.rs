@@ -1028,3 +1028,41 @@ fn without_a_display_the_command_that_needs_none_is_named() {
     let said = finish(output).exits(3).says(&["gpc render", "DISPLAY"]);
     assert!(!said.stderr.contains(".rs:"), "{}", said.stderr);
 }
+
+/// The example's frames fill the window in each size that it gets.
+#[test]
+fn a_host_shows_its_frames_in_a_window_that_is_resized() {
+    let display = Display::open();
+    let test = std::env::current_exe().unwrap();
+    let profile = test.parent().and_then(Path::parent).unwrap();
+    let mut host = Program::start(
+        Command::new(profile.join("examples/window"))
+            .env("DISPLAY", &display.name)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation"),
+    );
+    host.wait_for("shows 320 x 180 pixels");
+    for size in [["400", "240"], ["200", "300"]] {
+        display.input(&[&["search", "--name", "visibility", "windowsize"][..], &size].concat());
+        host.wait_for(&format!("shows {} x {} pixels", size[0], size[1]));
+        let pixels = display.pixels([200, 240]);
+        let colors: std::collections::HashSet<_> = pixels.iter().collect();
+        assert!(colors.len() > 200, "{} colours", colors.len());
+    }
+    display.input(&["search", "--name", "visibility", "windowfocus"]);
+    let until = Instant::now() + PATIENCE;
+    let line = loop {
+        // The window may not have the focus yet.
+        display.input(&["key", "Escape"]);
+        let soon = Instant::now() + Duration::from_secs(2);
+        if let Some(line) = host.wait_until(" frames, ", soon) {
+            break line;
+        }
+        assert!(Instant::now() < until, "the window does not close");
+    };
+    assert!(line.ends_with(" 0 left over"), "{line}");
+    host.ended_well();
+    for line in &host.said {
+        assert!(!line.contains("Validation"), "{line}");
+    }
+}

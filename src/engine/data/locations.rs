@@ -75,7 +75,7 @@ impl LocationSizes {
         let [locations, cells, places, groups] =
             [self.locations, self.cells, self.places, self.groups].map(u64::from);
         let listed = if self.lent { 0 } else { locations };
-        32 * (listed + cells) + 4 * places + 16 * groups + (8 + 4 * LocationBuffers::LOAD) * tiles
+        32 * (listed + cells) + 4 * places + 16 * groups + (16 + 4 * LocationBuffers::LOAD) * tiles
     }
 }
 
@@ -141,7 +141,7 @@ pub struct LocationBuffers {
     pub cells: BufferView,
     /// A vector for each group.
     pub groups: BufferView,
-    /// Numbers of cells and samples of each tile.
+    /// Numbers of cells and samples, and first cell, of each tile.
     pub tile_loads: Buffer,
     /// Words of `distribute` for each tile: see `shaders/include/tile_locations.glsl`.
     pub(crate) loads: Buffer,
@@ -179,7 +179,7 @@ impl LocationBuffers {
             )?,
             cells: vectors("cells of locations", 2 * sizes.cells)?,
             groups: vectors("groups of cells", sizes.groups)?,
-            tile_loads: words("cells and samples of tiles", 2 * tiles)?,
+            tile_loads: words("cells and samples of tiles", 4 * tiles)?,
             loads: words("loads of tiles", Self::LOAD * tiles)?,
         })
     }

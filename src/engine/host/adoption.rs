@@ -1,8 +1,8 @@
 //! How what a host lends becomes triangles that passes read.
 
 use super::content::HostContent;
-use super::draw::PlacedDraws;
-use super::{Geometry, HostError, PositionSpace, Shared};
+use super::draw::{DrawRun, PlacedDraws};
+use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared};
 use crate::engine::data::Draws;
 use crate::engine::passes::{AdoptedCounts, VertexCounts};
 use crate::engine::pipelines::OwnSet;
@@ -12,11 +12,59 @@ use std::sync::Arc;
 /// The passes that read a host's buffers, and a frame's draws.
 pub(super) struct Adoption {
     pub draws: Draws,
-    transform: Option<(Pipeline, OwnSet)>,
-    coordinates: Option<(Pipeline, OwnSet)>,
-    adopt: (Pipeline, OwnSet),
+    transform: Option<Pipeline>,
+    coordinates: Option<Pipeline>,
+    /// For meshes without indices, with indices of 16 bits, and of 32.
+    adopt: [Option<Pipeline>; 3],
+    /// Of each mesh.
+    sets: Vec<MeshSets>,
     geometry: Geometry,
     shared: Arc<Shared>,
+}
+
+/// What passes read of a mesh.
+struct MeshSets {
+    transform: Option<OwnSet>,
+    coordinates: Option<OwnSet>,
+    adopt: OwnSet,
+}
+
+/// Which pipeline of `adopt` reads these indices.
+fn kernel(indices: Option<Indices>) -> usize {
+    indices.map_or(0, |indices| if indices.are_short() { 1 } else { 2 })
+}
+
+impl MeshSets {
+    /// # Safety
+    /// The mesh's buffers are as [`Geometry`] says and outlive this.
+    unsafe fn new(
+        shared: &Shared,
+        draws: &Draws,
+        (geometry, mesh): (&Geometry, &Mesh),
+        content: &HostContent,
+    ) -> Result<Self, HostError> {
+        let limits = shared.gpu.limits();
+        let (triangles, draw_of) = (content.triangles(), content.draw_of());
+        // Without indices, the shader does not read that binding.
+        let indices = mesh.indices.map(|indices| indices.lent(limits).info());
+        let lent = content.alpha().zip(mesh.lent_coordinates(limits));
+        // SAFETY: of the host's buffers as the caller says; the rest goes with the frame.
+        unsafe {
+            let transform = content.made_positions().map(|made| {
+                let lent = mesh.lent_positions(geometry.position_space, limits);
+                shared.transform.set(draws, lent.info(), made)
+            });
+            let coordinates = lent.map(|(alpha, (_, lent))| {
+                let made = &alpha.coordinates.buffer;
+                shared.coordinates.set(draws, lent.info(), made)
+            });
+            Ok(Self {
+                transform: transform.transpose()?,
+                coordinates: coordinates.transpose()?,
+                adopt: shared.adopt.set(draws, indices, triangles, draw_of)?,
+            })
+        }
+    }
 }
 
 impl Adoption {
@@ -28,37 +76,30 @@ impl Adoption {
         geometry: &Geometry,
         content: &HostContent,
     ) -> Result<Self, HostError> {
-        let (gpu, transform, adopt) = (&shared.gpu, &shared.transform, &shared.adopt);
+        let gpu = &shared.gpu;
         let has_matrices = geometry.position_space != PositionSpace::Clip;
         let draws = Draws::new(memory, geometry.draw_capacity, has_matrices)?;
-        let vertices = geometry.lent_positions(gpu.limits()).info();
-        let indices = geometry.lent_indices(gpu.limits()).info();
-        // SAFETY: of the host's buffers as the caller says; the rest goes with the frame.
-        let (transform_set, coordinates_set, adopt_set) = unsafe {
-            let made = content.made_positions();
-            let set = made.map(|made| transform.set(&draws, vertices, made));
-            let lent = geometry.lent_coordinates(gpu.limits());
-            let coordinates = content.alpha().zip(lent).map(|(alpha, lent)| {
-                let made = &alpha.coordinates.buffer;
-                shared.coordinates.set(&draws, lent.info(), made)
-            });
-            let (triangles, draw_of) = (content.triangles(), content.draw_of());
-            (
-                set.transpose()?,
-                coordinates.transpose()?,
-                adopt.set(&draws, indices, triangles, draw_of)?,
-            )
-        };
-        let with_pipeline = |set| Ok::<_, HostError>((transform.pipeline(gpu, &draws)?, set));
-        let with_coordinates =
-            |set| Ok::<_, HostError>((shared.coordinates.pipeline(gpu, &draws)?, set));
+        let sets = geometry.meshes.iter().map(|mesh| {
+            // SAFETY: passed on to the caller.
+            unsafe { MeshSets::new(shared, &draws, (geometry, mesh), content) }
+        });
+        let sets = sets.collect::<Result<Vec<_>, _>>()?;
+        let mut adopt = [None, None, None];
+        for mesh in &geometry.meshes {
+            let pipeline = &mut adopt[kernel(mesh.indices)];
+            if pipeline.is_none() {
+                let are_short = mesh.indices.map(|indices| indices.are_short());
+                *pipeline = Some(shared.adopt.pipeline(gpu, are_short)?);
+            }
+        }
+        let transform = || shared.transform.pipeline(gpu, &draws);
+        let coordinates = || shared.coordinates.pipeline(gpu, &draws);
+        let transforms = content.made_positions().is_some();
         Ok(Self {
-            coordinates: coordinates_set.map(with_coordinates).transpose()?,
-            transform: transform_set.map(with_pipeline).transpose()?,
-            adopt: (
-                adopt.pipeline(gpu, geometry.has_short_indices())?,
-                adopt_set,
-            ),
+            transform: transforms.then(transform).transpose()?,
+            coordinates: content.alpha().is_some().then(coordinates).transpose()?,
+            adopt,
+            sets,
             draws,
             geometry: geometry.clone(),
             shared: shared.clone(),
@@ -72,34 +113,75 @@ impl Adoption {
         }
         self.draws
             .record_upload(recorder, &placed.draws, &placed.matrices);
+        self.record_vertices(recorder, placed);
         let limits = self.shared.gpu.limits();
-        let draws = placed.draws.len() as u32;
-        let counts = |before: u32, stride: u32| VertexCounts {
-            position_count: placed.positions,
-            draw_count: draws,
+        for run in &placed.runs {
+            let indices = self.geometry.meshes[run.mesh].indices;
+            let Some(pipeline) = &self.adopt[kernel(indices)] else {
+                continue;
+            };
+            let counts = AdoptedCounts {
+                first_triangle: run.triangles[0],
+                triangle_count: run.triangles[1],
+                draw_count: placed.draws.len() as u32,
+                first_index: indices.map_or(0, |indices| indices.first_lent(limits)),
+                index_count: indices.map_or(0, |indices| indices.capacity),
+                topology: run.topology as u32,
+            };
+            let set = &self.sets[run.mesh].adopt;
+            self.shared.adopt.record(recorder, pipeline, set, counts);
+        }
+    }
+
+    fn record_vertices(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
+        let limits = self.shared.gpu.limits();
+        let parts = self.vertex_parts(placed);
+        let counts = |[first, count]: [u32; 2], before: u32, stride: u32| VertexCounts {
+            first_position: first,
+            position_count: count,
+            draw_count: placed.draws.len() as u32,
             first_word: before / 4,
             stride: stride / 4,
         };
-        let lent = self.geometry.coordinates;
-        let coordinates = self.geometry.lent_coordinates(limits).zip(lent);
-        if let (Some((pipeline, set)), Some((bytes, lent))) = (&self.coordinates, coordinates) {
-            let counts = counts(bytes.before, lent.stride);
-            let coordinates = &self.shared.coordinates;
-            coordinates.record(recorder, pipeline, set, counts);
+        if let Some(pipeline) = &self.coordinates {
+            for &(mesh, positions) in &parts {
+                let lent = self.geometry.meshes[mesh].lent_coordinates(limits);
+                if let Some((set, (lent, bytes))) = self.sets[mesh].coordinates.as_ref().zip(lent) {
+                    let counts = counts(positions, bytes.before, lent.stride);
+                    let coordinates = &self.shared.coordinates;
+                    coordinates.record(recorder, pipeline, set, counts);
+                }
+            }
         }
-        if let Some((pipeline, set)) = &self.transform {
-            let before = self.geometry.lent_positions(limits).before;
-            let counts = counts(before, self.geometry.position_stride);
-            let transform = &self.shared.transform;
-            transform.record(recorder, pipeline, set, counts);
+        if let Some(pipeline) = &self.transform {
+            for &(mesh, positions) in &parts {
+                let lent = &self.geometry.meshes[mesh];
+                let before = lent
+                    .lent_positions(self.geometry.position_space, limits)
+                    .before;
+                if let Some(set) = &self.sets[mesh].transform {
+                    let counts = counts(positions, before, lent.position_stride);
+                    let transform = &self.shared.transform;
+                    transform.record(recorder, pipeline, set, counts);
+                }
+            }
         }
-        let counts = AdoptedCounts {
-            triangle_count: placed.triangles,
-            draw_count: draws,
-            first_index: self.geometry.first_lent_index(limits),
-            index_count: self.geometry.index_capacity,
-        };
-        let (pipeline, set) = &self.adopt;
-        self.shared.adopt.record(recorder, pipeline, set, counts);
+    }
+
+    /// Meshes, and the first and the number of positions in clip space that are made of each: of a run of draws or, where the host
+    /// has them in clip space, of a mesh that is drawn.
+    fn vertex_parts(&self, placed: &PlacedDraws) -> Vec<(usize, [u32; 2])> {
+        if self.geometry.position_space != PositionSpace::Clip {
+            let part = |run: &DrawRun| (run.mesh, run.positions);
+            return placed.runs.iter().map(part).collect();
+        }
+        let mut is_drawn = vec![false; self.geometry.meshes.len()];
+        for run in &placed.runs {
+            is_drawn[run.mesh] = true;
+        }
+        let meshes = self.geometry.meshes.iter().enumerate();
+        let parts = meshes.zip(self.geometry.first_positions());
+        let parts = parts.map(|((number, mesh), first)| (number, [first, mesh.vertex_capacity]));
+        parts.filter(|(number, _)| is_drawn[*number]).collect()
     }
 }

@@ -51,8 +51,11 @@ impl HostContent {
             memory.texel_buffer(name, elements, format, usage, MemoryUse::Device)
         };
         let triangles = u64::from(geometry.triangle_capacity);
-        let positions = if geometry.is_read_in_place(gpu.limits()) {
-            let info = geometry.lent_positions(gpu.limits()).info();
+        let limits = gpu.limits();
+        let read_in_place = geometry.meshes.first();
+        let read_in_place = read_in_place.filter(|_| geometry.is_read_in_place(limits));
+        let positions = if let Some(mesh) = read_in_place {
+            let info = mesh.lent_positions(geometry.position_space, limits).info();
             let (buffer, offset, bytes) = (info.buffer, info.offset, info.range);
             Positions::Lent {
                 // SAFETY: passed on to the caller.

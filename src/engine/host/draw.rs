@@ -1,15 +1,19 @@
 //! What a host draws.
 
-use super::{Geometry, HostError, PositionSpace};
+use super::{Geometry, HostError, Mesh, PositionSpace, Topology};
 use crate::engine::data::{HostDraw, TriangleWord};
 
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
-    /// Its first index.
+    /// The buffers that it reads: the place of a mesh in [`Geometry::meshes`].
+    pub mesh: u32,
+    /// Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
     pub first_index: u32,
     /// How many triangles it has.
     pub triangle_count: u32,
+    /// How its indices, or its vertices, make triangles.
+    pub topology: Topology,
     /// Added to each of its indices.
     pub vertex_offset: i32,
     /// Where positions are in object space, how many vertices it has, from `vertex_offset` on. Larger indices are taken for
@@ -39,8 +43,10 @@ impl Default for Draw {
     /// Nothing, with the identity for a matrix.
     fn default() -> Self {
         Self {
+            mesh: 0,
             first_index: 0,
             triangle_count: 0,
+            topology: Topology::List,
             vertex_offset: 0,
             vertex_count: 0,
             to_clip: std::array::from_fn(|column| {
@@ -56,19 +62,32 @@ impl Default for Draw {
     }
 }
 
+/// Draws that follow each other and are read alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DrawRun {
+    /// Their mesh.
+    pub mesh: usize,
+    pub topology: Topology,
+    /// Their first triangle among those of all draws, and how many they have.
+    pub triangles: [u32; 2],
+    /// Where positions are in object space, their first one among those in clip space, and how many they have.
+    pub positions: [u32; 2],
+}
+
 /// A frame's draws as the device reads them.
+#[derive(Default)]
 pub(super) struct PlacedDraws {
     pub draws: Vec<HostDraw>,
     /// One a draw where positions are in object space; otherwise none.
     pub matrices: Vec<[[f32; 4]; 4]>,
+    /// Those with triangles.
+    pub runs: Vec<DrawRun>,
     /// Triangles of all.
     pub triangles: u32,
     /// Triangles of those that are opaque.
     pub opaque: u32,
     /// Triangles of those that are not blended.
     pub solid: u32,
-    /// Positions in clip space.
-    pub positions: u32,
 }
 
 impl PlacedDraws {
@@ -89,25 +108,24 @@ impl PlacedDraws {
         let in_clip = geometry.position_space == PositionSpace::Clip;
         let mut placed = Self {
             draws: Vec::with_capacity(draws.len()),
-            matrices: Vec::new(),
-            triangles: 0,
-            opaque: 0,
-            solid: 0,
-            positions: if in_clip { geometry.vertex_capacity } else { 0 },
+            ..Self::default()
         };
+        // Of the meshes, where positions are in clip space.
+        let firsts: Vec<u32> = geometry.first_positions().collect();
+        let mut made = 0;
         for (number, draw) in draws.iter().enumerate() {
-            draw.check(geometry, number)?;
+            let mesh = draw.check(geometry, number)?;
             let vertices = if in_clip || draw.triangle_count == 0 {
                 0
             } else {
                 draw.vertex_count
             };
             let triangles = u64::from(placed.triangles) + u64::from(draw.triangle_count);
-            let positions = u64::from(placed.positions) + u64::from(vertices);
+            let positions = u64::from(made) + u64::from(vertices);
             if triangles > u64::from(geometry.triangle_capacity) {
                 return Err(capacity("triangles", triangles, geometry.triangle_capacity));
             }
-            if positions > u64::from(geometry.position_capacity()) {
+            if !in_clip && positions > u64::from(geometry.position_capacity()) {
                 let most = geometry.position_capacity();
                 return Err(capacity("vertices", positions, most));
             }
@@ -120,20 +138,24 @@ impl PlacedDraws {
                 ..HostDraw::default()
             };
             placed.draws.push(if in_clip {
+                let first = firsts[draw.mesh as usize];
                 HostDraw {
                     vertex_offset: offset,
-                    last_position: geometry.vertex_capacity - 1,
+                    first_position: first,
+                    last_position: mesh.vertex_capacity - 1,
+                    shift: 0_u32.wrapping_sub(first),
                     ..common
                 }
             } else {
                 placed.matrices.push(draw.to_clip);
                 HostDraw {
-                    first_position: placed.positions,
+                    first_position: made,
                     last_position: vertices.saturating_sub(1),
-                    shift: offset.wrapping_sub(placed.positions),
+                    shift: offset.wrapping_sub(made),
                     ..common
                 }
             });
+            placed.extend_runs(draw, [made, vertices]);
             let comes_late = |before: u32| before < placed.triangles;
             if !draw.blended {
                 if comes_late(placed.solid) {
@@ -148,9 +170,29 @@ impl PlacedDraws {
                 placed.opaque = triangles as u32;
             }
             placed.triangles = triangles as u32;
-            placed.positions = positions as u32;
+            made = positions as u32;
         }
         Ok(placed)
+    }
+
+    /// Adds a draw to the last run or, if it is read in another way, as a new one.
+    fn extend_runs(&mut self, draw: &Draw, [first, vertices]: [u32; 2]) {
+        if draw.triangle_count == 0 {
+            return;
+        }
+        let (mesh, topology) = (draw.mesh as usize, draw.topology);
+        match self.runs.last_mut() {
+            Some(run) if (run.mesh, run.topology) == (mesh, topology) => {
+                run.triangles[1] += draw.triangle_count;
+                run.positions[1] += vertices;
+            }
+            _ => self.runs.push(DrawRun {
+                mesh,
+                topology,
+                triangles: [self.triangles, draw.triangle_count],
+                positions: [first, vertices],
+            }),
+        }
     }
 }
 
@@ -165,13 +207,21 @@ impl PlacedDraws {
 }
 
 impl Draw {
-    fn check(&self, geometry: &Geometry, draw: usize) -> Result<(), HostError> {
-        let end = u64::from(self.first_index) + 3 * u64::from(self.triangle_count);
-        if end > u64::from(geometry.index_capacity) {
+    /// Its mesh, where it fits.
+    fn check<'a>(&self, geometry: &'a Geometry, draw: usize) -> Result<&'a Mesh, HostError> {
+        let meshes = geometry.meshes.len();
+        let found = geometry.meshes.get(self.mesh as usize);
+        let mesh = found.ok_or(HostError::NoMesh {
+            draw,
+            mesh: self.mesh,
+            meshes,
+        })?;
+        let end = u64::from(self.first_index) + self.topology.corners(self.triangle_count);
+        if let Some(indices) = mesh.indices.filter(|lent| end > u64::from(lent.capacity)) {
             return Err(HostError::Indices {
                 draw,
                 end,
-                indices: geometry.index_capacity,
+                indices: indices.capacity,
             });
         }
         if self.key >= geometry.keys {
@@ -191,24 +241,49 @@ impl Draw {
         if let Some(map) = self.alpha_map.filter(|map| usize::from(*map) >= maps) {
             return Err(HostError::AlphaMap { draw, map, maps });
         }
-        if geometry.position_space == PositionSpace::Clip || self.triangle_count == 0 {
-            return Ok(());
+        if self.alpha_map.is_some() && mesh.coordinates.is_none() {
+            let mesh = self.mesh;
+            return Err(HostError::DrawCoordinates { draw, mesh });
+        }
+        if self.triangle_count == 0 {
+            return Ok(mesh);
         }
         let first = i64::from(self.vertex_offset);
+        let in_clip = geometry.position_space == PositionSpace::Clip;
+        if mesh.indices.is_none() {
+            let has = if in_clip {
+                [0, i64::from(mesh.vertex_capacity)]
+            } else {
+                [first, first + i64::from(self.vertex_count)]
+            };
+            let takes = [i64::from(self.first_index), end.cast_signed()].map(|at| first + at);
+            if takes[0] < has[0] || takes[1] > has[1] {
+                return Err(HostError::Corners {
+                    draw,
+                    first: takes[0],
+                    end: takes[1],
+                    from: has[0],
+                    vertices: has[1],
+                });
+            }
+        }
+        if in_clip {
+            return Ok(mesh);
+        }
         let end = first + i64::from(self.vertex_count);
-        let exist = first >= 0 && end <= i64::from(geometry.vertex_capacity);
+        let exist = first >= 0 && end <= i64::from(mesh.vertex_capacity);
         if !exist || self.vertex_count == 0 {
             return Err(HostError::Vertices {
                 draw,
                 first,
                 end,
-                vertices: geometry.vertex_capacity,
+                vertices: mesh.vertex_capacity,
             });
         }
         if !self.to_clip.as_flattened().iter().all(|n| n.is_finite()) {
             return Err(HostError::Matrix { draw });
         }
-        Ok(())
+        Ok(mesh)
     }
 
     fn word(&self) -> u32 {
@@ -225,26 +300,34 @@ impl Draw {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AlphaMap, ClipSpace};
+    use super::super::{AlphaMap, ClipSpace, Coordinates, Indices};
     use super::*;
     use ash::vk::{self, Handle};
 
-    fn geometry() -> Geometry {
-        Geometry {
+    fn mesh() -> Mesh {
+        Mesh {
             positions: vk::Buffer::from_raw(1),
             positions_offset: 0,
             position_stride: 16,
-            position_space: PositionSpace::Clip,
             vertex_capacity: 100,
-            indices: vk::Buffer::from_raw(2),
-            indices_offset: 0,
-            index_type: vk::IndexType::UINT32,
-            index_capacity: 60,
+            coordinates: None,
+            indices: Some(Indices {
+                buffer: vk::Buffer::from_raw(2),
+                offset: 0,
+                index_type: vk::IndexType::UINT32,
+                capacity: 60,
+            }),
+        }
+    }
+
+    fn geometry() -> Geometry {
+        Geometry {
+            meshes: vec![mesh()],
+            position_space: PositionSpace::Clip,
             triangle_capacity: 12,
             draw_capacity: 3,
             keys: 2,
             clip: ClipSpace::default(),
-            coordinates: None,
             alpha_maps: Vec::new(),
             blended: false,
         }
@@ -318,7 +401,13 @@ mod tests {
             ..in_object_space()
         };
         let placed = PlacedDraws::new(&geometry, &draws).unwrap();
-        assert_eq!(placed.positions, 40);
+        let run = DrawRun {
+            mesh: 0,
+            topology: Topology::List,
+            triangles: [0, 3],
+            positions: [0, 40],
+        };
+        assert_eq!(placed.runs, [run]);
         assert_eq!(placed.matrices.len(), 4);
         let places: Vec<_> = placed
             .draws
@@ -371,7 +460,16 @@ mod tests {
             address: [vk::SamplerAddressMode::REPEAT; 2],
             cutoff: 0.5,
         };
+        let with_coordinates = Mesh {
+            coordinates: Some(Coordinates {
+                buffer: vk::Buffer::from_raw(4),
+                offset: 0,
+                stride: 8,
+            }),
+            ..mesh()
+        };
         let geometry = Geometry {
+            meshes: vec![with_coordinates, mesh()],
             alpha_maps: vec![map; 2],
             ..geometry()
         };
@@ -395,6 +493,13 @@ mod tests {
         assert_eq!(
             refused(&[masked(2)]),
             "draw 0 has alpha map 2, and there are 2"
+        );
+        assert_eq!(
+            refused(&[Draw {
+                mesh: 1,
+                ..masked(0)
+            }]),
+            "draw 0 has an alpha map, and its mesh 1 has no texture coordinates: lend Mesh::coordinates"
         );
     }
 
@@ -466,5 +571,95 @@ mod tests {
         ] {
             assert_eq!(refused(&draws), message);
         }
+    }
+
+    #[test]
+    fn draws_of_several_meshes_are_read_in_runs() {
+        let bare = Mesh {
+            vertex_capacity: 50,
+            indices: None,
+            ..mesh()
+        };
+        let geometry = Geometry {
+            meshes: vec![mesh(), bare],
+            draw_capacity: 9,
+            ..geometry()
+        };
+        let of = |mesh, topology, first_index, triangle_count| Draw {
+            mesh,
+            topology,
+            ..draw(first_index, triangle_count, 0)
+        };
+        let draws = [
+            of(0, Topology::List, 0, 2),
+            of(0, Topology::List, 9, 1),
+            of(0, Topology::Fan, 55, 3),
+            of(1, Topology::Strip, 48, 0),
+            of(1, Topology::Strip, 44, 4),
+        ];
+        let placed = PlacedDraws::new(&geometry, &draws).unwrap();
+        let run = |mesh, topology, triangles| DrawRun {
+            mesh,
+            topology,
+            triangles,
+            positions: [0, 0],
+        };
+        let expected = [
+            run(0, Topology::List, [0, 3]),
+            run(0, Topology::Fan, [3, 3]),
+            run(1, Topology::Strip, [6, 4]),
+        ];
+        assert_eq!(placed.runs, expected);
+        let last = placed.draws[4];
+        let vertex = last.first_position.wrapping_add(last.shift);
+        assert_eq!(
+            (last.first_position, last.last_position, vertex),
+            (100, 49, 0)
+        );
+        let refused = |draw| {
+            PlacedDraws::new(&geometry, &[draw])
+                .err()
+                .unwrap()
+                .to_string()
+        };
+        assert_eq!(
+            refused(of(0, Topology::Fan, 56, 3)),
+            "draw 0 reads indices up to 61, and there are 60"
+        );
+        assert_eq!(
+            refused(of(1, Topology::Strip, 45, 4)),
+            "draw 0 takes the vertices from 45 to before 51 without indices, and has those from 0 to before 50"
+        );
+        assert_eq!(
+            refused(of(2, Topology::List, 0, 1)),
+            "draw 0 has mesh 2, and there are 2, from 0"
+        );
+    }
+
+    #[test]
+    fn draws_without_indices_have_their_vertices() {
+        let bare = Mesh {
+            indices: None,
+            ..mesh()
+        };
+        let geometry = Geometry {
+            meshes: vec![bare],
+            ..in_object_space()
+        };
+        let of = |first_index, vertex_offset, vertex_count| Draw {
+            first_index,
+            ..with_vertices(vertex_offset, vertex_count)
+        };
+        assert!(PlacedDraws::new(&geometry, &[of(5, 90, 8)]).is_ok());
+        let refused = |draw| {
+            PlacedDraws::new(&geometry, &[draw])
+                .err()
+                .unwrap()
+                .to_string()
+        };
+        assert_eq!(
+            refused(of(6, 90, 8)),
+            "draw 0 takes the vertices from 96 to before 99 without indices, and has those from 90 to before 98"
+        );
     }
 }

@@ -44,6 +44,49 @@ pub enum HostError {
         /// The least that it can be.
         least: u32,
     },
+    /// Something is wrong with one of several meshes.
+    #[error("mesh {mesh}: {error}")]
+    Mesh {
+        /// The mesh, by its place in the list.
+        mesh: usize,
+        /// What is wrong with it.
+        #[source]
+        error: Box<HostError>,
+    },
+    /// A depth range is empty, or not finite.
+    #[error(
+        "the depth range goes from {} to {}; its ends have to be finite numbers that differ", .0[0], .0[1]
+    )]
+    DepthRange([f32; 2]),
+    /// A viewport is no rectangle, or lies upside down.
+    #[error(
+        "the viewport is {width} x {height} pixels at ({x}, {y}); it needs finite numbers, a positive width, and a height that is {height_sign} as ClipSpace::y_up is {y_up}"
+    )]
+    Viewport {
+        /// Its left side.
+        x: f32,
+        /// Its first row.
+        y: f32,
+        /// Its width.
+        width: f32,
+        /// Its height.
+        height: f32,
+        /// Positive or negative.
+        height_sign: &'static str,
+        /// Whether y points up in clip space.
+        y_up: bool,
+    },
+    /// A viewport ends within the frame's part of the images: rasterizers draw nothing beyond it, and the library would.
+    #[error(
+        "the viewport holds the pixels from ({}, {}) to ({}, {}), and the frame is of those from ({}, {}) to ({}, {}): a frame's part of the images has to lie in the viewport; make Options::size smaller, or begin it elsewhere by Images::corner",
+        .viewport[0], .viewport[1], .viewport[2], .viewport[3], .part[0], .part[1], .part[2], .part[3]
+    )]
+    ViewportPart {
+        /// Left, upper, right and lower side of the viewport.
+        viewport: [f64; 4],
+        /// Those of the frame's part.
+        part: [u64; 4],
+    },
     /// Indices are of a type that is not read.
     #[error("index_type is {found:?}; it can be UINT16 or UINT32")]
     IndexType {
@@ -74,8 +117,44 @@ pub enum HostError {
         most: u32,
     },
     /// Alpha maps are looked up by coordinates.
-    #[error("there are alpha maps and no texture coordinates: lend Geometry::coordinates")]
+    #[error("there are alpha maps and no texture coordinates: lend Mesh::coordinates")]
     NoCoordinates,
+    /// A draw has an alpha map, and its mesh has no texture coordinates.
+    #[error(
+        "draw {draw} has an alpha map, and its mesh {mesh} has no texture coordinates: lend Mesh::coordinates"
+    )]
+    DrawCoordinates {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// Its mesh.
+        mesh: u32,
+    },
+    /// A draw has a mesh that there is none of.
+    #[error("draw {draw} has mesh {mesh}, and there are {meshes}, from 0")]
+    NoMesh {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// Its mesh.
+        mesh: u32,
+        /// How many there are.
+        meshes: usize,
+    },
+    /// A draw of a mesh without indices takes vertices that it does not have.
+    #[error(
+        "draw {draw} takes the vertices from {first} to before {end} without indices, and has those from {from} to before {vertices}"
+    )]
+    Corners {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// The first vertex that it takes.
+        first: i64,
+        /// One past the last.
+        end: i64,
+        /// The first one that it has.
+        from: i64,
+        /// One past the last.
+        vertices: i64,
+    },
     /// A coordinate beyond an alpha map leads to what is not read.
     #[error(
         "alpha map {map} has the address mode {found:?}; it can have REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE"
@@ -250,5 +329,16 @@ pub enum HostError {
 impl From<VulkanError> for HostError {
     fn from(error: VulkanError) -> Self {
         Self::Engine(error.into())
+    }
+}
+
+impl HostError {
+    /// Refuses a count that is 0 or too large.
+    pub(super) fn check_count(what: &'static str, found: u32, most: u32) -> Result<(), Self> {
+        if (1..=most).contains(&found) {
+            Ok(())
+        } else {
+            Err(Self::Count { what, found, most })
+        }
     }
 }

@@ -6,6 +6,7 @@ use super::lending::Lending;
 use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
+use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
 use crate::engine::data::{Content, FrameUniform, IdViews, Offsets, Resources, SampleSet};
 use crate::engine::passes::{HostImage, ListLength, Patch, Patched, RasterTargets};
@@ -24,12 +25,35 @@ use std::sync::Arc;
 
 /// What a recording shows.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Scenery<'a> {
     /// Runs of triangles. IDs count from 1 in their order.
     pub draws: &'a [Draw],
     /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     /// clip space. It tells how far apart two depths are.
     pub projection: [[f32; 4]; 4],
+    /// Where clip space lies on the images: the host's viewport, which holds the frame's part of the images. That part, of
+    /// [`Options::size`] from [`Images::corner`] on, is the host's scissor rectangle. `None` for a viewport that is the part.
+    pub viewport: Option<Viewport>,
+}
+
+impl<'a> Scenery<'a> {
+    /// Draws that are seen through a projection, with a viewport that is the frame's part of the images.
+    #[must_use]
+    pub fn new(draws: &'a [Draw], projection: [[f32; 4]; 4]) -> Self {
+        Self {
+            draws,
+            projection,
+            viewport: None,
+        }
+    }
+
+    /// Sets the viewport.
+    #[must_use]
+    pub fn viewport(mut self, viewport: Option<Viewport>) -> Self {
+        self.viewport = viewport;
+        self
+    }
 }
 
 /// What a recording did.
@@ -118,9 +142,16 @@ impl Work {
             .map(Arc::new);
         let cells = PixelCells {
             behind: image.clone().filter(|_| options.shows_drawn()),
-            farther_is_larger: kinds.ids && !lending.geometry.clip.reversed_depth,
             blend_ids: false,
             ..PixelCells::superpixels(&settings)
+        };
+        let cells = PixelCells {
+            depth_of_image: if kinds.ids {
+                lending.geometry.clip.depth_of_image()
+            } else {
+                cells.depth_of_image
+            },
+            ..cells
         };
         let mut sampler = cells.sampler(&SamplerContext {
             layout,
@@ -329,7 +360,8 @@ impl Frame {
         }
         let gpu = self.shared.gpu.clone();
         images.check(&self.kinds, &self.options, gpu.limits().max_image_side)?;
-        let uniform = self.uniform(&placed, scenery, images);
+        let plane = self.plane(scenery, images)?;
+        let uniform = self.uniform(&placed, scenery, images, &plane);
         let work = &mut self.work;
         let Some(set) = work.resources.set(0) else {
             return Ok(());
@@ -356,8 +388,8 @@ impl Frame {
         let settings = &work.settings;
         let footprints = Footprints::new(settings, settings.method.samples());
         let boxes = settings.filters_boxes();
-        let at_centres = lending.visible(settings, footprints.centre, false);
-        let at_places = lending.visible(settings, footprints.place, boxes);
+        let at_centres = Lending::visible(&plane, footprints.centre, false);
+        let at_places = Lending::visible(&plane, footprints.place, boxes);
         let shades_all = self.options.shade_all;
         let first = if shades_all { at_centres } else { at_places };
         lending.record_visible(recorder, &first);
@@ -415,20 +447,30 @@ impl Frame {
         })
     }
 
+    /// Where clip space lies on the images.
+    fn plane(&self, scenery: &Scenery<'_>, images: &Images) -> Result<ClipPlane, HostError> {
+        let (clip, size) = (&self.lending.geometry.clip, self.work.settings.size);
+        match &scenery.viewport {
+            Some(viewport) => ClipPlane::of_viewport(clip, viewport, images.corner, size),
+            None => Ok(ClipPlane::of_size(clip, size)),
+        }
+    }
+
     fn uniform(
         &self,
         placed: &PlacedDraws,
         scenery: &Scenery<'_>,
         images: &Images,
+        plane: &ClipPlane,
     ) -> FrameUniform {
         let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
         let plane = PlaneBlock {
-            gap: gap(&scenery.projection, settings.size[1]),
+            gap: gap(&scenery.projection, plane.scale[1].abs()),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
             alike: u32::from(settings.superpixels().threshold()).div_ceil(4),
             seen_corner: images.ids.map_or([0, 0], |_| images.corner),
             color_corner: images.corner,
-            ..plane_block(geometry, settings.size)
+            ..plane_block(&geometry.clip, plane, settings.size)
         };
         let footprints = Footprints::new(settings, settings.method.samples());
         frame_uniform(
@@ -441,9 +483,10 @@ impl Frame {
     }
 }
 
-/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
-fn gap(projection: &[[f32; 4]; 4], height: u32) -> [f32; 2] {
-    let pixel = 2.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * height as f32);
+/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth, where clip space has so many
+/// pixels to its upper side.
+fn gap(projection: &[[f32; 4]; 4], half_height: f32) -> [f32; 2] {
+    let pixel = 1.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * half_height);
     // Depth is near / distance in perspective, up to a constant, and linear in distance without.
     if projection[2][3] == 0.0 {
         [0.0, projection[2][2].abs() * pixel]
@@ -461,10 +504,10 @@ mod tests {
         let mut perspective = [[0.0; 4]; 4];
         perspective[1][1] = 2.0;
         perspective[2][3] = -1.0;
-        assert_eq!(gap(&perspective, 100), [0.01, 0.0]);
+        assert_eq!(gap(&perspective, 50.0), [0.01, 0.0]);
         let mut parallel = [[0.0; 4]; 4];
         parallel[1][1] = 2.0;
         parallel[2][2] = -0.5;
-        assert_eq!(gap(&parallel, 100), [0.0, 0.005]);
+        assert_eq!(gap(&parallel, 50.0), [0.0, 0.005]);
     }
 }

@@ -5,14 +5,13 @@ use super::alpha::AlphaReading;
 use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
-use super::uniform::scale;
+use super::viewport::ClipPlane;
 use super::{Geometry, HostError, Shared};
 use crate::engine::data::{
     ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
 };
 use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::Sampler;
-use crate::engine::sampler::Settings;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{EngineError, PassTime, Statistics};
 use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
@@ -137,10 +136,10 @@ impl Lending {
 
     /// What the host's shaders are told, who filter textures over squares of this side, in what places say or, with `boxes`,
     /// in what these say of rectangles.
-    pub fn visible(&self, settings: &Settings, place_side: f32, boxes: bool) -> VisibilityUniform {
+    pub fn visible(plane: &ClipPlane, place_side: f32, boxes: bool) -> VisibilityUniform {
         VisibilityUniform {
-            scale: scale(&self.geometry, settings.size),
-            half_size: settings.size.map(|side| 0.5 * side as f32),
+            scale: plane.scale,
+            middle: plane.middle.map(|at| at as f32),
             place_side,
             r#box: u32::from(boxes),
             ..VisibilityUniform::default()

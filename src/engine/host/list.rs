@@ -4,6 +4,7 @@ use super::draw::PlacedDraws;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
+use super::viewport::ClipPlane;
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
 use crate::engine::passes::spirv::frame_set;
@@ -169,7 +170,7 @@ impl List {
             lent: true,
         };
         let room = (list.capacity, padded(settings.size));
-        let sizes = cells.sizes(layout, content, &settings, room, capacity.lists);
+        let sizes = cells.sizes(layout, content, &settings, room, capacity);
         sizes.check("the largest list of a recording", limits)?;
         let (offsets, count) = cells.offsets(layout, &settings)?;
         let single = vk::SampleCountFlags::TYPE_1;
@@ -289,6 +290,7 @@ impl List {
             });
         }
         let uniform = self.uniform(&placed);
+        let plane = self.plane();
         let footprints = self.footprints();
         let gpu = self.shared.gpu.clone();
         let resources = &self.resources;
@@ -312,7 +314,7 @@ impl List {
         let boxes = self.settings.filters_boxes();
         let visible = VisibilityUniform {
             list: 1,
-            ..lending.visible(&self.settings, footprints.place, boxes)
+            ..Lending::visible(&plane, footprints.place, boxes)
         };
         lending.record_visible(recorder, &visible);
         if count > 0 {
@@ -368,13 +370,17 @@ impl List {
         Footprints::new(&self.settings, self.settings.method.samples())
     }
 
+    fn plane(&self) -> ClipPlane {
+        ClipPlane::of_size(&self.lending.geometry.clip, self.settings.size)
+    }
+
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
         let (settings, geometry) = (&self.settings, &self.lending.geometry);
         let sizes = self.resources.sizes();
         let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border.
             size: sizes.region,
-            ..plane_block(geometry, settings.size)
+            ..plane_block(&geometry.clip, &self.plane(), settings.size)
         };
         let samples = self.sampler.samples();
         frame_uniform(

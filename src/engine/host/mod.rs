@@ -17,6 +17,7 @@
 //! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
 
 mod adoption;
+mod alignment;
 mod alpha;
 mod base;
 mod content;
@@ -27,23 +28,29 @@ mod geometry;
 mod images;
 mod lending;
 mod list;
+mod mesh;
 mod options;
 mod scratch;
 mod shader;
 mod shading;
+mod topology;
 mod uniform;
+mod viewport;
 
 pub use crate::engine::sampler::{EngineError, ImageState, PassTime, Statistics, TriangleCounts};
 pub use alpha::AlphaMap;
 pub use draw::Draw;
 pub use error::HostError;
 pub use frame::{Frame, Outcome, Scenery};
-pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
+pub use geometry::{ClipSpace, Geometry, PositionSpace};
 pub use images::{ImageKinds, Images, LentImage};
 pub use list::{List, ListOutcome, Location, LocationList};
+pub use mesh::{Coordinates, Indices, Mesh};
 pub use options::Options;
 pub use shader::{ShaderError, check_shader};
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
+pub use topology::Topology;
+pub use viewport::Viewport;
 
 use crate::engine::data::visibility_layout;
 use crate::engine::passes::{self, Adopt, AlphaMaps, HostImageLayout, Transform};

@@ -21,6 +21,9 @@ pub struct Options {
     pub detection: Detection,
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is 6, and 1 from 128 samples on.
     pub contrast: Option<u8>,
+    /// How often pixels become superpixels because they contrast with a superpixel beside them, 0 to 8, with [`Detection::Contrast`];
+    /// `None` is once, and twice from 128 samples on.
+    pub growths: Option<u8>,
     /// Whether triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth, too.
     pub thin: bool,
     /// Linear light that shows where neither a triangle nor, unless [`Self::flat_background`] says otherwise, something that the
@@ -59,6 +62,7 @@ impl Options {
             shading: Shading::Part,
             detection: Detection::Contrast,
             contrast: None,
+            growths: None,
             thin: true,
             background: None,
             flat_background: false,
@@ -83,6 +87,7 @@ impl Options {
             shading: self.shading,
             detection: self.detection,
             contrast: self.contrast,
+            growths: self.growths,
             thin: self.thin,
         };
         Settings {
@@ -108,6 +113,7 @@ setters! {
         shading: Shading,
         detection: Detection,
         contrast: Option<u8>,
+        growths: Option<u8>,
         thin: bool,
         background: Option<[f32; 3]>,
         flat_background: bool,

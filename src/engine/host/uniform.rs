@@ -2,7 +2,8 @@
 
 use super::alpha::ROW;
 use super::draw::PlacedDraws;
-use super::{Geometry, HostError};
+use super::viewport::ClipPlane;
+use super::{ClipSpace, Geometry, HostError};
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock};
 
 /// Trips that loops have on CPU devices, with some to spare; in each, a workgroup of `bin` takes 64 tiles of 32 pixels.
@@ -33,11 +34,11 @@ pub(super) fn scene_block(geometry: &Geometry, placed: &PlacedDraws) -> SceneBlo
     }
 }
 
-/// The image of a size that a host's clip space spans.
-pub(super) fn plane_block(geometry: &Geometry, size: [u32; 2]) -> PlaneBlock {
-    let [x, y] = scale(geometry, size);
+/// The part of the images, of this size, that a host's clip space lies on.
+pub(super) fn plane_block(clip: &ClipSpace, plane: &ClipPlane, size: [u32; 2]) -> PlaneBlock {
+    let [x, y] = plane.scale;
     // Depth in which larger is nearer: z, or w - z.
-    let (z, z_of_w) = if geometry.clip.reversed_depth {
+    let (z, z_of_w) = if clip.reversed_depth {
         (1.0, 0.0)
     } else {
         (-1.0, 1.0)
@@ -50,15 +51,9 @@ pub(super) fn plane_block(geometry: &Geometry, size: [u32; 2]) -> PlaneBlock {
     ];
     PlaneBlock {
         transform: columns.as_flattened().try_into().unwrap_or_default(),
-        corner: size.map(|side| -0.5 * f64::from(side)),
+        corner: plane.middle.map(|at| -at),
         size,
         interior: [[0, 0], size],
         ..PlaneBlock::default()
     }
-}
-
-/// Clip space to pixels from the image's centre, y down.
-pub(super) fn scale(geometry: &Geometry, size: [u32; 2]) -> [f32; 2] {
-    let [x, y] = size.map(|side| 0.5 * side as f32);
-    [x, if geometry.clip.y_up { -y } else { y }]
 }

@@ -4,11 +4,11 @@ use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::OwnSet;
 use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, Shown, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Numbers of triangles and draws that a frame adopts, and the first index of the host's buffer, counted in indices.
+/// Triangles and draws that a dispatch adopts, the first index of the host's buffer, counted in indices, and the topology.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
 /// Makes triangles from indices.
@@ -23,28 +23,40 @@ impl Adopt {
         Ok(Self(LentKernel::new(gpu, &adopt_set::ALL)?))
     }
 
-    /// Makes the pipeline for indices of 16 bits if `short`, otherwise of 32 bits.
+    /// Makes the pipeline for indices of 16 bits if they `are_short`, otherwise of 32 bits; with `None`, for vertices without
+    /// indices.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn pipeline(&self, gpu: &Arc<Gpu>, short: bool) -> Result<Pipeline, VulkanError> {
-        self.0.pipeline(gpu, &spirv::Adopt { short })
+    pub fn pipeline(
+        &self,
+        gpu: &Arc<Gpu>,
+        are_short: Option<bool>,
+    ) -> Result<Pipeline, VulkanError> {
+        let shader = spirv::Adopt {
+            short: are_short.unwrap_or_default(),
+            indexed: are_short.is_some(),
+        };
+        self.0.pipeline(gpu, &shader)
     }
 
-    /// Makes a set with the draws, the host's indices, the triangles, and the draw of each triangle.
+    /// Makes a set with the draws, the host's indices if there are any, the triangles, and the draw of each triangle.
     ///
     /// # Safety
     /// The host's buffer outlives the use of the set.
     pub unsafe fn set(
         &self,
         draws: &Draws,
-        indices: vk::DescriptorBufferInfo,
+        indices: Option<vk::DescriptorBufferInfo>,
         triangles: &Buffer,
         draw_of: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
         let buffers = [
             (adopt_set::DRAWS, (&draws.table).into()),
-            (adopt_set::INDICES, indices.into()),
+            (
+                adopt_set::INDICES,
+                indices.map_or_else(|| (&draws.table).into(), Shown::from),
+            ),
             (adopt_set::TRIANGLES_OUT, triangles.into()),
             (adopt_set::DRAW_OF_OUT, draw_of.into()),
         ];

@@ -19,6 +19,7 @@ pub(crate) enum After {
     Groups = spirv::AFTER_GROUPS,
     Probe = spirv::AFTER_PROBE,
     Pairs = spirv::AFTER_PAIRS,
+    Scatter = spirv::AFTER_SCATTER,
 }
 
 /// Writes the sizes of dispatches. One kernel serves all passes that count, because drivers take longer to compile a
@@ -27,7 +28,7 @@ pub(crate) struct Arguments {
     layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
     /// The pass that counted, and the number of subgroups that [`Sample`](super::Sample) uses for an entry of a list:
-    /// in the first run, and for all samples.
+    /// in the first run, for all samples, and of tiles without a list.
     pushed: spirv::ArgumentsPush,
 }
 
@@ -37,18 +38,18 @@ impl Arguments {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, after: After) -> Result<Self, VulkanError> {
-        Self::of_samples(layout, after, [1, 1])
+        Self::of_samples(layout, after, [1; 3])
     }
 
-    /// Makes the pipeline for the entries of lists, each of which takes a number of subgroups: in the first run, and
-    /// for all samples.
+    /// Makes the pipeline for the entries of lists, each of which takes a number of subgroups: in the first run, for
+    /// all samples, and of tiles without a list.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub fn of_samples(
         layout: &FrameLayout,
         after: After,
-        [first, all]: [u32; 2],
+        [first, all, unlisted]: [u32; 3],
     ) -> Result<Self, VulkanError> {
         Ok(Self {
             layout: layout.pipeline,
@@ -57,6 +58,7 @@ impl Arguments {
                 after: after as u32,
                 subgroups_first: first,
                 subgroups: all,
+                subgroups_unlisted: unlisted,
             },
         })
     }

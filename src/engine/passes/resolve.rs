@@ -1,7 +1,7 @@
 //! resolve: computes the colour of each superpixel.
 
 use super::host_image::HostImage;
-use super::{Sample, TileList, spirv};
+use super::{Composite, Sample, TileList, spirv};
 use crate::engine::data::{Cells, ColorConstants};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
@@ -20,6 +20,8 @@ pub enum ResolveTarget {
 
 /// Averages the visibility samples of each cell.
 pub struct Resolve {
+    /// Pass that blends layers before; `None` if there are none.
+    composite: Option<Composite>,
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     /// Image of the host whose colours samples take that see no triangle; without it they take the background.
     behind: Option<Arc<HostImage>>,
@@ -63,7 +65,9 @@ impl Resolve {
                 ))
             })
             .collect::<Result<_, VulkanError>>()?;
+        let composite = || Composite::new(layout, output);
         Ok(Self {
+            composite: has_blend.then(composite).transpose()?,
             kernels,
             behind: behind.cloned(),
         })
@@ -89,6 +93,7 @@ impl Resolve {
             (Cells::Pixels, output, None),
         )?;
         Ok(Self {
+            composite: None,
             kernels: vec![(TileList::Plain, pipeline)],
             behind: None,
         })
@@ -113,7 +118,6 @@ impl Resolve {
             display_codes: target == ResolveTarget::Detect,
             probed,
             grows: target == ResolveTarget::Grow,
-            tinted: output.tinted,
             locations: cells.are_locations(),
             unsure: layout.is_unsure(lanes),
             tonemap: output.tonemap,
@@ -128,6 +132,9 @@ impl Resolve {
 
     /// Records the pass over the tiles of the round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        if let Some(composite) = &self.composite {
+            composite.record(recorder, arguments);
+        }
         if let Some(image) = &self.behind {
             image.bind(recorder);
         }

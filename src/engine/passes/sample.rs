@@ -1,10 +1,11 @@
 //! sample: finds the nearest triangle of every sample.
 
 use super::arguments::{After, Arguments};
-use super::spirv;
+use super::{Scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
@@ -17,7 +18,7 @@ pub enum TileList {
     Masked = spirv::TILE_LIST_MASKED,
     /// Tiles that also have BLEND triangles.
     Blended = spirv::TILE_LIST_BLENDED,
-    /// Tiles whose list of candidates outgrew its buffer.
+    /// Tiles with more triangles than a list may have, or whose list outgrew its buffer.
     Unlisted = spirv::TILE_LIST_UNLISTED,
 }
 
@@ -52,8 +53,8 @@ pub struct SampleOptions {
     pub can_settle: bool,
     /// Whether a subgroup samples a block of one cell, for lists that are too long to process several cells at a time.
     pub apart: bool,
-    /// Whether tiles whose list outgrew its buffer are sampled, by a kernel that tries every triangle. Otherwise they
-    /// are skipped and counted.
+    /// Whether tiles without a list are sampled, of which [`Scatter`](super::Scatter) found what their samples see.
+    /// Otherwise they are skipped and counted.
     pub unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
@@ -89,9 +90,11 @@ pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
     arguments_of_rest: Arguments,
+    /// Pass before the kernel for tiles without a list; `None` if they are skipped.
+    scatter: Option<Scatter>,
     options: SampleOptions,
     block: u32,
-    subgroups: [u32; 2],
+    subgroups: [u32; 3],
 }
 
 /// Variants of a kernel by their number of register rows, the smallest first.
@@ -141,8 +144,8 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-/// Constants of the kernels with masks, from those of the general kernel.
-fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
+/// Constants of the kernels with masks, from those of the general kernel. Loops over samples may be `rolled`.
+fn of_masks(shader: &spirv::Sample, rolled: bool) -> spirv::SampleMasks {
     spirv::SampleMasks {
         local_size: shader.local_size,
         lanes: shader.lanes,
@@ -151,6 +154,7 @@ fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
         by_part: shader.by_part,
         exact_areas: shader.exact_areas,
         part: shader.part,
+        rolled,
         locations: shader.locations,
         instanced: shader.instanced,
         unsure: shader.unsure,
@@ -204,7 +208,7 @@ impl Sample {
                 by_part: options.by_part(*run, rows * lanes),
                 exact_areas: options.measures(*list, *run),
                 part: options.part_samples(),
-                apart: options.apart,
+                apart: options.apart || *list == TileList::Unlisted,
                 locations: options.cells.are_locations(),
                 points: options.cells.are_points(),
                 occluders: options.cells.are_occluders(),
@@ -217,7 +221,9 @@ impl Sample {
             } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let (_, code) = if options.samples <= few.0 { few } else { many };
-                layout.compute_variant(code, &of_masks(&shader), layout.subgroup())?
+                // Compilers of GPU drivers spill registers if the loops are unrolled; CPU drivers are slower if they are not.
+                let rolled = layout.gpu.limits().device_type != vk::PhysicalDeviceType::CPU;
+                layout.compute_variant(code, &of_masks(&shader, rolled), layout.subgroup())?
             } else {
                 let (_, code) = kernel(kernels, rows);
                 layout.compute_variant(code, &shader, layout.subgroup())?
@@ -270,26 +276,29 @@ impl Sample {
         let mut kernels = made?;
         let rest = kernels.split_off(first_run);
         let block = rows * lanes;
-        let taking = |samples: u32| {
+        let taking = |samples: u32, apart: bool| {
             let blocks = samples.div_ceil(block);
-            if options.apart {
+            if apart {
                 lanes * blocks
             } else {
                 blocks.div_ceil(BLOCKS_AT_ONCE)
             }
         };
         let first = if probes {
-            taking(Self::PROBES)
+            taking(Self::PROBES, options.apart)
         } else if options.by_lines() {
             1
         } else {
-            taking(options.samples)
+            taking(options.samples, options.apart)
         };
-        let subgroups = [first, taking(options.samples)];
+        let [all, unlisted] = [options.apart, true].map(|apart| taking(options.samples, apart));
+        let subgroups = [first, all, unlisted];
+        let scatter = || Scatter::new(layout, scene, options);
         Ok(Self {
             kernels,
             rest,
             arguments_of_rest: Arguments::of_samples(layout, After::Probe, subgroups)?,
+            scatter: options.unlisted.then(scatter).transpose()?,
             options: *options,
             block,
             subgroups,
@@ -308,8 +317,8 @@ impl Sample {
         self.block
     }
 
-    /// Number of subgroups for an entry of a list: in the first run, and for all samples.
-    pub(crate) fn subgroups(&self) -> [u32; 2] {
+    /// Number of subgroups for an entry of a list: in the first run, for all samples, and of tiles without a list.
+    pub(crate) fn subgroups(&self) -> [u32; 3] {
         self.subgroups
     }
 
@@ -332,28 +341,37 @@ impl Sample {
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Sample::INTERFACE, || {
             for (list, pipeline) in &self.kernels {
-                recorder.dispatch_indirect(pipeline, arguments, list.argument());
+                if *list != TileList::Unlisted {
+                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
+                }
             }
-            if self.rest.is_empty() {
-                return;
+            if !self.rest.is_empty() {
+                self.arguments_of_rest.record(recorder);
             }
-            self.arguments_of_rest.record(recorder);
             for (list, pipeline) in &self.rest {
                 let argument = Argument::PlainLeft as u32 + *list as u32;
                 recorder.dispatch_indirect(pipeline, arguments, argument);
+            }
+            // The memory of lists is used again.
+            let unlisted = self
+                .kernels
+                .iter()
+                .find(|(list, _)| *list == TileList::Unlisted);
+            if let (Some(scatter), Some((list, pipeline))) = (&self.scatter, unlisted) {
+                scatter.record(recorder, arguments);
+                recorder.dispatch_indirect(pipeline, arguments, list.argument());
             }
         });
     }
 }
 
 impl SampleOptions {
-    /// Largest number of triangles that can be tried in a cell, because loops end after a number of iterations. Cells
-    /// with longer lists are skipped and counted.
-    pub(crate) fn longest_list(&self) -> u32 {
+    /// Largest number of candidates of a tile with BLEND triangles. Tiles with more have no list.
+    pub(crate) fn longest_layered(&self) -> u32 {
         if self.apart {
-            spirv::LONGEST_LIST_APART
+            spirv::LONGEST_LAYERED_APART
         } else {
-            spirv::LONGEST_LIST
+            spirv::LONGEST_LAYERED
         }
     }
 

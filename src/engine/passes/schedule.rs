@@ -14,14 +14,14 @@ pub struct Schedule {
     schedule: Arc<Pipeline>,
     enlist: Arc<Pipeline>,
     options: SampleOptions,
+    /// Largest number of pairs of a triangle and a tile in the device's memory.
+    most_pairs: u64,
     /// Push constants of the three shaders: see `shaders/include/load.glsl`.
     pushed: spirv::SchedulePush,
 }
 
 /// Of this number of pixels, usually at most one is a superpixel that needs all the room that it may get.
 const USUAL_PIXELS: u64 = 8;
-/// Largest number of tests of a triangle in a cell that a round makes for tiles without a list.
-const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
 
 impl Schedule {
     /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers a list
@@ -54,7 +54,7 @@ impl Schedule {
             locations,
             unsure,
         };
-        let [subgroups_first, subgroups] = sample.subgroups();
+        let [subgroups_first, subgroups, subgroups_unlisted] = sample.subgroups();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
             layout: layout.pipeline,
@@ -62,6 +62,7 @@ impl Schedule {
             schedule: layout.compute(&schedule, layout.subgroup())?,
             enlist: layout.compute(&enlist, layout.subgroup())?,
             options: *options,
+            most_pairs: ResourceSizes::most_pairs(layout.gpu.limits()),
             pushed: spirv::SchedulePush {
                 block: sample.block(),
                 per_sample,
@@ -69,7 +70,9 @@ impl Schedule {
                 parts: sample.parts(),
                 subgroups_first,
                 subgroups,
-                longest_list: options.longest_list(),
+                subgroups_unlisted,
+                longest_list: spirv::LONGEST_LIST,
+                longest_layered: options.longest_layered(),
                 more_records: options.more_records(),
             },
         })
@@ -136,14 +139,53 @@ impl Schedule {
             ),
             (headers(cells), records, headers(cells_of_tile)),
         ];
-        // If there are too many triangles, none is tried.
-        let tried = u64::from(triangles.clamp(1, self.pushed.longest_list));
-        let unlisted = (cells, MOST_TRIALS / tried, cells_of_tile);
-        let needs = listed.into_iter().chain([unlisted]);
+        let needs = listed.into_iter();
+        let needs = needs.chain(self.unlisted_needs(sizes, triangles, (cells, cells_of_tile)));
         let ended: u64 = needs
             .map(|(all, room, most)| rounds_ended(all, room, most))
             .sum();
         (1 + ended).min(tiles).max(1) as u32
+    }
+
+    /// Needs of tiles without a list: of all of them, the room, and of one. `cells` and `cells_of_tile` are the largest
+    /// numbers of cells, of all tiles and of one.
+    fn unlisted_needs(
+        &self,
+        sizes: &ResourceSizes,
+        triangles: u32,
+        (cells, cells_of_tile): (u64, u64),
+    ) -> Vec<(u64, u64, u64)> {
+        if !self.options.unlisted {
+            return Vec::new();
+        }
+        let [tiles, pairs, candidates] =
+            [sizes.tiles(), sizes.pair_capacity, sizes.list_capacity].map(u64::from);
+        let [longest, layers] = match self.options.has_blend {
+            true => [self.pushed.longest_layered, self.pushed.layers / 2],
+            false => [self.pushed.longest_list, 1],
+        };
+        // Where memory may grow, a recording whose pairs outgrow it may leave tiles.
+        let dense = pairs / (1 + u64::from(longest).min(candidates));
+        let dense = if pairs < self.most_pairs {
+            dense.min(tiles)
+        } else {
+            tiles
+        };
+        let cells = match sizes.locations {
+            None => dense * cells_of_tile,
+            Some(_) => cells,
+        };
+        let owners = |cells: u64| cells * u64::from(self.options.samples.div_ceil(4) * layers);
+        let entries = |cells: u64, tiles: u64| cells / u64::from(sizes.lanes) + tiles;
+        let tried = (spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED);
+        vec![
+            (owners(cells), candidates, owners(cells_of_tile)),
+            (
+                entries(cells, dense),
+                tried.into(),
+                entries(cells_of_tile, 1),
+            ),
+        ]
     }
 
     /// Largest number of visibility samples with which blocks of `headers` headers and `samples` samples are admitted.

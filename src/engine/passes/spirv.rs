@@ -150,10 +150,12 @@ pub struct Draw {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct AdoptPush {
+    pub first_triangle: u32,
     pub triangle_count: u32,
     pub draw_count: u32,
     pub first_index: u32,
     pub index_count: u32,
+    pub topology: u32,
 }
 
 /// The set of its own that `shaders/adopt.comp` binds.
@@ -176,12 +178,14 @@ pub mod adopt_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adopt {
     pub short: bool,
+    pub indexed: bool,
 }
 
 impl Default for Adopt {
     fn default() -> Self {
         Self {
             short: false,
+            indexed: true,
         }
     }
 }
@@ -195,13 +199,14 @@ impl Specialized for Adopt {
             Use { set: 0, binding: adopt_set::TRIANGLES_OUT, access: Access::Write },
             Use { set: 0, binding: adopt_set::DRAW_OF_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 24,
         invocations: Invocations::Fixed(64),
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.short)
+            .flag(1, self.indexed)
     }
 }
 
@@ -308,6 +313,7 @@ pub struct ArgumentsPush {
     pub after: u32,
     pub subgroups_first: u32,
     pub subgroups: u32,
+    pub subgroups_unlisted: u32,
 }
 
 /// `shaders/arguments.comp`, which has no constants.
@@ -323,7 +329,7 @@ impl Specialized for Arguments {
             Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
         ],
-        push_bytes: 12,
+        push_bytes: 16,
         invocations: Invocations::Fixed(1),
     };
 
@@ -531,10 +537,54 @@ impl Compiled for Centres {
     }
 }
 
+/// Constants of `shaders/composite.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Composite {
+    pub tinted: bool,
+    pub tonemap: bool,
+}
+
+impl Default for Composite {
+    fn default() -> Self {
+        Self {
+            tinted: false,
+            tonemap: true,
+        }
+    }
+}
+
+impl Specialized for Composite {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "composite",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 0, binding: frame_set::SHADED_OUT, access: Access::Write },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .flag(16, self.tinted)
+            .flag(30, self.tonemap)
+    }
+}
+
+impl Compiled for Composite {
+    fn code() -> &'static [u8] {
+        COMPOSITE
+    }
+}
+
 /// What is pushed to `shaders/coordinates.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct CoordinatesPush {
+    pub first_position: u32,
     pub position_count: u32,
     pub draw_count: u32,
     pub first_word: u32,
@@ -577,7 +627,7 @@ impl Specialized for Coordinates {
             Use { set: 0, binding: coordinates_set::VERTICES, access: Access::Read },
             Use { set: 0, binding: coordinates_set::COORDINATES_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 20,
         invocations: Invocations::Fixed(64),
     };
 
@@ -903,7 +953,9 @@ pub struct EnlistPush {
     pub parts: u32,
     pub subgroups_first: u32,
     pub subgroups: u32,
+    pub subgroups_unlisted: u32,
     pub longest_list: u32,
+    pub longest_layered: u32,
     pub more_records: u32,
 }
 
@@ -938,7 +990,7 @@ impl Specialized for Enlist {
             Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -962,7 +1014,7 @@ impl Compiled for Enlist {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct GpcFrame {
     pub scale: [f32; 2],
-    pub half_size: [f32; 2],
+    pub middle: [f32; 2],
     pub place_side: f32,
     pub r#box: u32,
     pub list: u32,
@@ -1589,7 +1641,6 @@ pub struct Resolve {
     pub display_codes: bool,
     pub probed: bool,
     pub grows: bool,
-    pub tinted: bool,
     pub encoded: bool,
     pub locations: bool,
     pub unsure: bool,
@@ -1608,7 +1659,6 @@ impl Default for Resolve {
             display_codes: false,
             probed: false,
             grows: false,
-            tinted: false,
             encoded: false,
             locations: false,
             unsure: false,
@@ -1653,7 +1703,6 @@ impl Specialized for Resolve {
             .flag(5, self.display_codes)
             .flag(6, self.probed)
             .flag(7, self.grows)
-            .flag(16, self.tinted)
             .flag(18, self.encoded)
             .flag(20, self.locations)
             .flag(24, self.unsure)
@@ -1858,6 +1907,7 @@ pub struct SampleMasks {
     pub by_part: bool,
     pub exact_areas: bool,
     pub part: u32,
+    pub rolled: bool,
     pub locations: bool,
     pub instanced: bool,
     pub unsure: bool,
@@ -1873,6 +1923,7 @@ impl Default for SampleMasks {
             by_part: false,
             exact_areas: false,
             part: 4,
+            rolled: false,
             locations: false,
             instanced: false,
             unsure: false,
@@ -1919,9 +1970,89 @@ impl Specialized for SampleMasks {
             .flag(6, self.by_part)
             .flag(7, self.exact_areas)
             .with(8, self.part)
+            .flag(10, self.rolled)
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
+    }
+}
+
+/// What is pushed to `shaders/scatter.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ScatterPush {
+    pub step: u32,
+    pub every: u32,
+}
+
+/// Constants of `shaders/scatter.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scatter {
+    pub lanes: u32,
+    pub has_mask: bool,
+    pub locations: bool,
+    pub points: bool,
+    pub occluders: bool,
+    pub instanced: bool,
+}
+
+impl Default for Scatter {
+    fn default() -> Self {
+        Self {
+            lanes: 8,
+            has_mask: false,
+            locations: false,
+            points: false,
+            occluders: false,
+            instanced: false,
+        }
+    }
+}
+
+impl Specialized for Scatter {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "scatter",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Read },
+            Use { set: 0, binding: frame_set::CANDIDATES_OUT, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
+            Use { set: 0, binding: frame_set::PAIRS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 0, binding: frame_set::LOCATION_ORDER, access: Access::Read },
+        ],
+        push_bytes: 8,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(1, self.lanes)
+            .flag(2, self.has_mask)
+            .flag(20, self.locations)
+            .flag(21, self.points)
+            .flag(22, self.occluders)
+            .flag(23, self.instanced)
+    }
+}
+
+impl Compiled for Scatter {
+    fn code() -> &'static [u8] {
+        SCATTER
     }
 }
 
@@ -1961,7 +2092,7 @@ impl Specialized for Schedule {
             Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -2559,7 +2690,7 @@ impl Specialized for Tally {
             Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 32,
+        push_bytes: 40,
         invocations: Invocations::Constant,
     };
 
@@ -2584,6 +2715,8 @@ impl Compiled for Tally {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ThinPush {
     pub long: u32,
+    pub depth_factor: f32,
+    pub depth_constant: f32,
 }
 
 /// Constants of `shaders/thin.comp`.
@@ -2591,7 +2724,6 @@ pub struct ThinPush {
 pub struct Thin {
     pub select: bool,
     pub blend_ids: bool,
-    pub farther_is_larger: bool,
     pub instanced: bool,
 }
 
@@ -2600,7 +2732,6 @@ impl Default for Thin {
         Self {
             select: false,
             blend_ids: false,
-            farther_is_larger: false,
             instanced: false,
         }
     }
@@ -2622,7 +2753,7 @@ impl Specialized for Thin {
             Use { set: 0, binding: frame_set::RASTER_DEPTH, access: Access::Read },
             Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
-        push_bytes: 4,
+        push_bytes: 12,
         invocations: Invocations::Fixed(64),
     };
 
@@ -2630,7 +2761,6 @@ impl Specialized for Thin {
         Constants::new()
             .flag(0, self.select)
             .flag(1, self.blend_ids)
-            .flag(2, self.farther_is_larger)
             .flag(23, self.instanced)
     }
 }
@@ -2683,7 +2813,7 @@ impl Specialized for Transform {
             Use { set: 0, binding: transform_set::MATRICES, access: Access::Read },
             Use { set: 0, binding: transform_set::POSITIONS_OUT, access: Access::Write },
         ],
-        push_bytes: 16,
+        push_bytes: 20,
         invocations: Invocations::Fixed(64),
     };
 
@@ -2738,6 +2868,9 @@ pub struct Counters {
     pub widest: u32,
     pub thin_long: u32,
     pub waiting: u32,
+    pub owners: u32,
+    pub layers: u32,
+    pub most_cells: u32,
     pub subgroups: u32,
 }
 
@@ -2780,6 +2913,9 @@ pub enum Counter {
     Widest,
     ThinLong,
     Waiting,
+    Owners,
+    Layers,
+    MostCells,
     Subgroups,
 }
 
@@ -2803,7 +2939,11 @@ pub enum Argument {
     Tally = 13,
     Enlist = 14,
     ThinLong = 15,
-    Shade = 16,
+    Owners = 16,
+    Scatter = 17,
+    ScatterEvery = 18,
+    Layers = 19,
+    Shade = 20,
 }
 
 impl Argument {
@@ -2825,6 +2965,10 @@ impl Argument {
         "tally",
         "enlist",
         "thin long",
+        "owners",
+        "scatter",
+        "scatter every",
+        "layers",
         "shade",
     ];
 }
@@ -2838,6 +2982,7 @@ pub const AFTER_THIN: u32 = 5;
 pub const AFTER_GROUPS: u32 = 6;
 pub const AFTER_PROBE: u32 = 7;
 pub const AFTER_PAIRS: u32 = 8;
+pub const AFTER_SCATTER: u32 = 9;
 pub const DETECT_CONTRAST: u32 = 0;
 pub const DETECT_EDGES: u32 = 1;
 pub const DETECT_EXACT: u32 = 2;
@@ -2847,6 +2992,13 @@ pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;
 pub const DISTRIBUTE_ENCLOSE: u32 = 3;
+pub const SCATTER_CLEAR: u32 = 0;
+pub const SCATTER_DEPTHS: u32 = 1;
+pub const SCATTER_IDS: u32 = 2;
+pub const SCATTER_COUNT: u32 = 3;
+pub const SCATTER_PLACE: u32 = 4;
+pub const SCATTER_LAYERS: u32 = 5;
+pub const SCATTER_ORDER: u32 = 6;
 pub const ENCODE_RGBA8_SRGB: u32 = 0;
 pub const ENCODE_RGBA16F: u32 = 1;
 pub const TILE_LIST_PLAIN: u32 = 0;
@@ -2858,6 +3010,9 @@ pub const RUN_WHOLE: u32 = 0;
 pub const RUN_PROBE: u32 = 1;
 pub const RUN_REST: u32 = 2;
 pub const PROBE_SAMPLES: u32 = 64;
+pub const TOPOLOGY_LIST: u32 = 0;
+pub const TOPOLOGY_STRIP: u32 = 1;
+pub const TOPOLOGY_FAN: u32 = 2;
 pub const POSE_FLAT: u32 = 1;
 pub const POSE_INSIDE_OUT: u32 = 2;
 pub const POSE_TANGENTS: u32 = 4;
@@ -2900,7 +3055,9 @@ pub const MATERIAL_VOLUME: u32 = 11;
 pub const MATERIAL_SPECULAR_GLOSSINESS: u32 = 12;
 pub const MATERIAL_UV_ROWS: u32 = 13;
 pub const STRETCH: u32 = 256;
-pub const MOST_TRIALS: u32 = 2147483648;
-pub const LONGEST_LIST: u32 = 40000;
-pub const LONGEST_LIST_APART: u32 = 350000;
+pub const MOST_TRIALS: u32 = 268435456;
+pub const FEWEST_TRIED: u32 = 4096;
+pub const LONGEST_LIST: u32 = 2500;
+pub const LONGEST_LAYERED: u32 = 1000;
+pub const LONGEST_LAYERED_APART: u32 = 160;
 pub const MORE_RECORDS: u32 = 16;

@@ -14,11 +14,13 @@ pub struct Thin {
     select: Arc<Pipeline>,
     arguments: Arguments,
     walk: Arc<Pipeline>,
+    /// Factor and constant that lead from the drawn depth to that of triangles, which is larger where they are nearer.
+    depth_of_image: [f32; 2],
 }
 
 impl Thin {
-    /// Makes the pipelines. `blend_ids` looks for BLEND triangles among the nearest ones; `farther_is_larger` says
-    /// whether larger values of the drawn depth are farther away.
+    /// Makes the pipelines. `blend_ids` looks for BLEND triangles among the nearest ones; `depth_of_image` holds the factor and the
+    /// constant that lead from the drawn depth to that of triangles.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -26,13 +28,12 @@ impl Thin {
         layout: &FrameLayout,
         scene: &dyn Content,
         blend_ids: bool,
-        farther_is_larger: bool,
+        depth_of_image: [f32; 2],
     ) -> Result<Self, VulkanError> {
         let thin = |select| {
             let shader = spirv::Thin {
                 select,
                 blend_ids,
-                farther_is_larger,
                 instanced: scene.is_instanced(),
             };
             layout.compute(&shader, None)
@@ -42,6 +43,7 @@ impl Thin {
             select: thin(true)?,
             arguments: Arguments::new(layout, After::Thin)?,
             walk: thin(false)?,
+            depth_of_image,
         })
     }
 
@@ -60,7 +62,13 @@ impl Thin {
             self.arguments.record(recorder);
             recorder.unordered(|| {
                 for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
-                    recorder.push(self.layout, &spirv::ThinPush { long });
+                    let [depth_factor, depth_constant] = self.depth_of_image;
+                    let push = spirv::ThinPush {
+                        long,
+                        depth_factor,
+                        depth_constant,
+                    };
+                    recorder.push(self.layout, &push);
                     recorder.dispatch_indirect(&self.walk, arguments, argument as u32);
                 }
             });

@@ -35,6 +35,14 @@ pub enum EngineError {
         /// Possible numbers, in words.
         possible: String,
     },
+    /// Number of growths that is too large.
+    #[error("superpixels can't grow {asked} times; they can grow 0 to {most} times")]
+    Growths {
+        /// Number that was asked for.
+        asked: u8,
+        /// Largest number.
+        most: u8,
+    },
     /// Attributes with multisampling, which has several IDs in a pixel.
     #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,

@@ -5,7 +5,7 @@ use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSize
 use crate::engine::passes::{Distribute, Points, Resolve, ResolveTarget};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
-    MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel,
+    Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
 };
 use crate::engine::sampler::{EngineError, Settings};
 use crate::vulkan::Texels;
@@ -50,21 +50,22 @@ impl ListCells {
         )
     }
 
-    /// Sizes of the memory for `locations` locations in a region of `pixels` pixels, in whole tiles, with room for
-    /// `lists` times the usual number of candidates.
+    /// Sizes of the memory for `locations` locations in a region of `pixels` pixels, in whole tiles.
     pub fn sizes(
         &self,
         layout: &FrameLayout,
         scene: &dyn Content,
         settings: &Settings,
         (locations, region): (u32, [u32; 2]),
-        lists: u32,
+        capacity: Capacity,
     ) -> ResourceSizes {
         let limits = layout.gpu.limits();
         let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
         let most = u64::from(locations);
         let records = match self.cells {
-            Cells::Points | Cells::Occluders if scene.has_blend() => 4 * most,
+            Cells::Points | Cells::Occluders if scene.has_blend() => {
+                u64::from(Capacity::LAYERS) * most
+            }
             Cells::Points | Cells::Occluders => most,
             Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
         };
@@ -72,18 +73,41 @@ impl ListCells {
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let cell_sizes = self.cell_sizes(layout, settings);
-        let at_most = |room: u64, most: u64| (room * u64::from(lists)).min(most) as u32;
+        let locations = LocationSizes {
+            lent: self.lent,
+            ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
+        };
+        // All points fit in the memory of candidates, in case that they lie in tiles without a list.
+        let points = if self.cells.are_points() {
+            u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS
+        } else {
+            0
+        };
+        let candidates = candidates.max(if scene.has_blend() {
+            2 * points
+        } else {
+            points
+        });
+        let at_most = |room: u64, most: u64| (room * u64::from(capacity.lists)).min(most) as u32;
+        // A location has room for its samples with all layers, and some receivers of light have.
+        let of_location = match self.cells {
+            Cells::Points => 1,
+            Cells::Occluders => most.div_ceil(16),
+            Cells::Superpixels | Cells::Pixels => u64::from(settings.method.samples()),
+        };
+        let layered = if scene.has_blend() {
+            capacity.layered(of_location).min(most_records(limits))
+        } else {
+            0
+        };
         ResourceSizes {
             region,
             lanes: limits.lanes,
-            locations: Some(LocationSizes {
-                lent: self.lent,
-                ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
-            }),
+            locations: Some(locations),
             survivor_capacity: scene.index_count(),
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
-            record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
+            record_capacity: records.clamp(1 << 16, MOST_RECORDS).max(layered) as u32,
             filtered: 0,
             shadow_words: self.shadow_words,
             attributes: self.attributes,

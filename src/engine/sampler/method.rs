@@ -120,11 +120,17 @@ pub struct SuperpixelOptions {
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is
     /// [that of the samples](Self::default_contrast).
     pub contrast: Option<u8>,
+    /// How often pixels become superpixels because they contrast with a superpixel beside them, where colours are compared; `None` is
+    /// [that of the samples](Self::default_growths).
+    pub growths: Option<u8>,
     /// Whether triangles, and shadows, too thin for a pixel's centre to see make superpixels too.
     pub thin: bool,
 }
 
 impl SuperpixelOptions {
+    /// Most growths: each records as many rounds as the superpixels that are detected.
+    pub const MOST_GROWTHS: u8 = 8;
+
     /// The defaults with so many samples of a superpixel.
     #[must_use]
     pub fn new(samples: u32) -> Self {
@@ -135,6 +141,7 @@ impl SuperpixelOptions {
             shading: Shading::Part,
             detection: Detection::Contrast,
             contrast: None,
+            growths: None,
             thin: true,
         }
     }
@@ -144,6 +151,24 @@ impl SuperpixelOptions {
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
         if samples < 128 { 6 } else { 1 }
+    }
+
+    /// How often superpixels of so many samples grow unless another number is given.
+    #[must_use]
+    pub fn default_growths(samples: u32) -> u8 {
+        if samples < 128 { 1 } else { 2 }
+    }
+
+    /// How often superpixels grow.
+    #[must_use]
+    pub fn growth_count(&self) -> u32 {
+        match self.detection {
+            Detection::Contrast => {
+                let default = || Self::default_growths(self.samples);
+                u32::from(self.growths.unwrap_or_else(default))
+            }
+            _ => 0,
+        }
     }
 
     /// Differences above this, in code values, are a contrast.
@@ -162,6 +187,7 @@ setters! {
         shading: Shading,
         detection: Detection,
         contrast: Option<u8>,
+        growths: Option<u8>,
         thin: bool,
     }
 }
@@ -219,6 +245,13 @@ impl Method {
             {
                 refuse("superpixel", "1 to 1024".to_owned())
             }
+            Self::Superpixel(SuperpixelOptions {
+                growths: Some(asked),
+                ..
+            }) if *asked > SuperpixelOptions::MOST_GROWTHS => Err(EngineError::Growths {
+                asked: *asked,
+                most: SuperpixelOptions::MOST_GROWTHS,
+            }),
             Self::Superpixel(_) => self.offsets().map(|_| ()),
             Self::Ssaa { samples } => {
                 let side = samples.isqrt();

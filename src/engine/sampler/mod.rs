@@ -121,8 +121,8 @@ pub(crate) struct Sampler {
     /// Numbers of recorded rounds: of the cells that are found first, and of each growth.
     rounds: [u32; 2],
     counters: CounterLog,
-    /// Number of triangles for which [`Cull`] has room.
-    triangle_capacity: u32,
+    /// Number of triangles for which [`Cull`] has room, and of pairs for which [`Bin`] has.
+    capacities: [u32; 2],
 }
 
 /// Passes that find the cells.
@@ -201,7 +201,7 @@ impl Sampler {
             capacity,
             rounds: schedule.rounds(sizes, scene.index_count(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
-            triangle_capacity: sizes.survivor_capacity,
+            capacities: [sizes.survivor_capacity, sizes.pair_capacity],
             source,
             schedule,
             sample,
@@ -325,7 +325,8 @@ impl Sampler {
     ) -> Result<(), VulkanError> {
         for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
             for counters in counted {
-                let room = (tiles, self.triangle_capacity);
+                let [triangles, pairs] = self.capacities;
+                let room = (tiles, triangles, pairs);
                 shortfall.add(counters, room, self.capacity.unlisted);
                 shortfall.add_subgroups(counters);
             }

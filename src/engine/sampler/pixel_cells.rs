@@ -14,8 +14,8 @@ pub(crate) struct PixelCells {
     pub mode: DetectMode,
     /// Whether pixels that a thin triangle crosses without covering a centre become cells too.
     pub thin: bool,
-    /// Whether larger values of the drawn depth are farther away.
-    pub farther_is_larger: bool,
+    /// Factor and constant that lead from the drawn depth to that of triangles, which is larger where they are nearer.
+    pub depth_of_image: [f32; 2],
     /// Whether IDs of the nearest BLEND triangles exist.
     pub blend_ids: bool,
     /// Whether the triangle IDs are multisampled.
@@ -49,7 +49,7 @@ impl PixelCells {
         Self {
             mode: DetectMode::of(options.detection),
             thin: options.thin && options.detection != Detection::Every,
-            farther_is_larger: false,
+            depth_of_image: [1.0, 0.0],
             blend_ids: true,
             multisampled: false,
             samples: options.samples,
@@ -89,7 +89,7 @@ impl PixelCells {
                 },
                 beyond: self.growths,
             };
-            let thin = || Thin::new(layout, scene, blend_ids, self.farther_is_larger);
+            let thin = || Thin::new(layout, scene, blend_ids, self.depth_of_image);
             Ok(Source::Pixels {
                 thin: self.thin.then(thin).transpose()?,
                 detect: Detect::new(layout, &options)?,

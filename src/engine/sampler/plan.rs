@@ -86,15 +86,18 @@ pub(crate) struct Capacity {
     pub rounds: Option<u32>,
     /// Whether a subgroup samples one cell at a time.
     pub apart: bool,
-    /// Whether there is a kernel for tiles whose candidate list outgrows its buffer.
+    /// Whether tiles without a list of candidates are sampled.
     pub unlisted: bool,
 }
 
 impl Capacity {
-    /// This capacity with twice the room for candidates.
-    pub fn with_doubled_lists(self) -> Self {
+    /// Number of BLEND layers of a list for which a frame is first planned.
+    pub const LAYERS: u32 = 4;
+
+    /// This capacity with `factor` times the room for candidates.
+    pub fn with_lists(self, factor: u32) -> Self {
         Self {
-            lists: self.lists * 2,
+            lists: self.lists.saturating_mul(factor.next_power_of_two()),
             ..self
         }
     }
@@ -110,8 +113,8 @@ impl Capacity {
         }
     }
 
-    /// This capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
-    /// longer than a frame.
+    /// This capacity with only the kernels that most frames need: compiling those for tiles without a list may take longer
+    /// than a frame.
     pub fn without_unlisted(self) -> Self {
         Self {
             unlisted: false,
@@ -119,23 +122,32 @@ impl Capacity {
         }
     }
 
-    /// Capacity with twice as much of what a frame lacked, or as much as the frame is known to need.
+    /// Capacity with several times as much of what a frame lacked, or as much as the frame is known to need.
     pub fn more(self, shortfall: Shortfall) -> Self {
-        let factor = |lacked: bool| if lacked { 2 } else { 1 };
-        let crowded = shortfall.crowded > 0;
+        let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
         let unshadowed = shortfall.unshadowed > 0;
         // What lights lack is not known: rounds first, as long as there are few.
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
-        let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
-        let more_rounds = factor(shortfall.waiting > 0 || unshadowed) * factor(unshadowed);
-        let rounds = more_rounds.max(shortfall.rounds.next_power_of_two());
-        let longer = crowded || of_lights || short;
+        let crowded = shortfall.crowded > 0 || of_lights;
+        let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
+        let rounds = factor(shortfall.waiting > 0, 2)
+            .max(factor(unshadowed, 4))
+            .max(shortfall.rounds.next_power_of_two());
         Self {
-            layers: self.layers * factor(crowded),
-            lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
+            layers: self.layers.saturating_mul(factor(crowded, 4)),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
             apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
+            ..self.with_lists(lists.max(shortfall.rooms))
+        }
+    }
+
+    /// Number of visibility samples of `samples` samples with as many layers each, if the frame is known to need more
+    /// than is usual.
+    pub fn layered(&self, samples: u64) -> u64 {
+        match self.layers {
+            Self::LAYERS => 0,
+            layers => samples * (2 + u64::from(layers)),
         }
     }
 }
@@ -143,7 +155,7 @@ impl Capacity {
 impl Default for Capacity {
     fn default() -> Self {
         Self {
-            layers: 4,
+            layers: Self::LAYERS,
             lists: 1,
             rounds: None,
             apart: false,
@@ -179,6 +191,13 @@ pub(crate) const MOST_PAIRS: u64 = 8 << 20;
 /// the image rather than the scene. Fewer candidates in a round make more rounds, which cost little.
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
+/// Smallest number of candidates: in their memory are the samples of a tile without a list.
+const FEWEST_CANDIDATES: u32 = 32 * 1024 / ResourceSizes::CANDIDATE_TEXELS as u32;
+
+/// Largest number of visibility samples in the buffers of a device.
+pub(crate) fn most_records(limits: &Limits) -> u64 {
+    (limits.max_storage_bytes / 16).min(limits.max_texel_elements)
+}
 
 /// Average number of visibility samples for which a superpixel has room.
 pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
@@ -283,7 +302,7 @@ impl Plan {
             && self.sizes.record_capacity > 1 << 16
         {
             self.sizes.record_capacity /= 2;
-            self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(1 << 12);
+            self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(FEWEST_CANDIDATES);
             needed = all(self);
         }
         needed
@@ -346,6 +365,9 @@ impl Plan {
         } else {
             records
         };
+        // A tile has room for its samples with all layers.
+        let of_tile = capacity.layered(pixels.min(32) * samples);
+        let records = records.max(of_tile.min(most_records(limits)));
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
@@ -414,16 +436,27 @@ mod tests {
         let mut counters = [0; Counter::COUNT];
         counters[Counter::Survivors as usize] = 70 * ROOM + 1;
         let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, ROOM), false);
+        shortfall.add(&counters, (1, ROOM, 1), false);
         assert_eq!(Capacity::default().more(shortfall).lists, 128);
-        // A shortage of unknown size doubles what was short, and nothing else.
+        counters = [0; Counter::COUNT];
+        counters[Counter::Pairs as usize] = 5 * ROOM;
+        let mut shortfall = Shortfall::default();
+        shortfall.add(&counters, (1, 1, ROOM), false);
+        assert_eq!(Capacity::default().more(shortfall).lists, 8);
+        // A shortage of unknown size multiplies what was short, and nothing else.
+        let crowded = Shortfall {
+            crowded: 1,
+            ..Shortfall::default()
+        };
+        let more = Capacity::default().without_unlisted().more(crowded);
+        assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
         let unlisted = Shortfall {
             unlisted: 1,
             ..Shortfall::default()
         };
         assert_eq!(
-            Capacity::default().without_unlisted().more(unlisted).lists,
-            2
+            Capacity::default().without_unlisted().more(unlisted),
+            Capacity::default()
         );
         // What lights lack may be rounds.
         let unshadowed = Shortfall {
@@ -437,7 +470,7 @@ mod tests {
         let more = few.more(unshadowed);
         assert_eq!((more.rounds, more.lists, more.apart), (Some(8), 1, false));
         let longer = more.more(unshadowed);
-        assert_eq!((longer.lists, longer.apart), (2, true));
+        assert_eq!((longer.lists, longer.apart), (4, true));
         let late = Shortfall {
             waiting: 5,
             rounds: 3,

@@ -1,6 +1,6 @@
 //! Settings of a rendering: method, samples, colours and limits.
 
-use super::{Coverage, Detection, EngineError, Method, Shading, SuperpixelOptions};
+use super::{Coverage, EngineError, Method, Shading, SuperpixelOptions};
 use crate::vulkan::Limits;
 
 /// Area of the image for which texture levels are chosen, also for the alpha of MASK materials. [`Method::None`] and
@@ -203,9 +203,7 @@ impl Settings {
     /// Number of times that pixels beside superpixels are examined again, by the colours that sampling these revealed.
     pub(crate) fn growths(&self) -> u32 {
         match &self.method {
-            Method::Superpixel(options) if options.detection == Detection::Contrast => {
-                if options.samples < 128 { 1 } else { 2 }
-            }
+            Method::Superpixel(options) => options.growth_count(),
             _ => 0,
         }
     }

@@ -47,7 +47,7 @@ pub struct Statistics {
     pub candidates: u64,
     /// Number of visibility samples.
     pub records: u64,
-    /// Number of tiles whose candidate list outgrew its buffer, so that every triangle was tried.
+    /// Number of tiles without a candidate list: they have too many triangles, or the list outgrew its buffer.
     pub unlisted_tiles: u64,
     /// Number of rounds that had work to do.
     pub rounds: u64,
@@ -140,16 +140,21 @@ pub(crate) struct Shortfall {
     pub dropped: u64,
     /// Number of tiles, triangles and cells of lights' views that were not processed.
     pub unshadowed: u64,
-    /// Factor by which the room would have to grow for the dropped triangles.
+    /// Factor by which the room would have to grow for the dropped triangles, and for all pairs of a triangle and a tile.
     pub rooms: u32,
     /// Whether the device ran kernels with another subgroup size than they were made for; no capacity helps then.
     pub other_subgroups: bool,
 }
 
 impl Shortfall {
-    /// Adds a run of the sampling passes over `tiles` tiles, with room for `room` triangles. `samples_unlisted` says
-    /// whether tiles without a list were sampled or skipped.
-    pub fn add(&mut self, counters: &[u32], (tiles, room): (u32, u32), samples_unlisted: bool) {
+    /// Adds a run of the sampling passes over `tiles` tiles, with room for `triangles` triangles and `pairs` pairs.
+    /// `samples_unlisted` says whether tiles without a list were sampled or skipped.
+    pub fn add(
+        &mut self,
+        counters: &[u32],
+        (tiles, triangles, pairs): (u32, u32, u32),
+        samples_unlisted: bool,
+    ) {
         let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
             let done = get(Counter::NextTile);
@@ -164,8 +169,10 @@ impl Shortfall {
         let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
         let thin = get(Counter::Thin).saturating_add(get(Counter::ThinLong));
         let listed = survivors.max(thin);
-        self.dropped += u64::from(listed.saturating_sub(room));
-        self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
+        self.dropped += u64::from(listed.saturating_sub(triangles));
+        let needed = [(listed, triangles), (get(Counter::Pairs), pairs)];
+        let rooms = needed.map(|(needed, room)| needed.div_ceil(room.max(1)));
+        self.rooms = self.rooms.max(rooms[0]).max(rooms[1]);
     }
 
     /// Adds the counter of wrong subgroup sizes, which may be read at any later time.

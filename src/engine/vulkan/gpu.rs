@@ -339,7 +339,8 @@ impl Drop for Gpu {
 /// invocations, and at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
-        let size = usual.clamp(4, 32).clamp(least, most);
+        // Where the size can be chosen, the smallest leaves each invocation the most registers.
+        let size = least.max(4).min(most);
         (size.min(32), size)
     } else {
         // The driver may choose any size, so kernels use the smallest.
@@ -447,7 +448,8 @@ mod tests {
         let of = |usual, range, can_require| lanes_and_size(usual, range, can_require);
         assert_eq!(of(8, [8, 8], true), (8, 8));
         assert_eq!(of(4, [4, 4], true), (4, 4));
-        assert_eq!(of(32, [8, 32], true), (32, 32));
+        assert_eq!(of(32, [8, 32], true), (8, 8));
+        assert_eq!(of(16, [16, 32], true), (16, 16));
         assert_eq!(of(64, [32, 64], true), (32, 32));
         assert_eq!(of(64, [64, 64], true), (32, 64));
         assert_eq!(of(128, [64, 128], true), (32, 64));

@@ -213,7 +213,7 @@ impl Frame {
         self.plan.capacity
     }
 
-    /// Whether [`Capacity::with_doubled_lists`] makes a difference.
+    /// Whether [`Capacity::with_lists`] makes a difference.
     pub(super) fn lists_can_grow(&self) -> bool {
         self.plan.lists_can_grow && self.settings.max_memory.is_none()
     }

@@ -12,6 +12,7 @@ use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::{Detect, DetectMode, DetectOptions, Grow};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{FrameLook, OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, Neighbours};
@@ -173,7 +174,14 @@ impl Headless {
             .shadows(Shadows::None)
             .map_superpixels(|options| options.samples(1));
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let plan = LocationPlan::new(&layout, scene, &settings, &partition, false)?;
+        let plan = LocationPlan::new(
+            &layout,
+            scene,
+            &settings,
+            &partition,
+            false,
+            Capacity::default(),
+        )?;
         let marks = &detector.resources.marks;
         // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
         let mut crossings =

@@ -19,6 +19,7 @@ use super::shadows::Sight;
 use super::{EngineError, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::Cells;
+use crate::engine::sampler::plan::Capacity;
 use partition::Partition;
 use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
@@ -44,6 +45,9 @@ pub struct PointSample {
     /// [`Shadows::Exact`](super::Shadows::Exact).
     pub shadows: u32,
 }
+
+/// Factor for the room for candidates above which no more is allocated for a single location.
+const MOST_LISTS: u32 = 1 << 16;
 
 /// Pinholes, each with the locations on its plane.
 type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
@@ -142,9 +146,14 @@ impl Headless {
             return Err(RenderError::LocationRegion);
         }
         let layout = self.renderer.layout.clone();
-        let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;
-        let make = |apart: bool| LocationSampler::new(&layout, scene, settings, &plan, apart);
-        let (mut sampler, mut apart) = (make(false)?, false);
+        let may_stop = self.may_stop();
+        let make = |capacity: Capacity| {
+            let plan = LocationPlan::new(&layout, scene, settings, partition, may_stop, capacity)?;
+            let sampler = LocationSampler::new(&layout, scene, settings, &plan)?;
+            Ok::<_, RenderError>((plan, sampler))
+        };
+        let (plan, mut sampler) = make(Capacity::default())?;
+        let mut capacity = plan.capacity;
         let mut statistics = Statistics::default();
         let ([low, high], beyond) = partition.reach();
         let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
@@ -164,22 +173,26 @@ impl Headless {
             })?;
             match sampler.check(&window) {
                 Ok(()) => {}
-                // If one cell is sampled at a time, longer lists fit.
-                Err(RenderError::Engine(EngineError::Unfinished { .. }))
-                    if !apart && sampler.has_long_lists(&window)? =>
-                {
-                    apart = true;
-                    sampler = make(apart)?;
-                    waiting.push(run);
-                    continue;
-                }
                 // Half of the locations have about half of the visibility samples.
-                Err(RenderError::Engine(EngineError::Unfinished { cells })) if run.len() > 1 => {
+                Err(RenderError::Engine(EngineError::Unfinished { cells })) => {
+                    let (count, shortfall) = (run.len(), sampler.shortfall(&window)?);
                     log::debug!(
-                        "{cells} cells or tiles of {} locations did not fit",
-                        run.len()
+                        "{cells} cells or tiles of {count} locations are left: {shortfall:?}"
                     );
-                    waiting.extend(LocationPlan::halves(&run));
+                    let more = capacity.more(shortfall);
+                    if count > 1 && !(more.apart && !capacity.apart) {
+                        waiting.extend(LocationPlan::halves(&run));
+                    } else if capacity.lists < MOST_LISTS {
+                        capacity = more;
+                        let (plan, larger) = make(capacity)?;
+                        sampler = larger;
+                        let left = plan.runs.iter().rev().filter(|other| other.end > run.start);
+                        waiting = left
+                            .map(|other| other.start.max(run.start)..other.end)
+                            .collect();
+                    } else {
+                        return Err(EngineError::Unfinished { cells }.into());
+                    }
                     continue;
                 }
                 Err(error) => return Err(error),

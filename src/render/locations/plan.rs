@@ -25,6 +25,8 @@ pub(super) struct LocationPlan {
     pub places: u64,
     pub runs: Vec<Range<usize>>,
     pub sizes: ResourceSizes,
+    /// Capacity for which it was planned.
+    pub capacity: Capacity,
 }
 
 impl LocationPlan {
@@ -39,13 +41,14 @@ impl LocationPlan {
         settings: &Settings,
         partition: &Partition<'_>,
         may_stop: bool,
+        capacity: Capacity,
     ) -> Result<Self, RenderError> {
         let (limits, scene) = (layout.gpu.limits(), &*prepared.gpu_scene);
         let casters = match settings.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(prepared.casters.as_deref().ok_or(RenderError::NoCasters)?),
         };
-        let (cells, capacity) = (partition.cells, Capacity::default());
+        let cells = partition.cells;
         let samples = match cells.are_points() {
             true => 1,
             false => settings.method.samples().max(1) as usize,
@@ -62,7 +65,7 @@ impl LocationPlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
             let words = casters.map_or(0, Casters::shadow_words);
-            let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, 1);
+            let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, capacity);
             let of_shadows = casters.map_or(0, |casters| {
                 ShadowFinder::bytes(layout, casters, settings, capacity, (places, &sizes))
             });
@@ -76,6 +79,7 @@ impl LocationPlan {
                     places,
                     runs,
                     sizes,
+                    capacity,
                 });
             }
             if longest <= FEWEST_LOCATIONS {

@@ -4,7 +4,6 @@ use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::render::frame::recording::SceneShading;
@@ -51,19 +50,16 @@ impl LocationSampler {
         prepared: &PreparedScene,
         settings: &Settings,
         plan: &LocationPlan,
-        apart: bool,
     ) -> Result<Self, RenderError> {
         let LocationPlan {
             cells,
             places,
             sizes,
+            capacity,
             ..
         } = plan;
+        let capacity = *capacity;
         let scene = &*prepared.gpu_scene;
-        let capacity = Capacity {
-            apart,
-            ..Capacity::default()
-        };
         let listed = list_cells(*cells, sizes.shadow_words);
         let (offsets, count) = listed.offsets(layout, settings)?;
         let offsets = Offsets {
@@ -189,7 +185,7 @@ impl LocationSampler {
     }
 
     /// Work that the last run could not finish.
-    fn shortfall(&self, window: &PlaneWindow) -> Result<Shortfall, VulkanError> {
+    pub fn shortfall(&self, window: &PlaneWindow) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
         self.sampler
             .add_shortfall([window.tile_count()], &mut shortfall)?;
@@ -197,13 +193,6 @@ impl LocationSampler {
             shadows.add_shortfall(&mut shortfall)?;
         }
         Ok(shortfall)
-    }
-
-    /// Whether the last run had cells, or tiles of a light, with longer lists than the kernels for several cells at a
-    /// time can process.
-    pub fn has_long_lists(&self, window: &PlaneWindow) -> Result<bool, VulkanError> {
-        let shortfall = self.shortfall(window)?;
-        Ok(shortfall.stalled + shortfall.unshadowed > 0)
     }
 
     /// Checks that the last run was finished: its visibility samples fitted into memory, and its lists were not too

@@ -96,7 +96,7 @@ fn sizes(
     (places, shading): (u64, &ResourceSizes),
 ) -> ResourceSizes {
     let room = (shading.receivers(), [LightView::side(places); 2]);
-    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity.lists)
+    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity)
 }
 
 impl ShadowFinder {

@@ -88,6 +88,7 @@ fn world() -> World {
         paints: vec![1.0; 4],
         coordinates: vec![[0.0; 2]; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
+        ..Mesh::default()
     };
     World {
         meshes: (0..QUADS.len()).map(mesh).collect(),

@@ -6,8 +6,8 @@ use ash::vk;
 use gpc::host::HostError;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState,
-    Images, LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace,
-    Scenery, ShadeSamples, VisibilitySamples,
+    Images, Indices, LentImage, ListOutcome, Location, LocationList, Mesh, Options, Outcome,
+    PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
 };
 use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
@@ -225,8 +225,7 @@ pub struct Machine<'a> {
 
 /// Buffers and maps on the device, and the structures that lend them.
 struct Lending<'a> {
-    _positions: Buffer,
-    _indices: Buffer,
+    _meshes: Vec<[Buffer; 2]>,
     _coordinates: Buffer,
     paints: Buffer,
     of_draws: Buffer,
@@ -234,10 +233,47 @@ struct Lending<'a> {
     geometry: Geometry,
 }
 
+/// Elements of a stride behind an offset, without those that `of` says are of another mesh.
+fn of_mesh(bytes: &[u8], offset: u64, stride: usize, of: &[usize], mesh: usize) -> Vec<u8> {
+    let mut kept = bytes.to_vec();
+    for (number, _) in of.iter().enumerate().filter(|(_, of)| **of != mesh) {
+        let first = offset as usize + number * stride;
+        kept[first..first + stride].fill(0xff);
+    }
+    kept
+}
+
 impl<'a> Lending<'a> {
     fn new(machine: &Machine<'a>, way: &Way, lent: &Lent) -> Self {
-        let positions = machine.filled(&lent.positions);
-        let indices = machine.filled(&lent.indices);
+        let buffers = |mesh| {
+            let (stride, short) = (
+                way.stride as usize,
+                lent.index_type == vk::IndexType::UINT16,
+            );
+            let [offset, first] = [way.positions_offset, way.indices_offset];
+            let size = if short { 2 } else { 4 };
+            [
+                machine.filled(&of_mesh(
+                    &lent.positions,
+                    offset,
+                    stride,
+                    &lent.of_vertices,
+                    mesh,
+                )),
+                machine.filled(&of_mesh(&lent.indices, first, size, &lent.of_indices, mesh)),
+            ]
+        };
+        let together = || {
+            [
+                machine.filled(&lent.positions),
+                machine.filled(&lent.indices),
+            ]
+        };
+        let meshes: Vec<_> = if way.apart {
+            (0..machine.world.meshes.len()).map(buffers).collect()
+        } else {
+            vec![together()]
+        };
         let paints = machine.filled(bytemuck::cast_slice(&lent.paints));
         let coordinates = machine.filled(bytemuck::cast_slice(&lent.coordinates));
         let with_image = |map| (machine.map_image(map), map);
@@ -246,10 +282,25 @@ impl<'a> Lending<'a> {
             .map(|part| [part.color[0], part.color[1], part.color[2], part.opacity])
             .collect();
         let of_draws = machine.filled(bytemuck::cast_slice(&of_draws));
-        let geometry = Geometry {
+        let lent_mesh = |[positions, indices]: &[Buffer; 2]| Mesh {
             positions: positions.handle(),
             positions_offset: way.positions_offset,
             position_stride: way.stride,
+            vertex_capacity: lent.vertex_count,
+            coordinates: (!maps.is_empty()).then(|| Coordinates {
+                buffer: coordinates.handle(),
+                offset: 0,
+                stride: 8,
+            }),
+            indices: (!way.bare).then(|| Indices {
+                buffer: indices.handle(),
+                offset: way.indices_offset,
+                index_type: lent.index_type,
+                capacity: lent.index_count,
+            }),
+        };
+        let geometry = Geometry {
+            meshes: meshes.iter().map(lent_mesh).collect(),
             position_space: if way.object_space {
                 PositionSpace::Object {
                     capacity: lent.drawn_vertices,
@@ -257,29 +308,19 @@ impl<'a> Lending<'a> {
             } else {
                 PositionSpace::Clip
             },
-            vertex_capacity: lent.vertex_count,
-            indices: indices.handle(),
-            indices_offset: way.indices_offset,
-            index_type: lent.index_type,
-            index_capacity: lent.index_count,
             triangle_capacity: lent.triangle_count,
             draw_capacity: lent.draws.len() as u32,
             keys: 1,
-            coordinates: (!maps.is_empty()).then(|| Coordinates {
-                buffer: coordinates.handle(),
-                offset: 0,
-                stride: 8,
-            }),
             alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
             blended: lent.draws.iter().any(|draw| draw.blended),
             clip: ClipSpace {
                 y_up: false,
                 reversed_depth: true,
+                depth_range: way.depth_range,
             },
         };
         Self {
-            _positions: positions,
-            _indices: indices,
+            _meshes: meshes,
             _coordinates: coordinates,
             paints,
             of_draws,
@@ -404,7 +445,10 @@ impl<'a> Machine<'a> {
         let mut pictures = Vec::new();
         if let Some(drawn) = base.ids() {
             let numbers = way.framed(&drawn.ids, options.size, u32::MAX);
-            let depths = way.framed(&drawn.depths, options.size, 0.5);
+            let [least, most] = way.depth_range;
+            let in_range = |depth: &f32| least + (most - least) * depth;
+            let depths: Vec<_> = drawn.depths.iter().map(in_range).collect();
+            let depths = way.framed(&depths, options.size, 0.5);
             pictures.push((&ids, plain, self.filled(bytemuck::cast_slice(&numbers))));
             pictures.push((&depth, deep, self.filled(bytemuck::cast_slice(&depths))));
         }
@@ -445,10 +489,7 @@ impl<'a> Machine<'a> {
         .unwrap();
         let dispatched = self.read_back(4 * CALLS);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
-        let scenery = Scenery {
-            draws: &lent.draws,
-            projection: self.world.projection,
-        };
+        let scenery = Scenery::new(&lent.draws, self.world.projection).viewport(way.viewport);
         if self.discards {
             assert!(is_not_recorded(frame.outcome().err()));
             discard(&self.gpu, |commands| {
@@ -497,10 +538,7 @@ impl<'a> Machine<'a> {
         let mut frames: Vec<_> = shown.iter().map(|_| prepared().unwrap()).collect();
         submit(&self.gpu, |commands| {
             for ((frame, draws), canvas) in frames.iter_mut().zip(shown).zip(&canvases) {
-                let scenery = Scenery {
-                    draws,
-                    projection: self.world.projection,
-                };
+                let scenery = Scenery::new(draws, self.world.projection);
                 // SAFETY: the commands are waited for; all handles outlive them.
                 unsafe { frame.record(commands, &canvas.images(), &scenery, &shading) }.unwrap();
             }
@@ -523,10 +561,7 @@ impl<'a> Machine<'a> {
             unsafe { self.antialiaser.prepare(geometry, &KINDS, &options) }
         };
         let mut frame = prepare(&lending.geometry).unwrap();
-        let scenery = Scenery {
-            draws: &lent.draws,
-            projection: self.world.projection,
-        };
+        let scenery = Scenery::new(&lent.draws, self.world.projection);
         let shown = sizes.iter().map(|&size| {
             let canvas = self.canvas(size);
             // SAFETY: the commands before are done.

@@ -111,6 +111,7 @@ pub fn world(sampler: &Sampler) -> World {
             .map(|corner| corner.map(|at| at * repeats - 0.2))
             .to_vec(),
         indices: vec![0, 1, 2, 0, 2, 3],
+        ..Mesh::default()
     };
     let part = |number: usize| Part {
         mesh: number,

@@ -1,7 +1,8 @@
 //! The world that the tests' host shows, and the images that its own renderer draws of it.
 
 use ash::vk;
-use gpc::host::Draw;
+use gpc::host::{Draw, Topology, Viewport};
+use gpc::reference::topology;
 use gpc::reference::transform::clip_position;
 use gpc::reference::visibility::{Surface, nearest};
 
@@ -19,6 +20,8 @@ pub struct Mesh {
     pub paints: Vec<f32>,
     pub coordinates: Vec<[f32; 2]>,
     pub indices: Vec<u32>,
+    /// Indices that are the same triangles in the topology of [`World::of`].
+    pub sequence: Vec<u32>,
 }
 
 /// A mesh at a place in the world.
@@ -60,6 +63,14 @@ pub struct Way {
     pub indices_offset: u64,
     /// Pixel of the images at which the picture begins; the margin at its end has the same size.
     pub corner: [u32; 2],
+    /// Whether each mesh has buffers of its own.
+    pub apart: bool,
+    /// Whether there are no indices.
+    pub bare: bool,
+    pub topology: Topology,
+    pub viewport: Option<Viewport>,
+    /// What the image of depth holds for a depth of 0 and of 1.
+    pub depth_range: [f32; 2],
 }
 
 /// The way of a host that transforms all vertices itself.
@@ -70,6 +81,11 @@ pub const PLACED: Way = Way {
     short_indices: false,
     indices_offset: 0,
     corner: [0, 0],
+    apart: false,
+    bare: false,
+    topology: Topology::List,
+    viewport: None,
+    depth_range: [0.0, 1.0],
 };
 
 impl Way {
@@ -92,6 +108,9 @@ impl Way {
 
 /// Buffers and draws that lend a world.
 pub struct Lent {
+    /// The mesh of each vertex, and of each index.
+    pub of_vertices: Vec<usize>,
+    pub of_indices: Vec<usize>,
     pub positions: Vec<u8>,
     pub vertex_count: u32,
     /// Brightness of each vertex.
@@ -190,14 +209,30 @@ impl World {
         }
     }
 
+    /// The same vertices, whose indices are those of strips or fans.
+    pub fn of(topology: Topology) -> Self {
+        let mut world = Self::new();
+        for mesh in &mut world.meshes {
+            mesh.sequence = std::mem::take(&mut mesh.indices);
+            let triangles = match topology {
+                Topology::List => topology::list(&mesh.sequence),
+                Topology::Strip => topology::strip(&mesh.sequence),
+                Topology::Fan => topology::fan(&mesh.sequence),
+            };
+            mesh.indices = triangles.concat();
+        }
+        world
+    }
+
     /// Buffers for a way of lending.
     pub fn lent(&self, way: &Way) -> Lent {
+        let meshes: Vec<_> = self.meshes.iter().map(|mesh| mesh.lent(way)).collect();
         let mut vertices: Vec<Vec<f32>> = Vec::new();
         let mut paints = Vec::new();
         let mut coordinates = Vec::new();
         let mut indices: Vec<u32> = Vec::new();
         let mut of_meshes = Vec::new();
-        for mesh in &self.meshes {
+        for mesh in &meshes {
             of_meshes.push((vertices.len(), indices.len()));
             indices.extend(&mesh.indices);
             if way.object_space {
@@ -208,24 +243,36 @@ impl World {
         }
         let mut drawn_vertices = 0;
         let mut draws = Vec::new();
+        let mut of_vertices: Vec<usize> = Vec::new();
+        if way.object_space {
+            for (number, mesh) in meshes.iter().enumerate() {
+                of_vertices.resize(of_vertices.len() + mesh.positions.len(), number);
+            }
+        }
         for (number, part) in self.parts.iter().enumerate() {
-            let mesh = &self.meshes[part.mesh];
+            let mesh = &meshes[part.mesh];
             let (first_vertex, first_index) = of_meshes[part.mesh];
             let first_vertex = if way.object_space {
                 first_vertex
             } else {
                 let first = vertices.len();
                 vertices.extend(mesh.clip(&part.to_clip).map(|p| p.to_vec()));
+                of_vertices.resize(vertices.len(), part.mesh);
                 paints.extend(&mesh.paints);
                 coordinates.extend(&mesh.coordinates);
                 first
             };
-            drawn_vertices += mesh.positions.len() as u32;
+            // Without indices, a draw may begin after the vertex that it counts from.
+            let before = if way.bare { first_vertex.min(2) } else { 0 };
+            let vertex_count = (mesh.positions.len() + before) as u32;
+            drawn_vertices += vertex_count;
             draws.push(Draw {
-                first_index: first_index as u32,
-                triangle_count: mesh.indices.len() as u32 / 3,
-                vertex_offset: first_vertex as i32,
-                vertex_count: mesh.positions.len() as u32,
+                mesh: if way.apart { part.mesh as u32 } else { 0 },
+                first_index: if way.bare { before } else { first_index } as u32,
+                triangle_count: self.meshes[part.mesh].indices.len() as u32 / 3,
+                topology: way.topology,
+                vertex_offset: (first_vertex - before) as i32,
+                vertex_count,
                 to_clip: part.to_clip,
                 material: number as u16,
                 alpha_map: part.alpha_map,
@@ -250,7 +297,11 @@ impl World {
             }
         }
         index_bytes.resize(index_bytes.len().next_multiple_of(4), 0xff);
+        let of_indices = meshes.iter().enumerate();
+        let of_indices = of_indices.flat_map(|(number, mesh)| vec![number; mesh.indices.len()]);
         Lent {
+            of_indices: of_indices.collect(),
+            of_vertices,
             positions,
             vertex_count: vertices.len() as u32,
             paints,
@@ -372,6 +423,26 @@ impl Surfaces {
 }
 
 impl Mesh {
+    /// The mesh as it is lent: without indices, each corner is a vertex.
+    fn lent(&self, way: &Way) -> Self {
+        let indices = match way.topology {
+            Topology::List => &self.indices,
+            Topology::Strip | Topology::Fan => &self.sequence,
+        };
+        let corners = (0..self.positions.len() as u32).collect();
+        let vertices = if way.bare { indices } else { &corners };
+        let of = |index: &u32| *index as usize;
+        let has_coordinates = !self.coordinates.is_empty();
+        let coordinates = vertices.iter().filter(|_| has_coordinates);
+        Self {
+            positions: vertices.iter().map(|v| self.positions[of(v)]).collect(),
+            paints: vertices.iter().map(|v| self.paints[of(v)]).collect(),
+            coordinates: coordinates.map(|v| self.coordinates[of(v)]).collect(),
+            indices: indices.clone(),
+            sequence: Vec::new(),
+        }
+    }
+
     pub fn vertex_count(&self) -> usize {
         self.positions.len()
     }

@@ -64,7 +64,7 @@ enum Command {
     Panorama(Box<panorama::PanoramaArgs>),
     /// Render the frames of projectors that together show one picture
     Project(Box<project::ProjectArgs>),
-    /// Compare two images
+    /// Compare two images, or two folders of images
     Compare(compare::CompareArgs),
     /// Describe the contents of a scene
     Info(info::InfoArgs),

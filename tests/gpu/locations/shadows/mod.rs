@@ -1,6 +1,7 @@
 //! Exact shadows, compared with their closed form: light above a floor, and objects that block it.
 
 mod casters;
+mod dense;
 mod edges;
 mod facing;
 mod parts;

@@ -1,0 +1,33 @@
+//! composite: blends the layers that samples see.
+
+use super::spirv;
+use crate::engine::data::{Argument, ColorConstants};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Replaces each leaf of a list of layers by the colour of the list, for [`Resolve`](super::Resolve).
+pub struct Composite {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Composite {
+    /// Makes the pipeline. `output` holds the colour constants of `shaders/include/color.glsl`.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
+        let shader = spirv::Composite {
+            tinted: output.tinted,
+            tonemap: output.tonemap,
+        };
+        Ok(Self {
+            pipeline: layout.compute(&shader, None)?,
+        })
+    }
+
+    /// Records the pass over the visibility samples of the round.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Sort as u32);
+    }
+}

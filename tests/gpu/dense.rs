@@ -1,0 +1,143 @@
+//! Tiles with more triangles, or more layers, than a list of candidates may have.
+
+use gpc::render::{Coverage, Rendered, Shading};
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use crate::blend::panes;
+use crate::locations::{pinhole, planar};
+use crate::mask::checker;
+use crate::meshes::Random;
+use crate::stage::{Stage, everywhere, flat, on_gpu, once, seen_at};
+use crate::visibility::soup;
+
+/// Size of the image in whole tiles, so that an image and its locations have the same middle.
+const SIZE: [u32; 2] = [64, 64];
+
+/// The stage with 12,000 more triangles in the four tiles around the image's middle. They are so small that they lie between all
+/// samples.
+pub fn with_specks(mut stage: Stage) -> Stage {
+    let mut random = Random::new(9);
+    let mut specks = Stage::new(stage.materials.clone());
+    for _ in 0..12_000 {
+        let middle = [7.5, 3.5].map(|half| random.range(-half, half));
+        let distance = random.range(0.5, 9.0);
+        let corners = [0; 3].map(|_| {
+            let place = middle.map(|middle| middle + random.range(-1e-4, 1e-4));
+            seen_at(place, distance, SIZE[1])
+        });
+        specks.add(0, corners);
+    }
+    specks.triangles.append(&mut stage.triangles);
+    stage.triangles = std::mem::take(&mut specks.triangles);
+    stage
+}
+
+fn stages() -> [(&'static str, Stage); 3] {
+    [
+        ("opaque", soup(7, 300, true, [-1.0, 5.0])),
+        ("mask", checker()),
+        ("blend", panes()),
+    ]
+}
+
+fn assert_same(found: &[[f32; 4]], expected: &[[f32; 4]], what: &str) {
+    let pairs = found.iter().zip(expected);
+    let differ = pairs.filter(|(found, expected)| found != expected).count();
+    assert_eq!(differ, 0, "{what}: colours that differ");
+    assert_eq!(found.len(), expected.len(), "{what}");
+}
+
+/// Samples of tiles without a list see what lists show them, to the bit.
+#[test]
+fn triangles_that_no_sample_sees_change_nothing() {
+    on_gpu(|gpu| {
+        for (name, stage) in stages() {
+            let dense = with_specks(stage.clone());
+            for (shading, samples) in [
+                (Shading::Triangle, 16),
+                (Shading::Sample, 64),
+                (Shading::Part, 300),
+            ] {
+                let settings = everywhere(SIZE, Pattern::Sobol, samples)
+                    .map_superpixels(|options| options.shading(shading));
+                let what = format!("{name}, {samples} samples");
+                let listed = stage.render(gpu, &settings);
+                let found = dense.render(gpu, &settings);
+                let unlisted = |image: &Rendered| image.statistics.unlisted_tiles;
+                assert_eq!((unlisted(&listed), unlisted(&found)), (0, 4), "{what}");
+                assert_same(&found.colors, &listed.colors, &what);
+            }
+        }
+    });
+}
+
+/// The same for lists of locations.
+#[test]
+fn locations_see_the_same_in_dense_tiles() {
+    on_gpu(|gpu| {
+        let (pinhole, locations) = (pinhole(SIZE), planar(SIZE));
+        for (name, stage) in stages() {
+            let dense = with_specks(stage.clone());
+            let settings = everywhere(SIZE, Pattern::Sobol, 80);
+            let [listed, found] = [&stage, &dense].map(|stage| {
+                let prepared = stage.upload(gpu);
+                let cells = gpu.sample_superpixels(&prepared, &pinhole, &locations, &settings);
+                let points = gpu.sample_points(&prepared, &pinhole, &locations, &once(SIZE));
+                (cells.unwrap(), points.unwrap().values)
+            });
+            assert!(found.0.statistics.unlisted_tiles > 0, "{name}");
+            assert_same(&found.0.values, &listed.0.values, name);
+            let colors = [&found.1, &listed.1]
+                .map(|points| points.iter().map(|point| point.color).collect::<Vec<_>>());
+            assert_same(&colors[0], &colors[1], name);
+        }
+    });
+}
+
+/// Panes before each other are composited in order, however many there are and however they come.
+#[test]
+fn layers_may_be_any_number() {
+    on_gpu(|gpu| {
+        const PANES: usize = 600;
+        const ALPHA: f32 = 1.0 / 64.0;
+        const SMALL: [u32; 2] = [8, 4];
+        let colors = |pane: usize| [pane % 2, pane / 2 % 2, pane % 3 % 2].map(|bit| bit as f32);
+        let mut random = Random::new(4);
+        let mut order: Vec<usize> = (0..PANES).collect();
+        for last in (1..PANES).rev() {
+            order.swap(last, random.below(last as u64 + 1) as usize);
+        }
+        let materials = (0..PANES).map(|pane| {
+            let [r, g, b] = colors(pane);
+            flat([r, g, b, ALPHA], AlphaMode::Blend)
+        });
+        let mut stage = Stage::new(materials.collect());
+        for pane in order {
+            let distance = 1.0 + pane as f64 / 64.0;
+            let corners = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];
+            stage.add_quad(pane, corners.map(|at| seen_at(at, distance, SMALL[1])));
+        }
+        let mut expected = [0.0_f64; 4];
+        for pane in (0..PANES).rev() {
+            let [r, g, b] = colors(pane).map(f64::from);
+            let alpha = f64::from(ALPHA);
+            for (channel, own) in expected.iter_mut().zip([r, g, b, 1.0]) {
+                *channel = alpha * own + (1.0 - alpha) * *channel;
+            }
+        }
+        for samples in [1, 16, 100] {
+            let settings = everywhere(SMALL, Pattern::Sobol, samples)
+                .map_superpixels(|options| options.coverage(Coverage::Samples));
+            let image = stage.render(gpu, &settings);
+            for (pixel, color) in image.colors.iter().enumerate() {
+                let apart = (0..4).map(|i| (f64::from(color[i]) - expected[i]).abs());
+                let most = apart.fold(0.0, f64::max);
+                assert!(
+                    most < 1e-5,
+                    "{samples} samples, pixel {pixel}: {color:?}, not {expected:?}"
+                );
+            }
+        }
+    });
+}
