@@ -4,7 +4,7 @@ use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::OwnSet;
 use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, Shown, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ impl Adopt {
             (adopt_set::DRAWS, (&draws.table).into()),
             (
                 adopt_set::INDICES,
-                indices.map_or_else(|| (&draws.table).into(), Into::into),
+                indices.map_or_else(|| (&draws.table).into(), Shown::from),
             ),
             (adopt_set::TRIANGLES_OUT, triangles.into()),
             (adopt_set::DRAW_OF_OUT, draw_of.into()),

@@ -139,12 +139,9 @@ impl Resolve {
             image.bind(recorder);
         }
         recorder.pass(spirv::Resolve::INTERFACE, || {
-            // Lists have different cells.
-            recorder.unordered(|| {
-                for (list, pipeline) in &self.kernels {
-                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
-                }
-            });
+            for (list, pipeline) in &self.kernels {
+                recorder.dispatch_indirect(pipeline, arguments, list.argument());
+            }
         });
     }
 }

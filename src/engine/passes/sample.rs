@@ -174,7 +174,6 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
         header,
         lines,
         locations: shader.locations,
-        occluders: shader.occluders,
         instanced: shader.instanced,
         unsure: shader.unsure,
     }
@@ -341,34 +340,28 @@ impl Sample {
     /// be marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Sample::INTERFACE, || {
-            // Lists have different cells.
-            recorder.unordered(|| {
-                for (list, pipeline) in &self.kernels {
-                    if *list != TileList::Unlisted {
-                        recorder.dispatch_indirect(pipeline, arguments, list.argument());
-                    }
+            for (list, pipeline) in &self.kernels {
+                if *list != TileList::Unlisted {
+                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
                 }
-            });
-            if self.rest.is_empty() {
-                return;
             }
-            self.arguments_of_rest.record(recorder);
-            recorder.unordered(|| {
-                for (list, pipeline) in &self.rest {
-                    let argument = Argument::PlainLeft as u32 + *list as u32;
-                    recorder.dispatch_indirect(pipeline, arguments, argument);
-                }
-            });
+            if !self.rest.is_empty() {
+                self.arguments_of_rest.record(recorder);
+            }
+            for (list, pipeline) in &self.rest {
+                let argument = Argument::PlainLeft as u32 + *list as u32;
+                recorder.dispatch_indirect(pipeline, arguments, argument);
+            }
+            // The memory of lists is used again.
+            let unlisted = self
+                .kernels
+                .iter()
+                .find(|(list, _)| *list == TileList::Unlisted);
+            if let (Some(scatter), Some((list, pipeline))) = (&self.scatter, unlisted) {
+                scatter.record(recorder, arguments);
+                recorder.dispatch_indirect(pipeline, arguments, list.argument());
+            }
         });
-        // The memory of lists is used again.
-        let unlisted = self
-            .kernels
-            .iter()
-            .find(|(list, _)| *list == TileList::Unlisted);
-        if let (Some(scatter), Some((list, pipeline))) = (&self.scatter, unlisted) {
-            scatter.record(recorder, arguments);
-            recorder.dispatch_indirect(pipeline, arguments, list.argument());
-        }
     }
 }
 
@@ -401,13 +394,12 @@ impl SampleOptions {
 
     /// Whether special kernels process cells of opaque and alpha-tested triangles, and may leave some of them.
     fn by_cell(&self) -> bool {
-        !self.cells.are_points() && !self.always_blends && self.records != RecordRate::Sample
+        self.cells == Cells::Pixels && !self.always_blends && self.records != RecordRate::Sample
     }
 
-    /// Whether these kernels store the samples of a pixel as a mask.
+    /// Whether these kernels store the samples of a cell as a mask.
     fn by_masks(&self) -> bool {
-        let few = (2..=64).contains(&self.samples);
-        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !self.apart && few
+        self.by_cell() && !self.by_lines() && !self.apart && (2..=64).contains(&self.samples)
     }
 
     /// Whether these kernels have samples on lines.

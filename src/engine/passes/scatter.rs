@@ -4,7 +4,7 @@ use super::arguments::{After, Arguments};
 use super::{SampleOptions, spirv};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -49,24 +49,21 @@ impl Scatter {
             recorder.dispatch_indirect(&self.pipeline, arguments, argument as u32);
         };
         let of_owners = |name| step(name, 0, Argument::Owners);
-        // Triangles leave depths and IDs by atomic operations, whose results do not depend on their order.
         let of_triangles = |name| {
             recorder.unordered(|| {
                 step(name, 0, Argument::Scatter);
                 step(name, 1, Argument::ScatterEvery);
             });
         };
-        recorder.pass(spirv::Scatter::INTERFACE, || {
-            of_owners(spirv::SCATTER_CLEAR);
-            of_triangles(spirv::SCATTER_DEPTHS);
-            of_triangles(spirv::SCATTER_IDS);
-            if let Some(of_layers) = &self.of_layers {
-                of_triangles(spirv::SCATTER_COUNT);
-                of_owners(spirv::SCATTER_PLACE);
-                of_triangles(spirv::SCATTER_LAYERS);
-                of_layers.record(recorder);
-                step(spirv::SCATTER_ORDER, 0, Argument::Layers);
-            }
-        });
+        of_owners(spirv::SCATTER_CLEAR);
+        of_triangles(spirv::SCATTER_DEPTHS);
+        of_triangles(spirv::SCATTER_IDS);
+        if let Some(of_layers) = &self.of_layers {
+            of_triangles(spirv::SCATTER_COUNT);
+            of_owners(spirv::SCATTER_PLACE);
+            of_triangles(spirv::SCATTER_LAYERS);
+            of_layers.record(recorder);
+            step(spirv::SCATTER_ORDER, 0, Argument::Layers);
+        }
     }
 }

@@ -113,8 +113,8 @@ impl Capacity {
         }
     }
 
-    /// This capacity with only the kernels that most frames need: compiling the kernel for tiles without a list may take
-    /// longer than a frame.
+    /// This capacity with only the kernels that most frames need: compiling those for tiles without a list may take longer
+    /// than a frame.
     pub fn without_unlisted(self) -> Self {
         Self {
             unlisted: false,
@@ -130,8 +130,9 @@ impl Capacity {
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0 || of_lights;
         let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
-        let late = factor(shortfall.waiting > 0 || unshadowed, 2) * factor(unshadowed, 2);
-        let rounds = late.max(shortfall.rounds.next_power_of_two());
+        let rounds = factor(shortfall.waiting > 0, 2)
+            .max(factor(unshadowed, 4))
+            .max(shortfall.rounds.next_power_of_two());
         Self {
             layers: self.layers.saturating_mul(factor(crowded, 4)),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
@@ -447,14 +448,16 @@ mod tests {
             crowded: 1,
             ..Shortfall::default()
         };
-        let least = Capacity::default().without_unlisted();
-        let more = least.more(crowded);
+        let more = Capacity::default().without_unlisted().more(crowded);
         assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
         let unlisted = Shortfall {
             unlisted: 1,
             ..Shortfall::default()
         };
-        assert_eq!(least.more(unlisted), Capacity::default());
+        assert_eq!(
+            Capacity::default().without_unlisted().more(unlisted),
+            Capacity::default()
+        );
         // What lights lack may be rounds.
         let unshadowed = Shortfall {
             unshadowed: 1,
