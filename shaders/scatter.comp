@@ -216,13 +216,13 @@ void main() {
         from += group.w;
     }
     uint count = every ? frame.triangle_count : min(counters[COUNTER_PAIRS], frame.pair_capacity);
-    uint first = number * 64u * PAIRS_OF_SCATTER + gl_LocalInvocationID.x, wanted = 0u;
-    [[unroll]] for (uint k = 0u; k < PAIRS_OF_SCATTER; k++) {
+    uint first = number * 64u * pairs_of_scatter() + gl_LocalInvocationID.x, wanted = 0u, k = 0u;
+    do {
         uint at = min(first + k * 64u, max(count, 1u) - 1u);
         uint its = every ? tile : pair_tile(texelFetch(pairs, int(at)).xy);
         bool unlisted = in_round(its) && (tiles[its].w & (TILE_LISTED | (every ? 0u : TILE_OVERFLOW))) == 0u;
         wanted |= first + k * 64u < count && unlisted ? 1u << k : 0u;
-    }
+    } while (++k < pairs_of_scatter());
     while (wanted != 0u) {
         uint t = first + uint(findLSB(wanted)) * 64u;
         wanted &= wanted - 1u;

@@ -16,12 +16,16 @@ uint owners_room() { return 4u * frame.list_capacity; }
 // Candidates that the owners of a tile take the room of.
 uint candidates_of_owners(uint cells) { return (cells * frame.sample_count + 3u) / 4u; }
 
-// Cells that an invocation of `scatter` shows PAIRS_OF_SCATTER triangles to, for MOST_TRIPS: it makes 65 trips a cell and one a sample.
-const uint PAIRS_OF_SCATTER = 8u;
-uint cells_of_scatter() { return max(7000u / (65u + frame.sample_count), 1u); }
+// Triangles that an invocation of `scatter` takes, those of a tile as a whole, and cells that it shows each of them to, for MOST_TRIPS.
+uint trips_of_cell() { return 65u + frame.sample_count; }
+uint pairs_of_scatter() { return clamp(56000u / (32u * trips_of_cell()), 1u, 8u); }
+uint cells_of_scatter() { return 56000u / (pairs_of_scatter() * trips_of_cell()); }
 
 // Workgroups of `scatter` for so many pairs or triangles.
-uint scatter_groups_of(uint count) { return (count + 64u * PAIRS_OF_SCATTER - 1u) / (64u * PAIRS_OF_SCATTER); }
+uint scatter_groups_of(uint count) {
+    uint some = 64u * pairs_of_scatter();
+    return (count + some - 1u) / some;
+}
 
 // A dispatch of `scatter`: of so many workgroups for each part of as many cells as a tile or an entry has at the most.
 uvec4 scatter_groups(uint n, uint cells) {
