@@ -174,6 +174,7 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
         header,
         lines,
         locations: shader.locations,
+        occluders: shader.occluders,
         instanced: shader.instanced,
         unsure: shader.unsure,
     }
@@ -394,12 +395,13 @@ impl SampleOptions {
 
     /// Whether special kernels process cells of opaque and alpha-tested triangles, and may leave some of them.
     fn by_cell(&self) -> bool {
-        self.cells == Cells::Pixels && !self.always_blends && self.records != RecordRate::Sample
+        !self.cells.are_points() && !self.always_blends && self.records != RecordRate::Sample
     }
 
-    /// Whether these kernels store the samples of a cell as a mask.
+    /// Whether these kernels store the samples of a pixel as a mask.
     fn by_masks(&self) -> bool {
-        self.by_cell() && !self.by_lines() && !self.apart && (2..=64).contains(&self.samples)
+        let few = (2..=64).contains(&self.samples);
+        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !self.apart && few
     }
 
     /// Whether these kernels have samples on lines.
