@@ -21,7 +21,7 @@ const TILES: [u32; 2] = [13, 21];
 struct Found {
     counters: Vec<u32>,
     masks: Vec<u32>,
-    loads: Vec<[u32; 2]>,
+    loads: Vec<[u32; 4]>,
     order: Vec<u32>,
     cells: Vec<[[u32; 4]; 2]>,
     groups: Vec<[u32; 4]>,
@@ -154,11 +154,13 @@ fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &List
         } else {
             cells(members) * SAMPLES
         };
-        assert_eq!(found.loads[tile as usize], [cells(members), samples]);
+        let [load_cells, load_samples, first_cell, _] = found.loads[tile as usize];
+        assert_eq!([load_cells, load_samples], [cells(members), samples]);
         let mut next = 0;
         let mut along = 0;
         for [_, first, held, number] in groups.iter().filter(|group| group[0] == tile) {
             assert_eq!(*number, next);
+            assert_eq!(*first, first_cell + next);
             let left = cells(members) - next;
             assert_eq!(*held, left.min(sizes.in_group));
             for cell in *first..first + held {

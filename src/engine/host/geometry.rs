@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn depth_ranges_change_what_the_image_holds_alone() {
-        for depth_range in [[0.0, 1.0], [0.25, 0.75], [1.0, 0.0], [0.5, 0.125]] {
+        for depth_range in [[0.0, 1.0], [0.25, 0.75], [1.0, 0.0], [0.5, 0.25]] {
             let clip = ClipSpace {
                 depth_range,
                 ..ClipSpace::default()

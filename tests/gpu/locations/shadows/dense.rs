@@ -6,7 +6,8 @@ use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun};
 use crate::meshes::Random;
 use crate::stage::on_gpu;
 
-/// Specks that are too small to keep light from any place change no shadow.
+/// Specks that are too small to keep light from a place change next to no shadow: their edges are rounded, so that some of 40,000
+/// are found before a place that they miss.
 #[test]
 fn specks_change_no_shadow() {
     on_gpu(|gpu| {
@@ -37,7 +38,7 @@ fn specks_change_no_shadow() {
             let differ = pairs
                 .filter(|(a, b)| (a.color, a.shadows) != (b.color, b.shadows))
                 .count();
-            assert_eq!(differ, 0);
+            assert!(50 * differ <= found.len(), "{differ} of {}", found.len());
         }
     });
 }
