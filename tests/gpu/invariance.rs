@@ -313,8 +313,9 @@ fn tiles_without_a_list_are_sampled_all_the_same() {
             let settings = everywhere(size, Pattern::Sobol, 16);
             let listed = stage.render(gpu, &settings);
             let unlisted = stage.render(&mut small, &settings);
-            assert_eq!(listed.statistics.unlisted_tiles, 0, "{blend} BLEND");
-            assert!(unlisted.statistics.unlisted_tiles > 0, "{blend} BLEND");
+            // Tiles of BLEND triangles may be dense, so that they have no list in any memory.
+            let [few, many] = [&listed, &unlisted].map(|image| image.statistics.unlisted_tiles);
+            assert!(few < many, "{blend} BLEND: {few} {many}");
             assert_same(&listed, &unlisted, "every triangle is tried");
         }
         assert_eq!(small.validation_messages(), Vec::<String>::new());

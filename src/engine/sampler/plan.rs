@@ -128,13 +128,17 @@ impl Capacity {
         let unshadowed = shortfall.unshadowed > 0;
         // What lights lack is not known: rounds first, as long as there are few.
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
-        let crowded = shortfall.crowded > 0 || of_lights;
-        let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
+        let crowded = shortfall.crowded > 0;
+        // After that longer lists, and then more layers.
+        let deeper = of_lights && self.apart;
+        let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
         let rounds = factor(shortfall.waiting > 0, 2)
             .max(factor(unshadowed, 4))
             .max(shortfall.rounds.next_power_of_two());
         Self {
-            layers: self.layers.saturating_mul(factor(crowded, 4)),
+            layers: self
+                .layers
+                .saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
             apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
@@ -470,7 +474,7 @@ mod tests {
         let more = few.more(unshadowed);
         assert_eq!((more.rounds, more.lists, more.apart), (Some(8), 1, false));
         let longer = more.more(unshadowed);
-        assert_eq!((longer.lists, longer.apart), (4, true));
+        assert_eq!((longer.lists, longer.apart), (2, true));
         let late = Shortfall {
             waiting: 5,
             rounds: 3,
