@@ -39,7 +39,7 @@ pub fn table() -> String {
             row.extend(
                 samples
                     .iter()
-                    .map(|n| share(of, scene, *n).map_or_else(String::new, |share| percent(share))),
+                    .map(|n| share(of, scene, *n).map_or_else(String::new, percent)),
             );
             table.row(&row);
         }
