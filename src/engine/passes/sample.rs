@@ -53,7 +53,7 @@ pub struct SampleOptions {
     pub can_settle: bool,
     /// Whether a subgroup samples a block of one cell, for lists that are too long to process several cells at a time.
     pub apart: bool,
-    /// Whether tiles without a list are sampled, of which [`Scatter`](super::Scatter) found what their samples see.
+    /// Whether tiles without a list are sampled, of which `scatter` found what their samples see.
     /// Otherwise they are skipped and counted.
     pub unlisted: bool,
     /// Whether the scene has MASK triangles.
