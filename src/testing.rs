@@ -10,7 +10,8 @@ pub use crate::engine::data::{
     Offsets, ResourceSizes, Resources,
 };
 pub use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, RasterTargets, RecordRate, Sample, SampleOptions, Schedule,
+    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, Sample,
+    SampleOptions, Schedule,
 };
 pub use crate::engine::pipelines::FrameLayout;
 pub use crate::render::passes::prefilter;

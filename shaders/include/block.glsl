@@ -258,7 +258,8 @@ void show_candidates(Cell cell) {
                 pending &= pending - 1u;
             } while (pending != 0u);
         }
-    } while (++batch < batches);
+    } while (++batch < batches && trips <= MOST_TRIPS);
+    if (batch < batches && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], 1u);
 }
 
 #endif

@@ -45,15 +45,26 @@ vec3 thresholds(Candidate k) {
         k.a.z > 0.0 || (k.a.z == 0.0 && k.b.z > 0.0) ? 0.0 : OUTSIDE);
 }
 
+// A sum that the driver does not see through: REASSOCIATED of workarounds.glsl.
+vec3 sum_of(vec3 x, vec3 y) {
+    precise vec3 sum = x + y;
+    return uintBitsToFloat(floatBitsToUint(sum) ^ uvec3(gl_NumSubgroups >> 20));
+}
+
+float sum_of(float x, float y) {
+    precise float sum = x + y;
+    return uintBitsToFloat(floatBitsToUint(sum) ^ gl_NumSubgroups >> 20);
+}
+
 bool inside(Candidate k, vec3 least, vec2 p) {
-    precise float e0 = k.a.x * p.x + k.b.x * p.y + k.c.x;
-    precise float e1 = k.a.y * p.x + k.b.y * p.y + k.c.y;
-    precise float e2 = k.a.z * p.x + k.b.z * p.y + k.c.z;
-    return e0 >= least.x && e1 >= least.y && e2 >= least.z;
+    precise vec3 x = k.a * p.x, y = k.b * p.y;
+    precise vec3 e = sum_of(x, y) + k.c;
+    return e.x >= least.x && e.y >= least.y && e.z >= least.z;
 }
 
 float depth_at(Candidate k, vec2 p) {
-    precise float d = k.depth.x * p.x + k.depth.y * p.y + k.depth.z;
+    precise float x = k.depth.x * p.x, y = k.depth.y * p.y;
+    precise float d = sum_of(x, y) + k.depth.z;
     return clamp(d, k.far, k.near);
 }
 

@@ -399,11 +399,12 @@
 #define MOST_TRIALS 0x10000000u
 #define FEWEST_TRIED 4096u
 
-// Longest lists of candidates; tiles with more triangles have none. Loops of `sample` that take a block of one cell at a time
-// end in time with LONGEST_LIST opaque or alpha-tested triangles or LONGEST_LAYERED_APART of which some are BLEND.
-#define LONGEST_LIST 2500u
-#define LONGEST_LAYERED 1000u
-#define LONGEST_LAYERED_APART 160u
+// Longest lists of candidates; tiles with more triangles have none. Most loops over LONGEST_LIST candidates end in time, since
+// what is hidden takes few trips. Those that take a block of one cell at a time always do with SHORT_LIST opaque or alpha-tested
+// triangles, or with SHORT_LAYERED of which some are BLEND.
+#define LONGEST_LIST 40000u
+#define SHORT_LIST 2500u
+#define SHORT_LAYERED 160u
 
 // Records that `sample_lines` makes of a cell beyond its number of samples, at the most: visible triangles share parts.
 #define MORE_RECORDS 16u

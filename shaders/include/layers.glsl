@@ -177,14 +177,14 @@ bool find_layers(Cell cell, uint layer) {
         // The last bit stands for all batches from there on.
         left &= batch < 31u ? left - 1u : batch + 1u < batches ? ~0u : 0u;
         batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
-    } while (left != 0u);
+    } while (left != 0u && trips <= MOST_TRIPS);
     uint most = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         depth[g] = next_id[g] != 0u ? next_depth[g] : depth[g];
         id[g] = next_id[g] != 0u ? next_id[g] : id[g];
         most = max(most, ahead[g]);
     }
-    return subgroupAny(most > 1u);
+    return left != 0u || subgroupAny(most > 1u);
 }
 #endif
 

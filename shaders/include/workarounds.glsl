@@ -17,6 +17,9 @@
 // ROLLED (llvmpipe, Mesa 22.3.6): a loop of few trips and a long body takes the driver long to compile if it is unrolled: the six
 //   rows of `detect` 200 ms instead of 78 ms, the nine neighbours of `seen_beside` 90 ms instead of 56 ms. Such loops are do-while
 //   loops over a variable, which the driver does not unroll.
+// REASSOCIATED (llvmpipe, Mesa 22.3.6): the driver computes a * x + b * y + c as a * x + (b * y + c) in some copies that it makes
+//   of a loop's body, though the sum is `precise`. Which copy a candidate gets depends on the order of its list, so that samples
+//   on an edge differed from run to run. The first sum passes through integers, with bits that are 0 and that the driver does not know.
 // SHUFFLE (llvmpipe, Mesa 22.3.6): subgroupBroadcast is a loop, subgroupShuffle one instruction. Shaders shuffle.
 #ifndef WORKAROUNDS_GLSL
 #define WORKAROUNDS_GLSL

@@ -4,8 +4,8 @@ use gpc::bench::Random;
 use gpc::reference::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 use gpc::render::Headless;
 use gpc::testing::{
-    Argument, Cells, Counter, FrameUniform, RecordRate, ResourceSizes, Sample, SampleOptions,
-    Schedule,
+    Argument, Cells, Counter, FrameUniform, LongLists, RecordRate, ResourceSizes, Sample,
+    SampleOptions, Schedule,
 };
 use gpc::testing::{Buffer, Recorder};
 
@@ -150,7 +150,7 @@ impl<'a> Passes<'a> {
             records: case.records_are,
             exact_areas: false,
             can_settle: false,
-            apart: true,
+            long_lists: LongLists::Scattered,
             unlisted: case.unlisted,
             has_mask: false,
             has_blend: case.blends,
@@ -170,6 +170,7 @@ impl<'a> Passes<'a> {
             record_capacity: case.records,
             ..FrameUniform::default()
         };
+        let [longest_list, longest_layered] = options.long_lists.longest();
         let twin = Rounds {
             samples: case.samples,
             block: sample.block(),
@@ -178,8 +179,8 @@ impl<'a> Passes<'a> {
             layers: LAYERS,
             triangles: case.triangles,
             lanes: sizes.lanes,
-            longest_list: 2_500,
-            longest_layered: 160,
+            longest_list,
+            longest_layered,
             blends: case.blends,
             candidates: case.candidates,
             records: case.records,

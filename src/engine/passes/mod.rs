@@ -60,7 +60,7 @@ pub use points::Points;
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};
 pub use resolve::{Resolve, ResolveTarget};
-pub use sample::{RecordRate, Sample, SampleOptions, TileList};
+pub use sample::{LongLists, RecordRate, Sample, SampleOptions, TileList};
 pub use scatter::Scatter;
 pub use schedule::Schedule;
 pub use setup::Setup;

@@ -51,8 +51,8 @@ pub struct SampleOptions {
     /// Whether a few samples may suffice for a cell, so that a first run with few samples is worthwhile if there are
     /// many.
     pub can_settle: bool,
-    /// Whether a subgroup samples a block of one cell, for lists that are too long to process several cells at a time.
-    pub apart: bool,
+    /// How cells of long lists of candidates are sampled.
+    pub long_lists: LongLists,
     /// Whether tiles without a list are sampled, of which `scatter` found what their samples see.
     /// Otherwise they are skipped and counted.
     pub unlisted: bool,
@@ -62,6 +62,42 @@ pub struct SampleOptions {
     pub has_blend: bool,
     /// Whether all cells show a BLEND triangle, so that only lists with these are sampled.
     pub always_blends: bool,
+}
+
+/// How cells are sampled whose lists of candidates are long, so that loops over them end in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LongLists {
+    /// As others: a subgroup samples blocks of several cells.
+    #[default]
+    Together,
+    /// A subgroup samples a block of one cell.
+    Apart,
+    /// A subgroup samples a block of one cell, and tiles have no list if loops over it might not end in time.
+    Scattered,
+}
+
+impl LongLists {
+    /// What to do where loops over lists did not end in time.
+    pub(crate) fn shorter(self) -> Self {
+        match self {
+            Self::Together => Self::Apart,
+            Self::Apart | Self::Scattered => Self::Scattered,
+        }
+    }
+
+    fn is_apart(self) -> bool {
+        self != Self::Together
+    }
+
+    /// Largest numbers of candidates of a tile of opaque and alpha-tested triangles, and of one with BLEND triangles. Tiles with
+    /// more have no list.
+    #[must_use]
+    pub fn longest(self) -> [u32; 2] {
+        match self {
+            Self::Together | Self::Apart => [spirv::LONGEST_LIST; 2],
+            Self::Scattered => [spirv::SHORT_LIST, spirv::SHORT_LAYERED],
+        }
+    }
 }
 
 /// Number of visibility samples that the samples of a block make if they see the same triangle.
@@ -209,7 +245,7 @@ impl Sample {
                 by_part: options.by_part(*run, rows * lanes),
                 exact_areas: options.measures(*list, *run),
                 part: options.part_samples(),
-                apart: options.apart || *list == TileList::Unlisted,
+                apart: options.long_lists.is_apart() || *list == TileList::Unlisted,
                 locations: options.cells.are_locations(),
                 points: options.cells.are_points(),
                 occluders: options.cells.are_occluders(),
@@ -277,6 +313,7 @@ impl Sample {
         let mut kernels = made?;
         let rest = kernels.split_off(first_run);
         let block = rows * lanes;
+        let apart = options.long_lists.is_apart();
         let taking = |samples: u32, apart: bool| {
             let blocks = samples.div_ceil(block);
             if apart {
@@ -286,13 +323,13 @@ impl Sample {
             }
         };
         let first = if probes {
-            taking(Self::PROBES, options.apart)
+            taking(Self::PROBES, apart)
         } else if options.by_lines() {
             1
         } else {
-            taking(options.samples, options.apart)
+            taking(options.samples, apart)
         };
-        let [all, unlisted] = [options.apart, true].map(|apart| taking(options.samples, apart));
+        let [all, unlisted] = [apart, true].map(|apart| taking(options.samples, apart));
         let subgroups = [first, all, unlisted];
         let scatter = || Scatter::new(layout, scene, options);
         Ok(Self {
@@ -367,15 +404,6 @@ impl Sample {
 }
 
 impl SampleOptions {
-    /// Largest number of candidates of a tile with BLEND triangles. Tiles with more have no list.
-    pub(crate) fn longest_layered(&self) -> u32 {
-        if self.apart {
-            spirv::LONGEST_LAYERED_APART
-        } else {
-            spirv::LONGEST_LAYERED
-        }
-    }
-
     /// Whether a run measures areas: only if it processes all samples of a cell at once. Cells that the kernels with
     /// masks leave have more triangles than areas are stored for.
     fn measures(&self, list: TileList, run: Run) -> bool {
@@ -401,7 +429,8 @@ impl SampleOptions {
     /// Whether these kernels store the samples of a pixel as a mask.
     fn by_masks(&self) -> bool {
         let few = (2..=64).contains(&self.samples);
-        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !self.apart && few
+        let apart = self.long_lists.is_apart();
+        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !apart && few
     }
 
     /// Whether these kernels have samples on lines.

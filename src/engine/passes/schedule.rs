@@ -55,6 +55,7 @@ impl Schedule {
             unsure,
         };
         let [subgroups_first, subgroups, subgroups_unlisted] = sample.subgroups();
+        let [longest_list, longest_layered] = options.long_lists.longest();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
             layout: layout.pipeline,
@@ -71,8 +72,8 @@ impl Schedule {
                 subgroups_first,
                 subgroups,
                 subgroups_unlisted,
-                longest_list: spirv::LONGEST_LIST,
-                longest_layered: options.longest_layered(),
+                longest_list,
+                longest_layered,
                 more_records: options.more_records(),
             },
         })

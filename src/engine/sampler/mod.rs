@@ -93,7 +93,7 @@ impl SamplerContext<'_> {
             exact_areas: superpixels.coverage == Coverage::Area && samples > 1 && !points,
             // High-frequency triangles are shaded in many places, so that a few samples never suffice.
             can_settle: superpixels.shading != Shading::Part || !scene.is_mostly_high_frequency(),
-            apart: self.capacity.apart,
+            long_lists: self.capacity.long_lists,
             unlisted: self.capacity.unlisted,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),

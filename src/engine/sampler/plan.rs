@@ -3,6 +3,7 @@
 use super::statistics::Shortfall;
 use super::{EngineError, Method, RoundPolicy, Settings, Shading};
 use crate::engine::data::{Content, ResourceSizes};
+use crate::engine::passes::LongLists;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
@@ -84,8 +85,8 @@ pub(crate) struct Capacity {
     pub lists: u32,
     /// Factor for the number of recorded rounds that images usually need; `None` to record all that any image may need.
     pub rounds: Option<u32>,
-    /// Whether a subgroup samples one cell at a time.
-    pub apart: bool,
+    /// How cells of long lists of candidates are sampled.
+    pub long_lists: LongLists,
     /// Whether tiles without a list of candidates are sampled.
     pub unlisted: bool,
 }
@@ -122,7 +123,8 @@ impl Capacity {
         }
     }
 
-    /// Capacity with several times as much of what a frame lacked, or as much as the frame is known to need.
+    /// Capacity with several times as much of what a frame lacked, or as much as the frame is known to need. Tiles without a list
+    /// are sampled only where more room for lists did not help: to try every triangle takes long.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
         let unshadowed = shortfall.unshadowed > 0;
@@ -130,7 +132,7 @@ impl Capacity {
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0;
         // After that longer lists, and then more layers.
-        let deeper = of_lights && self.apart;
+        let deeper = of_lights && self.long_lists == LongLists::Scattered;
         let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
         let rounds = factor(shortfall.waiting > 0, 2)
             .max(factor(unshadowed, 4))
@@ -140,8 +142,13 @@ impl Capacity {
                 .layers
                 .saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
-            apart: self.apart || of_lights || shortfall.stalled > 0,
-            unlisted: self.unlisted || shortfall.unlisted > 0,
+            long_lists: if of_lights || shortfall.stalled > 0 {
+                self.long_lists.shorter()
+            } else {
+                self.long_lists
+            },
+            unlisted: self.unlisted
+                || (shortfall.unlisted > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
             ..self.with_lists(lists.max(shortfall.rooms))
         }
     }
@@ -162,7 +169,7 @@ impl Default for Capacity {
             layers: Self::LAYERS,
             lists: 1,
             rounds: None,
-            apart: false,
+            long_lists: LongLists::default(),
             unlisted: true,
         }
     }
@@ -472,9 +479,10 @@ mod tests {
             ..Capacity::default()
         };
         let more = few.more(unshadowed);
-        assert_eq!((more.rounds, more.lists, more.apart), (Some(8), 1, false));
+        let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
+        assert_eq!(unlike(&more), (Some(8), 1, LongLists::Together));
         let longer = more.more(unshadowed);
-        assert_eq!((longer.lists, longer.apart), (2, true));
+        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::Apart));
         let late = Shortfall {
             waiting: 5,
             rounds: 3,

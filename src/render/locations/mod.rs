@@ -180,7 +180,7 @@ impl Headless {
                         "{cells} cells or tiles of {count} locations are left: {shortfall:?}"
                     );
                     let more = capacity.more(shortfall);
-                    if count > 1 && (capacity.apart || !more.apart) {
+                    if count > 1 && more.long_lists == capacity.long_lists {
                         waiting.extend(LocationPlan::halves(&run));
                     } else if capacity.lists < MOST_LISTS {
                         capacity = more;

@@ -9,6 +9,7 @@ use crate::render::data::FrameGeometry;
 use crate::render::plane::PlaneWindow;
 use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{EngineError, PreparedScene, RenderError, Settings, Shadows};
+use crate::vulkan::VulkanError;
 use std::ops::Range;
 
 /// Largest number of locations of a run; more would not make sampling faster.
@@ -33,8 +34,8 @@ impl LocationPlan {
     /// Plans the runs of a partition.
     ///
     /// # Errors
-    /// [`EngineError::Memory`](crate::render::EngineError::Memory) if not even short runs fit, [`RenderError::NoCasters`] if shadows are asked for and the
-    /// scene was not prepared for them.
+    /// [`EngineError::Memory`](crate::render::EngineError::Memory) if not even short runs fit, [`VulkanError::TooLarge`] if these
+    /// exceed a limit of the device, [`RenderError::NoCasters`] if shadows are asked for and the scene was not prepared for them.
     pub fn new(
         layout: &FrameLayout,
         prepared: &PreparedScene,
@@ -83,6 +84,8 @@ impl LocationPlan {
                 });
             }
             if longest <= FEWEST_LOCATIONS {
+                let (elements, most) = (sizes.largest_texels(), limits.max_texel_elements);
+                VulkanError::check_limit("a list of sample locations", elements, "elements", most)?;
                 return Err(RenderError::Engine(EngineError::Memory {
                     needed,
                     allowed: settings.max_memory.unwrap_or(limits.max_storage_bytes),
