@@ -46,6 +46,7 @@ const IN_FLIGHT: usize = 2;
 struct Shell {
     window: Option<Window>,
     failure: Option<String>,
+    resized: bool,
     closed: bool,
 }
 
@@ -62,6 +63,7 @@ impl ApplicationHandler for Shell {
     }
 
     fn window_event(&mut self, _: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        self.resized |= matches!(event, WindowEvent::Resized(_));
         self.closed |= match event {
             WindowEvent::CloseRequested => true,
             WindowEvent::KeyboardInput { event, .. } => event.logical_key == NamedKey::Escape,
@@ -95,6 +97,10 @@ fn main() -> Result<(), Failure> {
         let status = events.pump_app_events(Some(Duration::ZERO), &mut shell);
         if matches!(status, PumpStatus::Exit(_)) {
             break;
+        }
+        // Drivers need not say that a window has another size.
+        if std::mem::take(&mut shell.resized) {
+            swapchain = Swapchain::new(&surface, size_of(&window), Some(swapchain))?;
         }
         let index = frame % IN_FLIGHT;
         // The slot's fence says that its frame, its set and its semaphore are free again.

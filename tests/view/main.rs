@@ -1031,7 +1031,6 @@ fn without_a_display_the_command_that_needs_none_is_named() {
 
 /// The example's frames fill the window in each size that it gets.
 #[test]
-#[ignore = "the example does not follow a new size of its window on a display without a window manager; the cause is not known"]
 fn a_host_shows_its_frames_in_a_window_that_is_resized() {
     let display = Display::open();
     let test = std::env::current_exe().unwrap();
