@@ -1,10 +1,11 @@
 //! Tiles with more triangles, or more layers, than a list of candidates may have.
 
-use gpc::render::{Coverage, Headless, HeadlessOptions, Rendered, Shading};
+use gpc::render::{Coverage, Headless, Rendered, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
 use crate::blend::panes;
+use crate::devices::{few_texel_elements, within};
 use crate::locations::{pinhole, planar};
 use crate::mask::checker;
 use crate::meshes::Random;
@@ -14,22 +15,8 @@ use crate::visibility::soup;
 /// Size of the image in whole tiles, so that an image and its locations have the same middle.
 const SIZE: [u32; 2] = [64, 64];
 
-/// A device on which lists have room for 16,384 candidates, so that a tile of 19,000 triangles has none. Their pairs fit.
-fn small_device() -> Headless {
-    let options = HeadlessOptions {
-        device: None,
-        validation: true,
-    };
-    // SAFETY: the limit is lowered.
-    let small = unsafe {
-        Headless::within(&options, |limits| {
-            limits.max_texel_elements = limits.max_texel_elements.min(1 << 16);
-        })
-    };
-    small.unwrap()
-}
-
-/// The stage with 19,000 more triangles in a tile beside the image's middle. They are so small that they lie between
+/// The stage with 19,000 more triangles in a tile beside the image's middle: more than a list has room for on a device with few
+/// texel elements, on which all pairs fit. They are so small that they lie between
 /// nearly all samples.
 fn with_specks(mut stage: Stage) -> Stage {
     let mut random = Random::new(9);
@@ -66,8 +53,7 @@ fn assert_same(found: &[[f32; 4]], expected: &[[f32; 4]], what: &str) {
 /// Samples of tiles without a list see what lists show them, to the bit.
 #[test]
 fn tiles_see_the_same_without_a_list() {
-    on_gpu(|gpu| {
-        let mut small = small_device();
+    let test = |gpu: &mut Headless, small: &mut Headless| {
         for (name, stage) in stages() {
             let dense = with_specks(stage.clone());
             for (shading, samples) in [
@@ -79,26 +65,25 @@ fn tiles_see_the_same_without_a_list() {
                     .map_superpixels(|options| options.shading(shading));
                 let what = format!("{name}, {samples} samples");
                 let listed = dense.render(gpu, &settings);
-                let found = dense.render(&mut small, &settings);
+                let found = dense.render(small, &settings);
                 let unlisted = |image: &Rendered| image.statistics.unlisted_tiles;
                 assert_eq!((unlisted(&listed), unlisted(&found)), (0, 1), "{what}");
                 assert_same(&found.colors, &listed.colors, &what);
             }
         }
-        assert_eq!(small.validation_messages(), Vec::<String>::new());
-    });
+    };
+    on_gpu(|gpu| within(few_texel_elements, |small| test(gpu, small)));
 }
 
 /// The same for lists of locations.
 #[test]
 fn locations_see_the_same_in_dense_tiles() {
-    on_gpu(|gpu| {
-        let mut small = small_device();
+    let test = |gpu: &mut Headless, small: &mut Headless| {
         let (pinhole, locations) = (pinhole(SIZE), planar(SIZE));
         for (name, stage) in stages() {
             let dense = with_specks(stage.clone());
             let settings = everywhere(SIZE, Pattern::Sobol, 80);
-            let [listed, found] = [&mut *gpu, &mut small].map(|gpu| {
+            let [listed, found] = [&mut *gpu, &mut *small].map(|gpu| {
                 let prepared = dense.upload(gpu);
                 let cells = gpu.sample_superpixels(&prepared, &pinhole, &locations, &settings);
                 let points = gpu.sample_points(&prepared, &pinhole, &locations, &once(SIZE));
@@ -111,8 +96,8 @@ fn locations_see_the_same_in_dense_tiles() {
                 .map(|points| points.iter().map(|point| point.color).collect::<Vec<_>>());
             assert_same(&colors[0], &colors[1], name);
         }
-        assert_eq!(small.validation_messages(), Vec::<String>::new());
-    });
+    };
+    on_gpu(|gpu| within(few_texel_elements, |small| test(gpu, small)));
 }
 
 /// Panes before each other are composited in order, however many there are and however they come.

@@ -23,6 +23,11 @@ pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless))
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }
 
+/// Gives a device as few texel elements as Vulkan guarantees: lists have room for 16,384 candidates.
+pub fn few_texel_elements(limits: &mut Limits) {
+    limits.max_texel_elements = limits.max_texel_elements.min(1 << 16);
+}
+
 /// Number of lanes that kernels use on this device.
 fn lanes() -> u32 {
     let mut lanes = 0;

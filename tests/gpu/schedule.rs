@@ -170,7 +170,6 @@ impl<'a> Passes<'a> {
             record_capacity: case.records,
             ..FrameUniform::default()
         };
-        let [longest_list, longest_layered] = options.long_lists.longest();
         let twin = Rounds {
             samples: case.samples,
             block: sample.block(),
@@ -179,8 +178,8 @@ impl<'a> Passes<'a> {
             layers: LAYERS,
             triangles: case.triangles,
             lanes: sizes.lanes,
-            longest_list,
-            longest_layered,
+            longest_list: 2_500,
+            longest_layered: 160,
             blends: case.blends,
             candidates: case.candidates,
             records: case.records,

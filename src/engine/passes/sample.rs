@@ -91,8 +91,7 @@ impl LongLists {
 
     /// Largest numbers of candidates of a tile of opaque and alpha-tested triangles, and of one with BLEND triangles. Tiles with
     /// more have no list.
-    #[must_use]
-    pub fn longest(self) -> [u32; 2] {
+    pub(crate) fn longest(self) -> [u32; 2] {
         match self {
             Self::Together | Self::Apart => [spirv::LONGEST_LIST; 2],
             Self::Scattered => [spirv::SHORT_LIST, spirv::SHORT_LAYERED],

@@ -469,6 +469,15 @@ mod tests {
             Capacity::default().without_unlisted().more(unlisted),
             Capacity::default()
         );
+        // Where pairs found no room, tiles may have lists when they do.
+        let outgrown = Shortfall {
+            unlisted: 1,
+            rooms: 2,
+            ..Shortfall::default()
+        };
+        let more = Capacity::default().without_unlisted().more(outgrown);
+        assert_eq!((more.lists, more.unlisted), (2, false));
+        assert!(more.more(outgrown).unlisted);
         // What lights lack may be rounds.
         let unshadowed = Shortfall {
             unshadowed: 1,

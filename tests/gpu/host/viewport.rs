@@ -126,6 +126,7 @@ fn depth_ranges_do_not_change_the_picture() {
         let options = Options::new(SIZE[0], SIZE[1]).flat_background(true);
         let lent = world.lent(&PLACED);
         let seen = machine.see_lent(&PLACED, &lent, Base::All(&drawn), options.thin(false));
-        assert!(seen.outcome.statistics.superpixels + 5 < superpixels);
+        let found = seen.outcome.statistics.superpixels;
+        assert!(found + 10 < superpixels, "{found} {superpixels}");
     });
 }

@@ -30,7 +30,7 @@ fn parts_of_an_image_have_the_shadows_of_the_whole() {
 
         let bounded = settings
             .clone()
-            .max_memory(Some(prepared.memory_bytes() + (52 << 20)));
+            .max_memory(Some(prepared.memory_bytes() + (44 << 20)));
         let in_parts = render(gpu, &prepared, &bounded);
         assert!(in_parts.statistics.regions > 1);
         assert!(in_parts.statistics.memory_bytes <= bounded.max_memory.unwrap());
