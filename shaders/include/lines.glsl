@@ -3,13 +3,13 @@
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
-layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;            // 8 or 16
+layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;            // 8, 16 or 32
 
 const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
 const uint HALVES = BITS / 32u;                             // words of a line
 const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // those that an invocation has of one line
 const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines that an invocation has
-const uint LOG_LINES = 4u;                                  // of as many lines as there may be
+const uint LOG_LINES = 5u;                                  // of as many lines as there may be
 
 // The line and the half of it that a word of an invocation is.
 uint line_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) / HALVES; }
@@ -137,11 +137,11 @@ void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
     merge_own_lines(found, g, 1u);
     merge_own_lines(found, g, 2u);
     merge_own_lines(found, g, 4u);
-    merge_own_lines(found, g, 8u);
     merge_lanes_lines(found, g, 1u);
     merge_lanes_lines(found, g, 2u);
     merge_lanes_lines(found, g, 4u);
     merge_lanes_lines(found, g, 8u);
+    merge_lanes_lines(found, g, 16u);
 }
 
 // What merge_own_lines merged goes to the second of the lines, too.
@@ -161,7 +161,6 @@ void find_rest(uint bits[WORDS], Grid g, uint found[WORDS], out uint rest[WORDS]
     spread_own_lines(found, g, 1u);
     spread_own_lines(found, g, 2u);
     spread_own_lines(found, g, 4u);
-    spread_own_lines(found, g, 8u);
     [[unroll]] for (uint r = 0u; r < WORDS; r++) rest[r] = bits[r] & ~(found[r] * field_bits(g));
 }
 

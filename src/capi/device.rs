@@ -6,7 +6,7 @@ use super::input::{
 };
 use super::memory::{Functions, GpcAllocate, GpcFree};
 use crate::host::Antialiaser;
-use crate::vulkan::{Host, MemorySource, Missing, Requirements};
+use crate::vulkan::{Host, MemorySource, Missing, Requirements, VulkanError};
 use ash::vk;
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::Arc;
@@ -144,7 +144,7 @@ pub unsafe extern "C" fn gpc_check_device(
                 .map_err(|version| Error::Missing(vec![version]))?;
             let family = Requirements::queue_family(&instance, physical_device)
                 .ok_or(Error::Missing(vec![Missing::Queue]))?;
-            Requirements::check_instance(&instance, physical_device, family)?;
+            check_instance(&instance, physical_device, family)?;
             let missing = Requirements::missing(&instance, physical_device);
             if !missing.is_empty() {
                 return Err(Error::Missing(missing));
@@ -155,6 +155,34 @@ pub unsafe extern "C" fn gpc_check_device(
         }
         Ok(())
     })
+}
+
+/// Checks that an instance was created for Vulkan 1.3 or later. A loader does not tell the version, so the function creates a
+/// device, checks its functions and destroys it.
+///
+/// # Errors
+/// [`VulkanError::NoFunction`] for an earlier version; [`VulkanError::Call`] if the driver creates no device.
+///
+/// # Safety
+/// The physical device has the queue family and belongs to the instance, which is alive.
+unsafe fn check_instance(
+    instance: &ash::Instance,
+    device: vk::PhysicalDevice,
+    queue_family: u32,
+) -> Result<(), VulkanError> {
+    let queues = [vk::DeviceQueueCreateInfo::default()
+        .queue_family_index(queue_family)
+        .queue_priorities(&[1.0])];
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
+    // SAFETY: guaranteed by the caller; nothing is made with the device.
+    unsafe {
+        let made = instance
+            .create_device(device, &info, None)
+            .map_err(VulkanError::of("vkCreateDevice"))?;
+        let checked = Requirements::check_functions(instance, made.handle());
+        made.destroy_device(None);
+        checked
+    }
 }
 
 /// Makes an antialiaser in a lent device.

@@ -204,12 +204,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_threshold_is_the_shaders() {
-        let shader = include_str!("../../shaders/include/thin.glsl");
-        assert!(shader.contains(&format!("const float THIN = {THIN:?};")));
-    }
-
     /// The strip is 0.3 high at distance 2, where a pixel is 0.2 wide: 1.5 pixels high.
     #[test]
     fn what_is_thin_is_so_in_cells() {

@@ -2,7 +2,9 @@
 
 use ash::vk;
 use glam::DVec3;
-use gpc::render::{Headless, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
+use gpc::render::{
+    Headless, PassTime, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions,
+};
 use gpc::scene::{Light, LightKind};
 use gpc::vulkan::Limits;
 
@@ -64,6 +66,40 @@ fn a_frame_that_needs_more_rounds_is_recorded_again() {
     let [small, large] = both(&stage, &settings);
     assert!(large.statistics.rounds > 8, "{}", large.statistics.rounds);
     assert!(small.colors == large.colors);
+}
+
+/// Each pass of all rounds has its own time, however many there are, and the image does not change.
+#[test]
+fn the_passes_of_all_rounds_are_timed() {
+    let stage = layered();
+    let mut together = settings(1024);
+    together.max_memory = Some(24 << 20);
+    let one_by_one = together.clone().time_rounds(true);
+    on_gpu(|gpu| {
+        let [together, one_by_one] =
+            [together, one_by_one].map(|settings| render(gpu, &stage, &settings));
+        assert!(together.colors == one_by_one.colors);
+        assert!(together.statistics.rounds > 8);
+        let passes = [&together, &one_by_one].map(|image| &image.statistics.passes);
+        if passes[0].is_empty() {
+            return; // The device has no timestamps.
+        }
+        let of = |passes: &[PassTime], name| {
+            passes
+                .iter()
+                .filter(|time| time.pass == name)
+                .map(|time| time.ms)
+                .sum::<f64>()
+        };
+        let total = |passes: &[PassTime]| passes.iter().map(|time| time.ms).sum::<f64>();
+        let [all, first] = [of(passes[1], "sample"), of(passes[0], "sample")];
+        assert!(
+            of(passes[0], "rounds") > 0.5 * total(passes[0]),
+            "{passes:?}"
+        );
+        assert!(of(passes[1], "rounds") == 0.0, "{passes:?}");
+        assert!(all > 4.0 * first, "{passes:?}");
+    });
 }
 
 /// The commands of a frame do not depend on what it shows, so that a small frame stands for a large one.

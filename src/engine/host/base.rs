@@ -1,7 +1,7 @@
 //! One sample a pixel: what the host has drawn, and what is drawn in its stead.
 
 use super::draw::PlacedDraws;
-use super::{HostError, Options, Shared};
+use super::{HostError, Shared};
 use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, Resources, SampleSet};
 use crate::engine::passes::{
     Centres, HostImage, Raster, RasterPush, RasterRun, RasterTargets, Sort, Take,
@@ -52,15 +52,6 @@ impl Base {
             raster: draws_ids.then(raster).transpose()?,
             colors,
         })
-    }
-
-    /// How often an image of so many pixels is shaded, where there is room for so many records.
-    pub fn shadings(options: &Options, pixels: u32, room: u32) -> u32 {
-        if options.shade_all {
-            Centres::bands(pixels, room).len() as u32
-        } else {
-            0
-        }
     }
 
     /// Records it, for draws that the set's uniform block is of; IDs and depth are drawn into `targets`, where the host lends none.

@@ -106,7 +106,6 @@ impl Work {
         let settings = options.settings();
         settings.check(gpu.limits())?;
         check_size(settings.size)?;
-        let [width, height] = settings.size;
         let content = &lending.content;
         let plan = Plan::whole(&settings, content, gpu.limits(), capacity, lending.bytes())?;
         let allowed = |taken| settings.max_memory.map(|most| most.saturating_sub(taken));
@@ -168,9 +167,7 @@ impl Work {
         }
         // SAFETY: the set goes with the frame, as does what it shows.
         let visibility_set = unsafe { lending.visibility_set(shared, &resources, None) }?;
-        let growths = sampler.growths() as u32;
-        let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
-        let patched = match (options.shade_all, growths) {
+        let patched = match (options.shade_all, sampler.growths()) {
             (true, _) => Patched::All,
             (false, 0) => Patched::Superpixels,
             (false, _) => Patched::Grown,
@@ -178,7 +175,7 @@ impl Work {
         Ok(Self {
             base: Base::new(shared, content, image.as_ref(), !kinds.ids, &output)?,
             patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
-            timings: Timings::new(gpu, 32 + 16 * (1 + growths) + 8 * bands)?,
+            timings: Timings::new(gpu),
             settings,
             plan,
             resources,

@@ -215,7 +215,7 @@ impl List {
             sampler.limit_rounds(most);
         }
         Ok(Self {
-            timings: Timings::new(gpu, 32)?,
+            timings: Timings::new(gpu),
             lending,
             list: *list,
             options: options.clone(),

@@ -440,10 +440,10 @@ impl SampleOptions {
     /// Number of lines of 64 samples of a cell, for subgroups with `lanes` invocations: an invocation processes at
     /// least half a line.
     fn lines_of_cell(&self, lanes: u32) -> u32 {
-        if self.samples <= 64 && lanes < 32 {
-            8
-        } else {
-            16
+        match self.samples {
+            ..=64 if lanes < 32 => 8,
+            ..=64 => 16,
+            _ => 32,
         }
     }
 

@@ -106,6 +106,10 @@ pub struct Settings {
     pub edge_width: f32,
     /// Limit for device memory in bytes, including uploads and read-back; `None` for no limit.
     pub max_memory: Option<u64>,
+    /// Whether the passes of all rounds are timed one by one, instead of those of the first round alone and the other rounds as a
+    /// whole. It does not change the image. On CPU devices, timestamps take time: a round that has nothing to do takes ten times as
+    /// long with them.
+    pub time_rounds: bool,
 }
 
 impl Settings {
@@ -133,6 +137,7 @@ impl Settings {
             point_size: 3.0,
             edge_width: 1.0,
             max_memory: None,
+            time_rounds: false,
         }
     }
 
@@ -277,5 +282,6 @@ setters! {
         point_size: f32,
         edge_width: f32,
         max_memory: Option<u64>,
+        time_rounds: bool,
     }
 }

@@ -15,7 +15,7 @@ pub const MAX_SAMPLES: u32 = 1024;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// Samples on straight lines: rows or columns, whichever are crossed more often by the edges in the superpixel,
-    /// with 64 samples each. A count up to 64 has 8 lines, a larger one 16; the count also limits the number of places
+    /// with 64 samples each. A count up to 64 has 8 lines (16 in subgroups of 32), a larger one 32; the count also limits the number of places
     /// in which the superpixel is shaded. Any count. In lists of locations, lines follow the columns of the Jacobian.
     /// [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND triangles are visible, and
     /// for counts below 16.

@@ -327,13 +327,20 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a section that repeats what was recorded before: its dispatches are neither labelled nor listed.
+    /// Records a section that repeats what was recorded before: its dispatches are neither labelled nor listed. Its passes are timed
+    /// together under `name`, or one by one if the timer says so.
     pub(crate) fn repeated(&self, name: &'static str, record: impl FnOnce()) {
-        self.section(name, || {
+        let repetition = || {
             let outer = self.repeats.replace(true);
             record();
             self.repeats.set(outer);
-        });
+        };
+        let one_by_one = |timings: &&mut Timings| timings.times_repetitions;
+        if self.timings.borrow().as_ref().is_some_and(one_by_one) {
+            repetition();
+        } else {
+            self.section(name, repetition);
+        }
     }
 
     /// Sets the push constants of `layout`.
@@ -414,7 +421,7 @@ impl<'a> Recorder<'a> {
     pub fn begin(&self) {
         self.is_timed.set(true);
         if let Some(timings) = self.timings.borrow_mut().as_deref_mut() {
-            timings.begin(self.gpu, self.raw);
+            timings.begin(self.raw);
         }
     }
 
@@ -427,7 +434,7 @@ impl<'a> Recorder<'a> {
     /// Attributes the time since the previous mark to a name, if it has one.
     fn mark(&self, name: Option<&'static str>) {
         if let Some(timings) = self.timings.borrow_mut().as_deref_mut() {
-            timings.mark(self.gpu, self.raw, name);
+            timings.mark(self.raw, name);
         }
     }
 }
@@ -442,72 +449,95 @@ impl Drop for Recorder<'_> {
 /// Timestamps of a frame. The times of equal names are added up.
 pub struct Timings {
     gpu: Arc<Gpu>,
-    pool: vk::QueryPool,
-    capacity: u32,
+    /// Pools of [`Self::POOL`] queries each; marks make more of them as they need.
+    pools: Vec<vk::QueryPool>,
     names: Vec<Option<&'static str>>,
+    /// Whether the passes of repetitions are timed one by one.
+    times_repetitions: bool,
+    /// Why there is no further pool.
+    refused: Option<vk::Result>,
 }
 
 impl Timings {
-    /// Makes a timer with room for `capacity` marks; further marks are ignored.
-    ///
-    /// # Errors
-    /// [`VulkanError::Call`] if the query pool can't be made.
-    pub fn new(gpu: &Arc<Gpu>, capacity: u32) -> Result<Self, VulkanError> {
-        let info = vk::QueryPoolCreateInfo::default()
-            .query_type(vk::QueryType::TIMESTAMP)
-            .query_count(capacity);
-        // SAFETY: plain creation on a live device.
-        let pool = unsafe { gpu.device.create_query_pool(&info, None) }
-            .map_err(VulkanError::of("vkCreateQueryPool"))?;
-        Ok(Self {
+    /// Number of queries of a pool.
+    const POOL: usize = 64;
+
+    /// Makes a timer. The commands of a [repetition](Recorder::repeated) have one time together.
+    pub fn new(gpu: &Arc<Gpu>) -> Self {
+        Self {
             gpu: gpu.clone(),
-            pool,
-            capacity,
+            pools: Vec::new(),
             names: Vec::new(),
-        })
+            times_repetitions: false,
+            refused: None,
+        }
     }
 
-    fn begin(&mut self, gpu: &Gpu, raw: vk::CommandBuffer) {
+    /// The same timer, which times the passes of repetitions one by one where that is `wanted`.
+    pub fn with_repetitions(mut self, wanted: bool) -> Self {
+        self.times_repetitions = wanted;
+        self
+    }
+
+    fn begin(&mut self, raw: vk::CommandBuffer) {
         self.names.clear();
-        // SAFETY: the recorder's contract; the pool is not in use, because the previous frame's commands have run.
-        unsafe {
-            gpu.device
-                .cmd_reset_query_pool(raw, self.pool, 0, self.capacity)
-        };
-        self.mark(gpu, raw, None);
+        self.refused = None;
+        self.mark(raw, None);
     }
 
-    fn mark(&mut self, gpu: &Gpu, raw: vk::CommandBuffer, name: Option<&'static str>) {
-        let index = self.names.len() as u32;
-        if gpu.limits().timestamp_period == 0.0 || index >= self.capacity {
+    fn mark(&mut self, raw: vk::CommandBuffer, name: Option<&'static str>) {
+        if self.gpu.limits().timestamp_period == 0.0 || self.refused.is_some() {
             return;
         }
-        // SAFETY: the recorder's contract; the query was reset at the beginning of the frame.
+        let [number, query] = [self.names.len() / Self::POOL, self.names.len() % Self::POOL];
+        if number == self.pools.len() {
+            let info = vk::QueryPoolCreateInfo::default()
+                .query_type(vk::QueryType::TIMESTAMP)
+                .query_count(Self::POOL as u32);
+            // SAFETY: plain creation on a live device.
+            match unsafe { self.gpu.device.create_query_pool(&info, None) } {
+                Ok(pool) => self.pools.push(pool),
+                Err(result) => {
+                    self.refused = Some(result);
+                    return;
+                }
+            }
+        }
+        let pool = self.pools[number];
+        // SAFETY: the recorder's contract; marks lie outside of render passes. The pool is not in use, because the previous frame's
+        // commands have run, and it is reset before its first query.
         unsafe {
-            gpu.device.cmd_write_timestamp2(
-                raw,
-                vk::PipelineStageFlags2::ALL_COMMANDS,
-                self.pool,
-                index,
-            )
-        };
+            if query == 0 {
+                self.gpu
+                    .device
+                    .cmd_reset_query_pool(raw, pool, 0, Self::POOL as u32);
+            }
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            self.gpu
+                .device
+                .cmd_write_timestamp2(raw, stage, pool, query as u32);
+        }
         self.names.push(name);
     }
 
     /// Milliseconds by name, in the order of first appearance. This does not wait.
     ///
     /// # Errors
-    /// [`VulkanError::NotDone`] if the commands have not run, [`VulkanError::Call`] if the results can't be read.
+    /// [`VulkanError::NotDone`] if the commands have not run, [`VulkanError::Call`] if the driver refused a query pool or the
+    /// results can't be read.
     pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
+        if let Some(result) = self.refused {
+            return Err(VulkanError::of("vkCreateQueryPool")(result));
+        }
         let mut stamps = vec![0_u64; self.names.len()];
-        if !stamps.is_empty() {
+        for (pool, stamps) in self.pools.iter().zip(stamps.chunks_mut(Self::POOL)) {
             let flags = vk::QueryResultFlags::TYPE_64;
             // SAFETY: the pool belongs to the device and has at least this many queries. They were reset when the
             // names were recorded; after that, results may be read at any time without waiting.
             unsafe {
                 self.gpu
                     .device
-                    .get_query_pool_results(self.pool, 0, &mut stamps, flags)
+                    .get_query_pool_results(*pool, 0, stamps, flags)
             }
             .map_err(|result| match result {
                 vk::Result::NOT_READY => VulkanError::NotDone,
@@ -532,7 +562,9 @@ impl Timings {
 
 impl Drop for Timings {
     fn drop(&mut self) {
-        // SAFETY: owners drop timings only after the frames that use them have run.
-        unsafe { self.gpu.device.destroy_query_pool(self.pool, None) };
+        for pool in &self.pools {
+            // SAFETY: owners drop timings only after the frames that use them have run.
+            unsafe { self.gpu.device.destroy_query_pool(*pool, None) };
+        }
     }
 }

@@ -192,35 +192,6 @@ impl Requirements {
         Ok(())
     }
 
-    /// Checks that the instance was created for Vulkan 1.3 or later. A loader does not tell the version, so the
-    /// function creates a device, checks its functions and destroys it.
-    ///
-    /// # Errors
-    /// [`VulkanError::NoFunction`] for an earlier version; [`VulkanError::Call`] if the driver creates no device.
-    ///
-    /// # Safety
-    /// The physical device has the queue family and belongs to the instance, which is alive.
-    #[cfg(feature = "capi")]
-    pub(crate) unsafe fn check_instance(
-        instance: &ash::Instance,
-        device: vk::PhysicalDevice,
-        queue_family: u32,
-    ) -> Result<(), VulkanError> {
-        let queues = [vk::DeviceQueueCreateInfo::default()
-            .queue_family_index(queue_family)
-            .queue_priorities(&[1.0])];
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
-        // SAFETY: guaranteed by the caller; nothing is made with the device.
-        unsafe {
-            let made = instance
-                .create_device(device, &info, None)
-                .map_err(VulkanError::of("vkCreateDevice"))?;
-            let checked = Self::check_functions(instance, made.handle());
-            made.destroy_device(None);
-            checked
-        }
-    }
-
     /// Everything that the physical device lacks; empty if it is suitable.
     ///
     /// # Safety

@@ -138,9 +138,6 @@ impl Frame {
             )
         };
         let shadows = casters.map(shadows).transpose()?;
-        let regions = plan.regions.len() as u64;
-        let runs = 2 + settings.growths();
-        let marks = regions as u32 * (18 + runs * 16) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -154,7 +151,7 @@ impl Frame {
             look,
             resources,
             counters: CounterLog::new(&memory, 1)?,
-            timings: Timings::new(&gpu, marks)?,
+            timings: Timings::new(&gpu).with_repetitions(settings.time_rounds),
             settings: settings.clone(),
             plan,
             completion: Completion::new(&gpu)?,

@@ -43,7 +43,7 @@ impl CrossingFinder {
             all: &[[0.0; 2]],
             count: 1,
         };
-        let run = RunMemory::new(layout, prepared, settings, plan.sizes, offsets, 16)?;
+        let run = RunMemory::new(layout, prepared, settings, plan.sizes, offsets)?;
         let (resources, locations) = (&run.resources, run.resources.listed()?);
         let count = plan.sizes.locations.map_or(0, |sizes| sizes.locations);
         let seen = run.memory.storage_buffer(

@@ -324,7 +324,7 @@ impl BandDetector {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(&layout.gpu, 4)?,
+            timings: Timings::new(&layout.gpu),
             cells,
             resources,
             memory,

@@ -26,14 +26,13 @@ pub(super) struct RunMemory {
 }
 
 impl RunMemory {
-    /// Allocates the memory. `offsets` are those of a cell's samples; the timer has room for `marks` marks.
+    /// Allocates the memory. `offsets` are those of a cell's samples.
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &Settings,
         sizes: ResourceSizes,
         offsets: Offsets<'_>,
-        marks: u32,
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let gpu = scene.memory().gpu().clone();
@@ -71,7 +70,7 @@ impl RunMemory {
                 .transpose()?,
             geometry,
             targets,
-            timings: Timings::new(&gpu, marks)?,
+            timings: Timings::new(&gpu).with_repetitions(settings.time_rounds),
             memory,
             uploaded: false,
         })

@@ -66,7 +66,7 @@ impl LocationSampler {
             all: &offsets,
             count,
         };
-        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets, 32)?;
+        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets)?;
         let resources = &run.resources;
         let output = settings.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };

@@ -79,6 +79,8 @@ fn passes(scene: &Scene, args: &InfoArgs) -> anyhow::Result<RecordedPasses> {
     let mut headless = Headless::new(&HeadlessOptions::default())?;
     let prepared = render::upload(&mut headless, scene, (&pose, None), &settings)?;
     let mut frame = headless.prepare(&prepared, &settings)?;
+    // The first rendering finds how much memory the frame needs.
+    headless.render(&mut frame, &view.camera)?;
     Ok(headless.passes(&mut frame, &view.camera)?)
 }
 

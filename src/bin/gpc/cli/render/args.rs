@@ -46,6 +46,9 @@ pub struct RenderArgs {
     /// Render once to warm up and then R times, and report medians
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report", hide_short_help = true)]
     pub repeat: Option<u32>,
+    /// Time each pass in all rounds; otherwise, the passes of all rounds after the first have one time together: rounds
+    #[arg(long, help_heading = "Report", hide_short_help = true)]
+    pub time_rounds: bool,
     #[command(flatten)]
     pub report: ReportArgs,
 }

@@ -145,7 +145,11 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
-    let settings = args.image.settings(format).region(args.region);
+    let settings = args
+        .image
+        .settings(format)
+        .region(args.region)
+        .time_rounds(args.time_rounds);
     if let Some(region) = args.region {
         region.end(settings.size)?;
     }
