@@ -27,7 +27,7 @@ layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
 layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples that a header of sample.comp stands for
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
-const uint SLOT_BITS = 4u, SLOTS = (1u << SLOT_BITS) - 1u;  // 0 is no owner
+const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // 0 is no owner
 const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocation keeps what is known of
 
 #include "include/alpha.glsl"
