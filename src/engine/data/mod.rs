@@ -1,4 +1,4 @@
-//! What the passes read and write: the memory of a frame, and the layouts of what lies in it.
+//! Memory of a frame that the passes read and write, and the layouts of the data in it.
 
 pub(crate) mod alpha_flags;
 mod color_constants;
