@@ -38,7 +38,7 @@ pub struct Hit {
 pub struct Visibility {
     /// The nearest surface; `None` for background.
     pub nearest: Option<Hit>,
-    /// Depth of the next surface behind it, or of an equally near one.
+    /// Depth of the next surface behind the nearest one, or of an equally near one.
     pub second: Option<f64>,
     /// Distance in pixels of the sample from the nearest edge of any triangle, including hidden ones; infinite without
     /// triangles.

@@ -11,7 +11,8 @@ pub struct Grow {
 }
 
 impl Grow {
-    /// Makes the pipeline. Pixels within `beyond` pixels around the region grow too, for a later growth.
+    /// Makes the pipeline. Pixels in a border of `beyond` pixels around the region grow too, because a later growth
+    /// compares with them.
     ///
     /// # Errors
     /// If the driver refuses it.

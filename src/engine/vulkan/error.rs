@@ -117,7 +117,7 @@ impl VulkanError {
         matches!(self, Self::DeviceLost | Self::OutOfMemory { .. })
     }
 
-    /// Checks that no more is needed than the device can address.
+    /// Checks that `needed` does not exceed the device's limit `limit`.
     ///
     /// # Errors
     /// [`VulkanError::TooLarge`] if `needed` is above `limit`.

@@ -329,14 +329,15 @@ impl Drop for Gpu {
         // The allocator frees its blocks while the device is still alive.
         self.memory = None;
         if self.owner.is_some() {
-            // SAFETY: the library created the device, and everything made from it held an `Arc` of this and is gone.
+            // SAFETY: the library created the device, and everything made from it held an `Arc` of this value and is
+            // gone.
             unsafe { self.device.destroy_device(None) };
         }
     }
 }
 
-/// Number of invocations that kernels use, and number of invocations of a subgroup. Subgroups usually have `usual`
-/// invocations, and at least `least` and at most `most`.
+/// Number of invocations that kernels use, and number of invocations of a subgroup. A subgroup has usually `usual`
+/// invocations, at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
         // Where the size can be chosen, the smallest leaves each invocation the most registers.

@@ -33,7 +33,7 @@ struct Account {
     limit: u64,
 }
 
-/// Memory of a buffer or image, which is freed and no longer counted once this is dropped.
+/// Memory of a buffer or image. When this is dropped, the memory is freed and no longer counted.
 struct Block {
     gpu: Arc<Gpu>,
     account: Arc<Account>,
@@ -222,7 +222,7 @@ impl Memory {
         Ok(BufferView { buffer, view })
     }
 
-    /// Makes an image with a view of all its levels and layers; a cube if the image is compatible with that.
+    /// Makes an image with a view of all its levels and layers; the view is a cube if the image is cube-compatible.
     ///
     /// # Errors
     /// As [`Memory::buffer`].
