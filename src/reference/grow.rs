@@ -1,8 +1,8 @@
 //! Growth: pixels that become superpixels because they contrast with a neighbouring superpixel.
 //!
-//! A feature that covers no pixel centre may show in the samples of a superpixel. The pixels beside it then become
-//! superpixels too, if they contrast with it. A pixel's own colour is that of its centre; the colour of a superpixel
-//! beside it is the resolved colour of its samples.
+//! A feature that covers no pixel centre may show in the samples of a superpixel. Its neighbours then become
+//! superpixels too, if they contrast with the superpixel. The comparison uses the colour at a neighbour's centre, and
+//! the resolved colour of the superpixel.
 
 use super::detect::{TILE_HEIGHT, TILE_WIDTH};
 

@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn maps_follow_their_tables() {
         let places = Places::new(&[map([4, 2], 3), map([1, 1], 1)]);
-        // 5 x 3, 3 x 2 and 2 x 2 words; 2 x 2.
+        // Words of the levels: 5 x 3, 3 x 2 and 2 x 2 for the first map; 2 x 2 for the second.
         assert_eq!(places.tables, [4, 19, 25, 29]);
         assert_eq!(places.words, 33);
         assert_eq!(places.rows.len(), 2 * ROW);

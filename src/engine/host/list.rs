@@ -269,15 +269,16 @@ impl List {
     /// If the draws or locations exceed a capacity, or a draw is invalid. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
-    ///   compute. What was bound and pushed before has to be bound and pushed again.
-    /// - The commands of this list's last recording are done, or will never be executed: its memory is used again.
-    /// - In recordings up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
-    ///   made visible to it.
-    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it; those to
-    ///   the buffer of colours are done. What this records is visible to all commands after it on the queue.
-    /// - The list, the buffers and what `shading` records outlive the execution of the commands.
-    /// - What `shading` records is valid, and writes no memory of the list but by `gpc_store`.
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the antialiaser's
+    ///   device and a queue family with compute. The caller must bind and push its state again afterwards.
+    /// - The commands of this list's last recording are done, or will never be executed, because its memory is used
+    ///   again.
+    /// - Alpha maps are in `SHADER_READ_ONLY_OPTIMAL` in all recordings up to the first one that is executed. Earlier
+    ///   writes to them were made on the same queue or made visible to it.
+    /// - The device's earlier writes to the lent buffers were recorded into the same queue or made visible to it;
+    ///   earlier writes to the buffer of colours are done. The results are visible to all later commands on the queue.
+    /// - The list, the buffers and the objects that `shading` records outlive the execution of the commands.
+    /// - The commands that `shading` records are valid, and write no memory of the list except by `gpc_store`.
     pub unsafe fn record(
         &mut self,
         commands: vk::CommandBuffer,

@@ -1,8 +1,9 @@
 //! Antialiasing of an application's own frames: its geometry, its images, its materials.
 //!
-//! The application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
-//! library. [`Frame::record`] then finds the pixels that alias, samples the application's triangles there, has the
-//! application shade what the samples see ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
+//! The application draws its frame as usual, with an additional attachment of triangle IDs, or leaves some or all of
+//! the drawing to the library. [`Frame::record`] then finds the pixels that alias, and samples the application's triangles
+//! there. The application shades the visibility samples ([`ShadeSamples`]). Finally, the resolved pixels are drawn over
+//! those that alias.
 //!
 //! ```text
 //! application                colour, triangle IDs, depth      pipelines of its materials         colour
@@ -11,10 +12,10 @@
 //!                                                                    └──────── rounds ──────────┘
 //! ```
 //!
-//! [`List`] samples locations that the application lends in a buffer, wherever they lie on the image plane, in the place of an
-//! image's pixels: `distribute` sorts them into tiles, and the rounds are the same.
+//! [`List`] samples locations instead of pixels. The application lends the locations, which may lie anywhere on the
+//! image plane, in a buffer. `distribute` sorts them into tiles, and the rounds are the same.
 //!
-//! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
+//! This module knows no material, light or file. `docs/embedding.md` is the manual.
 
 mod adoption;
 mod alignment;

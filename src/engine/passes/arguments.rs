@@ -1,4 +1,4 @@
-//! arguments: turns what passes counted into the sizes of the dispatches that follow.
+//! arguments: turns the counts of a pass into the sizes of the dispatches that follow.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;

@@ -1,4 +1,4 @@
-//! grow: makes pixels superpixels if they contrast with a superpixel beside them.
+//! grow: makes pixels superpixels if they contrast with a neighbouring superpixel.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;

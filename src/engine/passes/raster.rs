@@ -94,7 +94,7 @@ impl RasterTargets {
         }
     }
 
-    /// Changes the layout of single-sampled images to that of the descriptor sets, for frames that draw nothing.
+    /// Changes single-sampled images to the layout that descriptors need, for frames that draw nothing.
     pub fn record_unused(&self, recorder: &Recorder<'_>) {
         for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
             .into_iter()

@@ -275,7 +275,7 @@ impl Plan {
                     allowed: allowed.unwrap_or(0),
                 });
             }
-            // A side is a whole number of tiles, so that a region's tiles are those of the image.
+            // Sides are whole numbers of tiles, so that the regions have the same tiles as the undivided image.
             region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
         }
     }
@@ -283,7 +283,7 @@ impl Plan {
     /// Plans an image in one region, whatever its size.
     ///
     /// # Errors
-    /// [`EngineError::Memory`] if it does not fit in what is allowed or in the device's buffers.
+    /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
     pub fn whole(
         settings: &Settings,
         scene: &dyn Content,

@@ -2,7 +2,7 @@
 
 use super::Location;
 
-/// Sizes of the blocks of which halves consist.
+/// Possible sizes of the blocks of samples in a half, in descending order.
 const BLOCKS: [usize; 5] = [256, 64, 16, 4, 1];
 
 /// Sorts distinct locations into the order that the [module](super#order) describes.

@@ -15,7 +15,7 @@ pub enum VulkanError {
     NoDevice {
         /// Part of a device's name that was asked for.
         asked: Option<String>,
-        /// Every device that was found, and what it lacks.
+        /// List of the devices that were found, with the requirements that each lacks.
         found: String,
     },
     /// Device that lacks requirements.

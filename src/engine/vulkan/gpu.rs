@@ -194,7 +194,7 @@ impl Gpu {
     }
 
     /// # Safety
-    /// As [`Gpu::new`]; with an `owner`, the device is ours to destroy.
+    /// As [`Gpu::new`]. With an `owner`, the returned value destroys the device when it is dropped.
     pub(super) unsafe fn owning(
         host: Host,
         owner: Option<Arc<Instance>>,
@@ -340,7 +340,7 @@ impl Drop for Gpu {
 /// invocations, at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
-        // Where the size can be chosen, the smallest leaves each invocation the most registers.
+        // If the size can be chosen, the smallest one leaves each invocation the most registers.
         let size = least.max(4).min(most);
         (size.min(32), size)
     } else {

@@ -69,7 +69,7 @@ impl Memory {
         &self.gpu
     }
 
-    /// Bytes that are allocated at present.
+    /// Number of bytes that are allocated at present.
     #[must_use]
     pub fn used(&self) -> u64 {
         self.account.used.load(Ordering::Relaxed)

@@ -82,7 +82,7 @@ impl ResourceSizes {
         is_of_pixels && self.lanes == others.lanes && pairs.all(|(room, needed)| room >= needed)
     }
 
-    /// Bytes of the largest storage buffer.
+    /// Number of bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
         let colors = self.colors() * 16;
