@@ -9,8 +9,8 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// Level of an alpha map: its size in texels, and its first word in the atlas. Bit 0 of `repeats` repeats it along u,
-/// bit 1 along v.
+/// Level of an alpha map: its size in texels, and its first word in the atlas. Bits 0 and 1 of `repeats` say whether
+/// the map repeats along u and v.
 pub(crate) use spirv::AlphaMapPush as AlphaLevel;
 
 impl AlphaLevel {

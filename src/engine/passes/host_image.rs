@@ -48,8 +48,8 @@ impl HostImageLayout {
 }
 
 impl HostImage {
-    /// Sets the image that the descriptor set shows. It must have the layout `SHADER_READ_ONLY_OPTIMAL` when kernels
-    /// read it.
+    /// Sets the image that the descriptor set shows. The image must have the layout `SHADER_READ_ONLY_OPTIMAL` when
+    /// kernels read it.
     ///
     /// # Safety
     /// No commands that use the set are pending, and the view outlives the commands that are recorded from now on.

@@ -80,8 +80,8 @@ impl Schedule {
     }
 
     /// Numbers of rounds to record for a scene with at most `triangles` triangles: for the cells that are found first,
-    /// and for each growth. With a `factor`, these are `factor` times the numbers that images usually need, where a
-    /// growth needs a quarter; without, the numbers that any image may need.
+    /// and for each growth. Without a `factor`, these are the numbers that any image may need. Otherwise, these are
+    /// `factor` times the numbers that images usually need; a growth usually needs a quarter of the first rounds.
     pub fn rounds(&self, sizes: &ResourceSizes, triangles: u32, factor: Option<u32>) -> [u32; 2] {
         let most = self.most_rounds(sizes, triangles);
         let Some(factor) = factor else {

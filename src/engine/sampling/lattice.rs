@@ -2,9 +2,9 @@
 
 use super::{Location, locate};
 
-/// A `side` x `side` grid, turned by one part in `side`, so that its projections on either axis are spread evenly over
-/// side^2 places, while each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at x =
-/// -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
+/// A k x k grid, where k is `side`, turned by 1/k. Its projections on either axis are spread evenly over k^2 places,
+/// while each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at x = -1/2 + (i +
+/// 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
 ///
 /// The signs of the two tilts must differ: equal signs shear the lattice along a diagonal of the pixel, which leaves
 /// two corners empty, and the error falls as N^-0.55 only.

@@ -32,8 +32,8 @@ pub enum Pattern {
     /// as small as the grid's, without the grid's weakness along the axes. At its worst orientations, the error is
     /// larger than that of Sobol points.
     Korobov,
-    /// Centres of a k x k grid. Square counts only. Edges along an axis have the largest error of all patterns, because
-    /// they cross k samples at once.
+    /// Centres of a k x k grid. Square counts only. For edges along an axis, this pattern has the largest error of all,
+    /// because such edges meet k samples at once.
     Grid,
     /// Standard sample locations of graphics APIs (Vulkan 1.3, section 25.3): 1, 2, 4, 8 or 16 samples. The mean of
     /// the last set is 1/32 pixel from the pixel's centre.

@@ -24,9 +24,8 @@ pub struct Host {
     pub memory: MemorySource,
     /// Pipeline cache for making pipelines, or null. It was not created with `EXTERNALLY_SYNCHRONIZED`.
     pub pipeline_cache: vk::PipelineCache,
-    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`,
-    /// which [`Requirements::has_conditional_rendering`] checks. Without it, rounds of a frame that have nothing to do
-    /// take some time.
+    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, which
+    /// [`Requirements::has_conditional_rendering`] checks. Without the feature, rounds without work take some time.
     pub conditional_rendering: bool,
     /// Whether the instance was created with `VK_EXT_debug_utils`. If so, buffers, images and pipelines get names that
     /// begin with `gpc`, and dispatches get labels.
@@ -141,9 +140,8 @@ pub struct Limits {
     pub max_storage_bytes: u64,
     /// Nanoseconds per timestamp step; 0 if the queue has no timestamps.
     pub timestamp_period: f32,
-    /// Largest number of samples, counted as if every pixel were a superpixel, in one submission if the renderer has a
-    /// device of its own: operating systems reset a GPU that works on a submission for seconds. CPU drivers have no
-    /// limit.
+    /// Largest number of samples in one submission, for a renderer that has its own device; every pixel counts as a
+    /// superpixel. Operating systems reset a GPU that works on a submission for seconds. CPU drivers have no limit.
     pub max_submitted_samples: u64,
     /// Supported numbers of samples for multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,

@@ -19,9 +19,9 @@ pub enum MemoryUse {
 
 /// Allocator that counts the bytes of everything made through it, and refuses to exceed a limit.
 ///
-/// The functions trust that sizes, formats and usage are valid for the device, and that buffers and images are
-/// dropped, read and written by the CPU only while no commands use them. Therefore none can be made outside of the
-/// crate; see `crate::testing`.
+/// The functions trust that sizes, formats and usage are valid for the device, and that buffers and images are dropped,
+/// read and written by the CPU only while no commands use them. Therefore no `Memory` can be made outside of the crate;
+/// see `crate::testing`.
 #[derive(Clone)]
 pub struct Memory {
     gpu: Arc<Gpu>,
