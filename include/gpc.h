@@ -30,13 +30,13 @@
 // needed; GpcDevice.conditional_rendering names one that saves time.
 #define GPC_VULKAN_API_VERSION ((1 << 22) | (3 << 12))
 
-// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
+// Value of GpcOptions.contrast for the default threshold: 6, or 1 from 128 samples on.
 #define GPC_CONTRAST_OF_SAMPLES UINT32_MAX
 
-// The value of GpcOptions.growths for the number that suits the samples: 1, and 2 from 128 samples on.
+// Value of GpcOptions.growths for the default number: 1, or 2 from 128 samples on.
 #define GPC_GROWTHS_OF_SAMPLES UINT32_MAX
 
-// The version of the header: gpc_version says that of the library.
+// Version of the header; gpc_version returns that of the library.
 #define GPC_VERSION_MAJOR 0
 
 // See GPC_VERSION_MAJOR.
@@ -45,45 +45,46 @@
 // See GPC_VERSION_MAJOR.
 #define GPC_VERSION_PATCH 0
 
-// The version of the header as one number, larger for later versions; packed as by VK_MAKE_API_VERSION.
+// Version of the header as one number, larger for later versions, packed as by VK_MAKE_API_VERSION.
 #define GPC_VERSION (((GPC_VERSION_MAJOR << 22) | (GPC_VERSION_MINOR << 12)) | GPC_VERSION_PATCH)
 
-// The version of the binary interface: it changes only if programs that were compiled with an earlier header have to be
-// compiled again. The shared library's name has it: libgpc.so.1.
+// Version of the binary interface. A new version requires programs to be compiled again with the new header. The name
+// of the shared library contains it: libgpc.so.1.
 #define GPC_ABI_VERSION 1
 
-// What a function answers.
+// Result of a function.
 enum GpcResult
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // It did what was asked.
+    // Success.
     GPC_RESULT_SUCCESS = 0,
-    // A pointer is NULL or a handle VK_NULL_HANDLE.
+    // Pointer that is NULL, or handle that is VK_NULL_HANDLE.
     GPC_RESULT_NULL = 1,
-    // A size or a stride is none that the struct has in this or an earlier version of the header: it was not set, or the
-    // application was compiled with the header of a later version.
+    // Size or stride that the struct has in no version of the header up to the library's. Either the member was not
+    // set, or the application was compiled with the header of a later version.
     GPC_RESULT_STRUCT_SIZE = 2,
-    // A value is none of those possible, or contradicts another.
+    // Value that is not possible, or that contradicts another one.
     GPC_RESULT_VALUE = 3,
-    // A recording has more draws, triangles, vertices or indices than its frame was created for.
+    // Recording with more draws, triangles, vertices or indices than its frame was created for.
     GPC_RESULT_CAPACITY = 4,
-    // The device, its instance or its loader lacks something that is needed.
+    // Device, instance or loader that lacks a requirement.
     GPC_RESULT_UNSUPPORTED = 5,
-    // Memory ran out, or GpcOptions.max_memory allows too little.
+    // Memory that ran out, or a GpcOptions.max_memory that allows too little.
     GPC_RESULT_OUT_OF_MEMORY = 6,
-    // The device was lost.
+    // Lost device.
     GPC_RESULT_DEVICE_LOST = 7,
-    // The driver refused something else.
+    // Any other refusal by the driver.
     GPC_RESULT_VULKAN = 8,
-    // A defect of the library. What took part in the call is to be destroyed and not used otherwise.
+    // Defect of the library. The objects that took part in the call must be destroyed and not used otherwise.
     GPC_RESULT_PANIC = 9,
-    // The commands of the last recording are not done, or there was none.
+    // Query about a recording whose commands are not done, or before the first recording.
     GPC_RESULT_NOT_READY = 10,
-    // The member `type` of a struct is of another struct, or its member `next` leads to one that the library does not know.
+    // Member `type` with the value of another struct, or member `next` that points to a struct that the library does
+    // not know.
     GPC_RESULT_STRUCT_TYPE = 11,
-    // A shader was compiled with no gpc_visibility.glsl, or with one of a version that the library does not take.
+    // Shader that was compiled without gpc_visibility.glsl, or with a version of it that the library does not support.
     GPC_RESULT_SHADER_VERSION = 12,
 };
 #ifndef __cplusplus
@@ -94,7 +95,7 @@ typedef uint32_t GpcResult;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a struct is: the value of its member `type`, which its gpc_init function sets.
+// Type of a struct: the value of its member `type`, which its gpc_init function sets.
 enum GpcStructType
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -133,18 +134,18 @@ typedef uint32_t GpcStructType;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Where memory lies.
+// Kind of memory.
 enum GpcMemoryUse
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // On the device.
+    // Device memory.
     GPC_MEMORY_USE_DEVICE = 0,
-    // Written by the CPU, read by the device: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
+    // Memory that the CPU writes and the device reads: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
     GPC_MEMORY_USE_UPLOAD = 1,
-    // Written by the device, read by the CPU: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, at best
-    // VK_MEMORY_PROPERTY_HOST_CACHED_BIT too.
+    // Memory that the device writes and the CPU reads: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, and
+    // preferably VK_MEMORY_PROPERTY_HOST_CACHED_BIT.
     GPC_MEMORY_USE_READBACK = 2,
 };
 #ifndef __cplusplus
@@ -155,15 +156,15 @@ typedef uint32_t GpcMemoryUse;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What positions are.
+// Space and format of vertex positions.
 enum GpcPositionSpace
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Four floats in clip space: the very values of the vertex shader's gl_Position.
+    // Clip space, four floats: the same values as the vertex shader's gl_Position.
     GPC_POSITION_SPACE_CLIP = 0,
-    // Three floats in a space of each draw's own, from which GpcDraw.to_clip leads to clip space.
+    // Object space of the draw, three floats; GpcDraw.to_clip transforms them to clip space.
     GPC_POSITION_SPACE_OBJECT = 1,
 };
 #ifndef __cplusplus
@@ -174,18 +175,19 @@ typedef uint32_t GpcPositionSpace;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How the corners of a draw make triangles: which of its indices, or of its vertices where there are none, belong to which.
-// Primitive restart is not known: a draw is one strip or fan.
+// Primitive topology of a draw: how consecutive corners (indices, or vertices without indices) form triangles.
+// Primitive restart is not supported: a draw is a single strip or fan.
 enum GpcTopology
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: each three make one.
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: every three corners form a triangle.
     GPC_TOPOLOGY_LIST = 0,
-    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each one from the third on makes one with the two before it.
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each corner from the third on forms a triangle with the two before it.
     GPC_TOPOLOGY_STRIP = 1,
-    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each one from the third on makes one with the one before it and the first.
+    // As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each corner from the third on forms a triangle with the one before it and
+    // the first.
     GPC_TOPOLOGY_FAN = 2,
 };
 #ifndef __cplusplus
@@ -196,26 +198,26 @@ typedef uint32_t GpcTopology;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Where in a superpixel the samples lie.
+// Pattern of the sample locations in a superpixel.
 enum GpcPattern
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The first points of a scrambled Sobol sequence: any count.
+    // First points of a scrambled Sobol sequence. Any number of samples.
     GPC_PATTERN_SOBOL = 0,
-    // A turned lattice; of counts that are no square, as GPC_PATTERN_KOROBOV.
+    // Rotated square lattice. Any number of samples; for a number that is no square, the same as GPC_PATTERN_KOROBOV.
     GPC_PATTERN_LATTICE = 1,
-    // The best lattice of rank 1: any count.
+    // Best rank-1 lattice. Any number of samples.
     GPC_PATTERN_KOROBOV = 2,
-    // The centres of a square grid: square counts only.
+    // Centres of a square grid. Square numbers of samples only.
     GPC_PATTERN_GRID = 3,
-    // The standard locations of Vulkan: 1, 2, 4, 8 or 16 samples.
+    // Standard sample locations of Vulkan: 1, 2, 4, 8 or 16 samples.
     GPC_PATTERN_ROTATED = 4,
-    // GpcOptions.locations.
+    // Offsets of the application, in GpcOptions.locations.
     GPC_PATTERN_LIST = 5,
-    // 512 or 1,024 samples on straight lines; the count decides in how many places a superpixel is shaded. Below 16 samples, and
-    // where each sample is shaded, as GPC_PATTERN_SOBOL. Any count.
+    // 512 or 1,024 samples on straight lines. Any number of samples; the number determines in how many places a
+    // superpixel is shaded. Below 16 samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
     GPC_PATTERN_LINES = 6,
 };
 #ifndef __cplusplus
@@ -226,17 +228,18 @@ typedef uint32_t GpcPattern;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How often the inside of a superpixel is shaded.
+// Rate of shading within a superpixel.
 enum GpcShading
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Once a visible triangle.
+    // One shading for each visible triangle.
     GPC_SHADING_TRIANGLE = 0,
-    // Once a visible triangle, but in several parts of the pixel where the colours around it vary.
+    // One shading for each visible triangle; several, in different parts of the pixel, where the surrounding colours
+    // vary.
     GPC_SHADING_PART = 1,
-    // Once a sample.
+    // One shading for each sample.
     GPC_SHADING_SAMPLE = 2,
 };
 #ifndef __cplusplus
@@ -247,19 +250,19 @@ typedef uint32_t GpcShading;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What makes a pixel a superpixel.
+// Rule by which a pixel becomes a superpixel.
 enum GpcDetection
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // A contrasting colour beside it.
+    // A neighbour with a contrasting colour.
     GPC_DETECTION_CONTRAST = 0,
-    // Another triangle in a contrasting colour beside it.
+    // A neighbour with another triangle and a contrasting colour.
     GPC_DETECTION_EDGES = 1,
-    // Another triangle beside it.
+    // A neighbour with another triangle.
     GPC_DETECTION_EXACT = 2,
-    // Nothing: every pixel is one. To measure with.
+    // No condition: every pixel is a superpixel. For measurements.
     GPC_DETECTION_EVERY = 3,
 };
 #ifndef __cplusplus
@@ -276,7 +279,7 @@ typedef struct GpcAntialiaser GpcAntialiaser;
 // Pipelines and memory to antialias one frame in flight.
 typedef struct GpcFrame GpcFrame;
 
-// Pipelines and memory to sample the locations of a list, of one frame in flight.
+// Pipelines and memory to sample the locations of a list, for one frame in flight.
 typedef struct GpcList GpcList;
 
 // Memory that a buffer or an image of the library needs.
@@ -287,37 +290,41 @@ typedef struct GpcMemoryRequest {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // What it is for, for a log: UTF-8, alive until the function returns.
+    // Purpose of the memory, for logs: UTF-8, alive until the function returns.
     const char *name;
-    // Its size, alignment and possible types.
+    // Size, alignment and permitted memory types.
     VkMemoryRequirements requirements;
-    // Where it lies: a GpcMemoryUse.
+    // Kind of memory: a GpcMemoryUse.
     uint32_t usage;
-    // VK_TRUE for a buffer, VK_FALSE for an image of optimal tiling: see VkPhysicalDeviceLimits.bufferImageGranularity.
+    // VK_TRUE for a buffer, VK_FALSE for an image with optimal tiling: see
+    // VkPhysicalDeviceLimits.bufferImageGranularity.
     VkBool32 linear;
 } GpcMemoryRequest;
 
 // Memory that the application allocated.
 typedef struct GpcMemory {
-    // The memory.
+    // Handle of the memory object.
     VkDeviceMemory memory;
-    // Where in it, in bytes: a multiple of the alignment that was asked for.
+    // Offset in the memory object in bytes: a multiple of the requested alignment.
     uint64_t offset;
-    // The address at which that offset is mapped; NULL for memory of the device that is not mapped, or not coherent.
+    // Address at which the offset is mapped; NULL for device memory that is not mapped, or not coherent.
     void *mapped;
-    // The application's own.
+    // Any pointer of the application; the library does not use it.
     void *user;
 } GpcMemory;
 
-// Allocates memory of the device that was lent: as large and aligned as asked for, of one of the types asked for, used by nobody
-// else until it is freed. VK_FALSE where memory ran out. It must not throw or jump out, and must not use the library.
+// Function of the application that allocates memory of the lent device. The memory has the requested size and
+// alignment and one of the requested types, and nobody else uses it until it is freed. VK_FALSE if memory ran out. The
+// function must not throw or jump out, and must not use the library.
 //
-// Threads: it is called by those that create antialiasers, frames and lists, several at once if the application has several do so.
+// Threads: those that create antialiasers, frames and lists; several at the same time if the application creates
+// several at the same time.
 typedef VkBool32 (*GpcAllocate)(void *user, const struct GpcMemoryRequest *request, struct GpcMemory *memory);
 
-// Frees memory that a GpcAllocate gave. No command uses it any more. It must not throw or jump out, and must not use the library.
+// Function of the application that frees memory from GpcAllocate. No command uses the memory any more. The function
+// must not throw or jump out, and must not use the library.
 //
-// Threads: as GpcAllocate, and those that destroy.
+// Threads: as GpcAllocate, and those that destroy objects.
 typedef void (*GpcFree)(void *user, const struct GpcMemory *memory);
 
 // A device that the application lends; gpc_init_device fills it.
@@ -357,40 +364,42 @@ typedef struct GpcDevice {
 
 // A run of triangles that are shaded alike.
 typedef struct GpcDraw {
-    // Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
+    // First index of the draw. For a mesh without indices: its first vertex, counted from `vertex_offset`.
     uint32_t first_index;
-    // How many triangles it has.
+    // Number of triangles.
     uint32_t triangle_count;
-    // Added to each of its indices.
+    // Offset that is added to each index.
     int32_t vertex_offset;
-    // With GPC_POSITION_SPACE_OBJECT, how many vertices it has, from `vertex_offset` on. Larger indices are taken for the
-    // last. Otherwise ignored.
+    // Number of vertices from `vertex_offset` on, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. An index beyond
+    // the last of these vertices is clamped to the last one.
     uint32_t vertex_count;
-    // With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
+    // Matrix from object space to clip space, by columns, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
     float to_clip[4][4];
-    // 1 + the index of the alpha map that says where it is, 0 where it is everywhere. Draws with alpha maps come after those
-    // without.
+    // 1 + the index of the alpha map of the alpha test; 0 for a surface without holes. Draws with alpha maps come
+    // after those without.
     uint32_t alpha_map;
-    // The shading key, from 0: which of the application's pipelines shades it.
+    // Shading key: the number of the application's pipeline that shades the draw, from 0.
     uint32_t key;
-    // A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
-    // where detection compares colours.
+    // Material number of the application's choice, up to 65,535, which its shaders can read. Detection by colours
+    // assumes that triangles with the same number look alike.
     uint32_t material;
-    // VK_TRUE if back faces show. A front face is counter-clockwise on the screen.
+    // VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen.
     VkBool32 double_sided;
-    // VK_TRUE if light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
-    // several parts of a superpixel where the pixels around tell that it does.
+    // VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
+    // draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
     VkBool32 detailed;
-    // VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
-    // lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
+    // VK_TRUE if the draw is translucent. The application's shaders then store an opacity, with which the draw is
+    // composited over the surfaces behind it. Blended draws have no alpha map and come after all others. They require
+    // GpcGeometry.blended.
     VkBool32 blended;
-    // The buffers that it reads: 0 for those of GpcGeometry itself, n for GpcGeometry.more_meshes[n - 1].
+    // Mesh whose buffers the draw reads: 0 for the buffers of GpcGeometry itself, n for GpcGeometry.more_meshes[n -
+    // 1].
     uint32_t mesh;
-    // How its indices, or its vertices, make triangles: a GpcTopology.
+    // Topology: how indices, or vertices without indices, form triangles: a GpcTopology.
     uint32_t topology;
 } GpcDraw;
 
-// What a recording shows.
+// Draws and view of a recording.
 typedef struct GpcScenery {
     // sizeof(GpcScenery).
     uint32_t size;
@@ -398,22 +407,26 @@ typedef struct GpcScenery {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // How many draws there are.
+    // Number of draws.
     uint32_t draw_count;
-    // sizeof(GpcDraw), where there are some.
+    // sizeof(GpcDraw), if there are draws.
     uint32_t draw_stride;
-    // The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
+    // Draws, read during the call only. Triangle IDs count from 1 in the order of the draws. May be NULL if there are
+    // none.
     const struct GpcDraw *draws;
-    // The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
-    // clip space. It tells how far apart two depths are.
+    // Projection matrix by columns, from view space, whose unit of length is the world's, to clip space: the one with
+    // which positions in clip space were computed. The matrix tells how far apart two depths are.
     float projection[4][4];
-    // Where clip space lies on the images: x, y, width and height of the application's VkViewport, in pixels of the images. The height
-    // is negative with GpcGeometry.y_up. It holds the frame's part of the images, which is the application's scissor rectangle: the
-    // pixels of the size in GpcOptions from GpcImages.corner on. Four zeros, as gpc_init_scenery gives, for a viewport that is the part.
+    // Viewport of the application, as VkViewport: x, y, width and height in pixels of the images. The height is
+    // negative with GpcGeometry.y_up.
+    //
+    // The viewport contains the frame's part of the images, which is the application's scissor rectangle: the upper
+    // left pixel is GpcImages.corner, the size that in GpcOptions. Four zeros, as gpc_init_scenery sets them, stand
+    // for a viewport equal to the part.
     float viewport[4];
 } GpcScenery;
 
-// What a recording did.
+// Result of a recording.
 typedef struct GpcOutcome {
     // sizeof(GpcOutcome).
     uint32_t size;
@@ -421,80 +434,83 @@ typedef struct GpcOutcome {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // Rounds that had work.
+    // Number of rounds that had work.
     uint32_t rounds;
-    // Superpixels and tiles that found no room. gpc_frame_grow makes a frame with more.
+    // Number of superpixels and tiles for which memory did not suffice. gpc_frame_grow makes a frame with more memory.
     uint64_t left_over;
-    // Superpixels.
+    // Number of superpixels.
     uint64_t superpixels;
-    // Triangles in all draws.
+    // Number of triangles in all draws.
     uint64_t triangles;
-    // Visibility samples that were shaded.
+    // Number of visibility samples that were shaded.
     uint64_t visibility_samples;
-    // Bytes of device memory that the frame takes, beside what the application lends.
+    // Number of bytes of device memory that the frame uses, without the application's buffers and images.
     uint64_t memory_bytes;
-    // Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    // Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     double gpu_milliseconds;
 } GpcOutcome;
 
-// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
-// modes are best those of the sampler that the application's own pass reads the map with.
+// Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
+// equal those of the sampler with which the application's own pass reads the map.
 typedef struct GpcAlphaMap {
-    // A two-dimensional view of an image made with VK_IMAGE_USAGE_SAMPLED_BIT, of floats or normalised numbers. Its fourth
-    // component is alpha; that of a view may be any of the image.
+    // Two-dimensional view of an image that was created with VK_IMAGE_USAGE_SAMPLED_BIT and holds floats or normalised
+    // numbers. The fourth component of the view is alpha; the view's swizzle can take alpha from any channel of the
+    // image.
     VkImageView view;
     // Width in texels, up to 65,535.
     uint32_t width;
     // Height in texels, up to 65,535.
     uint32_t height;
-    // How many mipmap levels there are; 1 for none.
+    // Number of mipmap levels, at least 1.
     uint32_t levels;
-    // How alpha lies between texels that are larger than pixels: VK_FILTER_LINEAR or NEAREST.
+    // Filter where texels are larger than pixels: VK_FILTER_LINEAR or VK_FILTER_NEAREST.
     VkFilter mag_filter;
-    // The same where texels are smaller.
+    // Filter where texels are smaller than pixels: VK_FILTER_LINEAR or VK_FILTER_NEAREST.
     VkFilter min_filter;
-    // Whether alpha is that of two levels, blended (VK_SAMPLER_MIPMAP_MODE_LINEAR), or of the nearest one (NEAREST).
+    // Filter between mipmap levels: VK_SAMPLER_MIPMAP_MODE_LINEAR blends two levels, NEAREST reads the nearest level.
     VkSamplerMipmapMode mipmap_mode;
-    // What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
+    // Address mode along u, for coordinates outside of the image: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or
+    // CLAMP_TO_EDGE.
     VkSamplerAddressMode address_u;
-    // The same along v.
+    // Address mode along v: the same possibilities as for u.
     VkSamplerAddressMode address_v;
-    // The least alpha that is there.
+    // Smallest alpha at which the surface exists.
     float cutoff;
     // 0.
     uint32_t reserved;
 } GpcAlphaMap;
 
-// Buffers that draws read, as they are bound for them: those of a mesh, or of many meshes. Members are as those of GpcGeometry.
+// Buffers that draws read, bound together: those of one mesh, or of many meshes that share buffers. The members have
+// the same requirements as those of GpcGeometry.
 typedef struct GpcMesh {
-    // Positions of vertices.
+    // Buffer of vertex positions.
     VkBuffer positions;
-    // Where the first one is, in bytes.
+    // Offset of the first position in bytes.
     uint64_t positions_offset;
-    // Bytes from one to the next.
+    // Distance in bytes from one position to the next.
     uint32_t position_stride;
-    // How many vertices there can be.
+    // Largest number of vertices.
     uint32_t vertex_capacity;
-    // Indices; ignored with VK_INDEX_TYPE_NONE_KHR.
+    // Index buffer; ignored with VK_INDEX_TYPE_NONE_KHR.
     VkBuffer indices;
-    // Where they begin, in bytes.
+    // Offset of the first index in bytes.
     uint64_t indices_offset;
-    // VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR.
+    // Type of the indices: VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR for none.
     VkIndexType index_type;
-    // How many indices there can be.
+    // Largest number of indices.
     uint32_t index_capacity;
-    // Texture coordinates of the vertices. VK_NULL_HANDLE where no draw of them has an alpha map.
+    // Buffer of the vertices' texture coordinates. VK_NULL_HANDLE if no draw of the mesh has an alpha map.
     VkBuffer coordinates;
-    // Where those of the first vertex are, in bytes.
+    // Offset of the first vertex's coordinates in bytes.
     uint64_t coordinates_offset;
-    // Bytes from one vertex to the next.
+    // Distance in bytes from one vertex to the next.
     uint32_t coordinates_stride;
     // 0.
     uint32_t reserved;
 } GpcMesh;
 
-// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
-// executed.
+// Buffers and capacities of the application. The contents of the buffers may change in every frame: the library reads
+// them when a recording is executed.
 typedef struct GpcGeometry {
     // sizeof(GpcGeometry).
     uint32_t size;
@@ -502,73 +518,76 @@ typedef struct GpcGeometry {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
+    // Largest number of vertices. A larger index is clamped to the last vertex; in object space, to the last vertex of
+    // the draw.
     uint32_t vertex_capacity;
-    // Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
-    // with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.
+    // Buffer of vertex positions, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, and with
+    // VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes.
     VkBuffer positions;
-    // Where the first one is, in bytes: a multiple of 4.
+    // Offset of the first position in bytes: a multiple of 4.
     uint64_t positions_offset;
-    // Bytes from one to the next: a multiple of 4, and at least those of a position.
+    // Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
     uint32_t position_stride;
-    // What they are: a GpcPositionSpace.
+    // Space and format of positions: a GpcPositionSpace.
     uint32_t position_space;
-    // With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
-    // Otherwise ignored.
+    // Largest total number of vertices of a frame's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
+    // that several draws share count once for each draw.
     uint32_t position_capacity;
-    // VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR if there are no indices, so that draws take vertices in
-    // their order, as vkCmdDraw does.
+    // Type of the indices: VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR without indices, so
+    // that draws read consecutive vertices, as vkCmdDraw does.
     VkIndexType index_type;
-    // Indices. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a multiple of 4 bytes.
-    // Ignored with VK_INDEX_TYPE_NONE_KHR.
+    // Index buffer, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; ignored with VK_INDEX_TYPE_NONE_KHR. With 16-bit
+    // indices, its size is a multiple of 4 bytes.
     VkBuffer indices;
-    // Where they begin, in bytes: a multiple of an index's size.
+    // Offset of the first index in bytes: a multiple of the size of an index.
     uint64_t indices_offset;
-    // How many indices there can be.
+    // Largest number of indices.
     uint32_t index_capacity;
-    // Most triangles of all draws of a frame.
+    // Largest total number of triangles of a frame's draws.
     uint32_t triangle_capacity;
-    // Most draws of a frame.
+    // Largest number of draws of a frame.
     uint32_t draw_capacity;
-    // How many shading keys there are, 1 to 16,383.
+    // Number of shading keys, 1 to 16,383.
     uint32_t keys;
-    // VK_TRUE if y points up in clip space, as with a viewport of negative height; VK_FALSE if down, as Vulkan has it.
+    // VK_TRUE if y points up in clip space, as with a viewport of negative height; VK_FALSE if y points down, Vulkan's
+    // default.
     VkBool32 y_up;
-    // VK_TRUE if depth runs from 1 near to 0 far; VK_FALSE if from 0 to 1.
+    // VK_TRUE if depth is reversed: from 1 at the near plane to 0 at the far plane; VK_FALSE if it runs from 0 to 1.
     VkBool32 reversed_depth;
-    // Where there are alpha maps, texture coordinates of the vertices, two floats each. Made with
-    // VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Otherwise ignored.
+    // Buffer of the vertices' texture coordinates, two floats each, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    // ignored without alpha maps.
     VkBuffer coordinates;
-    // Where those of the first vertex are, in bytes: a multiple of 4.
+    // Offset of the first vertex's coordinates in bytes: a multiple of 4.
     uint64_t coordinates_offset;
-    // Bytes from one vertex to the next: a multiple of 4, at least 8.
+    // Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
     uint32_t coordinates_stride;
-    // How many alpha maps there are.
+    // Number of alpha maps.
     uint32_t alpha_map_count;
-    // sizeof(GpcAlphaMap), where there are some.
+    // sizeof(GpcAlphaMap), if there are alpha maps.
     uint32_t alpha_map_stride;
     // VK_TRUE if draws may be blended.
     VkBool32 blended;
-    // What draws are tested by that are not opaque, read during the call alone. The library reads the images, in
-    // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
-    // be NULL where there are none.
+    // Alpha maps of draws that are not opaque, read during the call only. The library reads their images when a
+    // frame's first recording is executed, in the layout VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, and keeps a copy of
+    // their alpha. May be NULL if there are none.
     const struct GpcAlphaMap *alpha_maps;
-    // Further buffers that draws may read, read during the call alone. The members `positions` to `index_capacity` and
-    // `coordinates` to `coordinates_stride` are mesh 0, the first of these is mesh 1: see GpcDraw.mesh. May be NULL where there are
-    // none.
+    // Meshes beyond the first, read during the call only; may be NULL if there are none. The members `positions` to
+    // `index_capacity` and `coordinates` to `coordinates_stride` are mesh 0, and the first element here is mesh 1: see
+    // GpcDraw.mesh.
     const struct GpcMesh *more_meshes;
-    // How many there are.
+    // Number of elements of `more_meshes`.
     uint32_t more_mesh_count;
-    // sizeof(GpcMesh), where there are some.
+    // sizeof(GpcMesh), if there are further meshes.
     uint32_t more_mesh_stride;
-    // What the image of depth holds where depth in clip space is 0: minDepth of the application's VkViewport. gpc_init_geometry
-    // gives 0.
+    // Value in the depth image for the clip-space depth 0: minDepth of the application's VkViewport. gpc_init_geometry
+    // sets 0.
     float min_depth;
-    // The same where it is 1: maxDepth. gpc_init_geometry gives 1.
+    // Value in the depth image for the clip-space depth 1: maxDepth of the application's VkViewport. gpc_init_geometry
+    // sets 1.
     float max_depth;
 } GpcGeometry;
 
-// The kinds of images that a frame is recorded with.
+// Kinds of images with which a frame is recorded.
 typedef struct GpcImageKinds {
     // sizeof(GpcImageKinds).
     uint32_t size;
@@ -576,18 +595,19 @@ typedef struct GpcImageKinds {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // VK_TRUE if triangle IDs are lent; VK_FALSE if the library draws IDs and depth for itself.
+    // VK_TRUE if the application lends triangle IDs; VK_FALSE if the library draws IDs and depth itself.
     VkBool32 ids;
-    // VK_TRUE if depth is lent, which goes with IDs and is needed there by GpcOptions.thin.
+    // VK_TRUE if the application lends depth. This requires `ids`; with `ids`, GpcOptions.thin requires depth.
     VkBool32 depth;
-    // The format of the views of colours: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
+    // Format of the views of the colour image: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or
+    // B10G11R11_UFLOAT.
     VkFormat color_format;
-    // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image of colours holds
-    // linear light, or encodes it itself.
+    // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the colour
+    // image holds linear light, or its format encodes the light.
     VkBool32 color_encoded;
 } GpcImageKinds;
 
-// How a frame is antialiased; gpc_init_options gives defaults.
+// Options of antialiasing a frame; gpc_init_options sets defaults.
 typedef struct GpcOptions {
     // sizeof(GpcOptions).
     uint32_t size;
@@ -595,54 +615,59 @@ typedef struct GpcOptions {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // Width in pixels of the images lent.
+    // Width of the frame in pixels: of the part of the lent images that is antialiased.
     uint32_t width;
-    // Their height.
+    // Height of the frame in pixels: of the part of the lent images that is antialiased.
     uint32_t height;
-    // Samples of a superpixel, 1 to 1,024.
+    // Number of samples of a superpixel, 1 to 1,024.
     uint32_t samples;
-    // Where they lie: a GpcPattern.
+    // Pattern of the sample locations: a GpcPattern.
     uint32_t pattern;
-    // How often a superpixel is shaded: a GpcShading.
+    // Rate of shading within a superpixel: a GpcShading.
     uint32_t shading;
-    // What makes a superpixel: a GpcDetection.
+    // Rule by which a pixel becomes a superpixel: a GpcDetection.
     uint32_t detection;
-    // Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255, or GPC_CONTRAST_OF_SAMPLES.
+    // Contrast threshold in 8-bit sRGB code values, 0 to 255, or GPC_CONTRAST_OF_SAMPLES: two colours contrast if any
+    // channel differs by more.
     uint32_t contrast;
-    // VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
-    // too.
+    // VK_TRUE if a triangle that is too thin to cover a pixel's centre makes the pixel a superpixel. If IDs are lent,
+    // depth is needed too.
     VkBool32 thin;
-    // VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
+    // VK_TRUE if the image holds radiance that is tone-mapped later; detection then compares tone-mapped colours.
     VkBool32 high_dynamic_range;
-    // VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
+    // VK_TRUE if textures are filtered over the area that each sample represents; VK_FALSE if over the whole pixel.
     VkBool32 sharp;
-    // VK_TRUE if the application's shading makes the colours of all pixels, so that the colour image may hold anything before;
-    // VK_FALSE if of superpixels alone, which are drawn over what it holds.
+    // VK_TRUE if the application's shading computes the colours of all pixels, so that the colour image may have any
+    // contents before; VK_FALSE if only superpixels are shaded, and drawn over the image's contents.
     VkBool32 shade_all;
-    // VK_TRUE if `background` shows where neither a triangle nor, unless `flat_background` says otherwise, something that the
-    // application has drawn is; VK_FALSE if that is transparent.
+    // VK_TRUE if the background has the colour `background`; VK_FALSE if it is transparent. The background is visible
+    // where there is no triangle and, unless `flat_background` is set, where the application has drawn nothing either.
     VkBool32 has_background;
-    // Linear light.
+    // Background as linear light.
     float background[3];
-    // VK_TRUE if `background`, or nothing, shows wherever no triangle is. With VK_FALSE, where the application lends its colours,
-    // a sample of a superpixel that sees no triangle shows what the application has drawn, with its alpha: the colour of the pixel
-    // if its centre saw no triangle, else of the nearest one of the 8 pixels around it, then of the 24, whose centre saw none, else
-    // the background. It has to be VK_TRUE with GpcGeometry.blended, and does not matter with `shade_all`.
+    // VK_TRUE if the background is visible wherever there is no triangle.
+    //
+    // With VK_FALSE, if the application lends its colours, a sample of a superpixel that meets no triangle takes the
+    // colour and alpha that the application has drawn: of the pixel if its centre shows no triangle, else of the
+    // nearest such pixel among the 8 around it, then among the 24 around it, else the background.
+    //
+    // GpcGeometry.blended requires VK_TRUE. With `shade_all`, the flag is ignored.
     VkBool32 flat_background;
-    // Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
-    // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need or, on GPUs
-    // with plenty of memory, usually needs; those that it does not need take next to no time on devices with
-    // GpcDevice.conditional_rendering, and little on others.
+    // Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
+    // Superpixels that these rounds leave keep their drawn colours and are counted as left over.
+    //
+    // 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
+    // without work take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
     uint32_t max_rounds;
-    // How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
+    // Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     uint32_t location_count;
-    // With GPC_PATTERN_LIST, offsets of the samples from the pixel's centre in pixels, x to the right and y down, each from
-    // -0.5 up to 0.5, read during the call alone. Otherwise ignored.
+    // Offsets of the samples from the pixel's centre in pixels, with GPC_PATTERN_LIST; otherwise ignored. x points to
+    // the right and y down, each at least -0.5 and below 0.5. Read during the call only.
     const float (*locations)[2];
-    // Bound on the device memory of a frame in bytes, 0 for none.
+    // Largest number of bytes of device memory for a frame; 0 for no limit.
     uint64_t max_memory;
-    // How often pixels become superpixels because they contrast with a superpixel beside them, with GPC_DETECTION_CONTRAST: 0 to 8, or
-    // GPC_GROWTHS_OF_SAMPLES.
+    // Number of growths, with GPC_DETECTION_CONTRAST: 0 to 8, or GPC_GROWTHS_OF_SAMPLES. In each growth, pixels that
+    // contrast with a neighbouring superpixel become superpixels too.
     uint32_t growths;
     // 0.
     uint32_t reserved;
@@ -650,30 +675,31 @@ typedef struct GpcOptions {
 
 // State of an image, as in VkImageMemoryBarrier2.
 typedef struct GpcImageState {
-    // Its layout.
+    // Layout of the image.
     VkImageLayout layout;
-    // Stages that use it.
+    // Pipeline stages that use the image.
     VkPipelineStageFlags2 stage;
-    // How they use it.
+    // Memory accesses of these stages.
     VkAccessFlags2 access;
 } GpcImageState;
 
-// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
+// Image of the application: single-sampled, with one level and one layer, and at least as large as the size in
+// GpcOptions.
 typedef struct GpcImage {
-    // The image.
+    // Handle of the image.
     VkImage image;
-    // A two-dimensional view of it, of one aspect.
+    // Two-dimensional view of the image, with a single aspect.
     VkImageView view;
-    // The aspects of the image; of a format with stencil, that too, although it is not read.
+    // All aspects of the image's format, including stencil, which the library does not read.
     VkImageAspectFlags aspects;
-    // Its state when the recording begins.
+    // State of the image when the recording begins.
     struct GpcImageState before;
-    // Its state when the recording is done.
+    // State of the image when the recording is done.
     struct GpcImageState after;
 } GpcImage;
 
-// What the application has drawn, one sample a pixel, and where its picture goes: images of the kinds that the frame was created
-// for.
+// Images that the application has drawn with one sample a pixel. The result is drawn into `color`. The images are of
+// the kinds for which the frame was created.
 typedef struct GpcImages {
     // sizeof(GpcImages).
     uint32_t size;
@@ -681,16 +707,18 @@ typedef struct GpcImages {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
-    // order of the frame's draws, 0 where there is none. Without GpcImageKinds.ids, image and view are VK_NULL_HANDLE.
+    // Image of triangle IDs, VK_FORMAT_R32_UINT, created with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest
+    // triangle in the order of the frame's draws, 0 for no triangle. Without GpcImageKinds.ids, image and view are
+    // VK_NULL_HANDLE.
     struct GpcImage ids;
-    // Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
-    // Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
+    // Image of the nearest triangle's depth, of any depth format, created with VK_IMAGE_USAGE_SAMPLED_BIT; its view
+    // has the depth aspect only. Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
     struct GpcImage depth;
-    // Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT: superpixels are drawn into it.
+    // Colour image, created with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, into which
+    // superpixels are drawn.
     struct GpcImage color;
-    // Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
-    // library neither reads nor writes what lies around it.
+    // Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
+    // reads nor writes pixels outside of it.
     uint32_t corner[2];
 } GpcImages;
 
@@ -702,30 +730,36 @@ typedef struct GpcVisibilitySamples {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // How many keys there are.
+    // Number of shading keys.
     uint32_t keys;
-    // The set of gpc_antialiaser_samples_layout, to be bound for compute where the shaders expect it.
+    // Descriptor set with the layout of gpc_antialiaser_samples_layout, to be bound for compute at the set number that
+    // the shaders use.
     VkDescriptorSet descriptor_set;
     // Buffer of the keys' indirect dispatches, in workgroups of 64 invocations.
     VkBuffer dispatches;
-    // Where in it, in bytes, the dispatch of key 0 is.
+    // Offset of the dispatch of key 0 in the buffer, in bytes.
     uint64_t dispatch_offset;
-    // Bytes from the dispatch of a key to that of the next one.
+    // Distance in bytes from the dispatch of one key to that of the next.
     uint64_t dispatch_stride;
-    // A buffer whose first word is zero where the round has nothing to do, so that its dispatches are of no workgroups. Recorded
-    // after vkCmdBeginConditionalRenderingEXT with it, at offset 0, and ended before the callback returns, they take no time
-    // there, as the library's own. VK_NULL_HANDLE without GpcDevice.conditional_rendering, and where what is shaded is no round.
+    // Buffer for conditional rendering; its first 32-bit word is zero if the round has no work. The dispatches of such
+    // a round have no workgroups. To skip them altogether, record them between vkCmdBeginConditionalRenderingEXT, with
+    // this buffer and offset 0, and its end, within the callback. VK_NULL_HANDLE without
+    // GpcDevice.conditional_rendering, and for shading outside of rounds.
     VkBuffer condition;
 } GpcVisibilitySamples;
 
-// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, in rounds that have
-// nothing to do as well, on its thread, outside of a render pass and of conditional rendering. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
-// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
-// it returns.
+// Function of the application that records the shading of a round's samples into a command buffer: for each key, a
+// pipeline, the samples' descriptor set, and the key's indirect dispatch. `samples` lives until the function returns.
+//
+// gpc_frame_record and gpc_list_record call the function on their thread, a fixed number of times, also for rounds
+// without work, outside of a render pass and of conditional rendering. The library's writes are visible to the
+// dispatches, which need no barrier between them, and the library waits for their writes.
+//
+// The function may bind and push anything. The function must not throw or jump out, and must not use the frame or
+// list.
 typedef void (*GpcShade)(void *user, VkCommandBuffer commands, const struct GpcVisibilitySamples *samples);
 
-// Where a list of locations lies, and where what they see goes.
+// Buffers of the application for a list: sample locations, and the resulting colours.
 typedef struct GpcLocationList {
     // sizeof(GpcLocationList).
     uint32_t size;
@@ -733,21 +767,22 @@ typedef struct GpcLocationList {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // Most locations of a recording.
+    // Largest number of locations of a recording.
     uint32_t capacity;
-    // GpcLocations, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. They may change
-    // with every recording.
+    // Buffer of GpcLocations, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and
+    // VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. Its contents may change with every recording.
     VkBuffer locations;
-    // Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    // Offset of the first location in bytes: a multiple of 256, or of the device's offset alignment for buffer
+    // descriptors.
     uint64_t offset;
-    // What they see, made with VK_BUFFER_USAGE_TRANSFER_DST_BIT: four floats a location, in their order: linear light and
-    // opacity, by which the light is multiplied.
+    // Buffer for the colours of the locations, created with VK_BUFFER_USAGE_TRANSFER_DST_BIT. Each location, in the
+    // order of the list, gets four floats: linear light, premultiplied by opacity, and opacity.
     VkBuffer colors;
-    // Where that of the first location goes, in bytes: a multiple of 4.
+    // Offset of the first location's colour in bytes: a multiple of 4.
     uint64_t colors_offset;
 } GpcLocationList;
 
-// What a recording of a list samples, and where.
+// Locations and draws of a recording of a list.
 typedef struct GpcListScenery {
     // sizeof(GpcListScenery).
     uint32_t size;
@@ -755,19 +790,19 @@ typedef struct GpcListScenery {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // How many locations are sampled: the first ones of the buffer.
+    // Number of locations to sample, from the first one of the buffer on.
     uint32_t location_count;
-    // How many draws there are.
+    // Number of draws.
     uint32_t draw_count;
-    // The draws that locations see, read during the call alone. May be NULL where there are none.
+    // Draws, read during the call only. May be NULL if there are none.
     const struct GpcDraw *draws;
-    // sizeof(GpcDraw), where there are some.
+    // sizeof(GpcDraw), if there are draws.
     uint32_t draw_stride;
     // 0.
     uint32_t reserved;
 } GpcListScenery;
 
-// What a recording of a list did.
+// Result of a recording of a list.
 typedef struct GpcListOutcome {
     // sizeof(GpcListOutcome).
     uint32_t size;
@@ -775,26 +810,28 @@ typedef struct GpcListOutcome {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
-    // Locations off the image, or that are no numbers. They show the background.
+    // Number of locations that lie outside of the image or are not finite; these show the background.
     uint32_t left_out;
-    // Cells and tiles that found no room, and show the background. gpc_list_grow makes a list with more.
+    // Number of cells and tiles for which memory did not suffice; these show the background. gpc_list_grow makes a
+    // list with more memory.
     uint64_t left_over;
-    // Visibility samples that were shaded.
+    // Number of visibility samples that were shaded.
     uint64_t visibility_samples;
-    // Bytes of device memory that the list takes, beside what the application lends.
+    // Number of bytes of device memory that the list uses, without the application's buffers.
     uint64_t memory_bytes;
-    // Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    // Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     double gpu_milliseconds;
 } GpcListOutcome;
 
-// A place on the image plane, as it lies in the buffer of a GpcLocationList: 32 bytes.
+// Sample location on the image plane: 32 bytes, an element of a GpcLocationList's buffer.
 typedef struct GpcLocation {
-    // The pixel that it lies in: column and row from the upper left corner of the image that GpcOptions names.
+    // Column and row of the pixel that contains the location, from the upper left corner of the image of the size in
+    // GpcOptions.
     int32_t pixel[2];
-    // Where it lies in the pixel, x and y down, from 0 to 1.
+    // Position in that pixel: x to the right and y down, from 0 to 1.
     float within[2];
-    // How far apart it lies from its neighbours, in pixels: the change of x and y to the next column, and to the next row, of
-    // what the application makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    // Jacobian of the location's mapping, in pixels: the changes of x and y to the next column, and those to the next
+    // row, of the application's output. Sub-samples and texture filters cover this parallelogram.
     float jacobian[2][2];
 } GpcLocation;
 
@@ -846,14 +883,14 @@ VkDescriptorSetLayout gpc_antialiaser_samples_layout(const struct GpcAntialiaser
 // Threads: no other call uses the antialiaser at the time.
 void gpc_antialiaser_destroy(struct GpcAntialiaser *antialiaser);
 
-// What the last call of the calling thread that failed has to say: UTF-8, in English, for a log. Never NULL; empty where
-// none has failed.
+// Message of the calling thread's last call that failed: UTF-8, in English, for logs. Never NULL; empty if no call has
+// failed.
 //
-// Threads: any. The text is the thread's own.
+// Threads: any. Each thread has its own message.
 // Lifetime: until the thread's next call of this library that fails, or its end.
 const char *gpc_last_error(void);
 
-// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery): there are no draws.
+// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery), without draws.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_scenery(struct GpcScenery *scenery, size_t size);
@@ -863,12 +900,13 @@ GpcResult gpc_init_scenery(struct GpcScenery *scenery, size_t size);
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_outcome(struct GpcOutcome *outcome, size_t size);
 
-// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number of
-// its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that the library's passes hand to
-// each other, where its size suffices for several, so that the commands of all frames of an antialiaser are executed on one queue.
+// Makes the pipelines and memory of a frame. An application has one for each frame in flight, whatever the number of
+// its swapchain's images, and makes new ones if a buffer changes. Frames share the memory that the library's passes
+// hand to each other if its size suffices for several, so the commands of all frames of an antialiaser must be
+// executed on one queue.
 //
 // Threads: any; several frames may be created at once.
-// Lifetime: the buffers and alpha maps lent outlive the frame. The structs are read during the call alone.
+// Lifetime: the lent buffers and alpha maps outlive the frame. The structs are read during the call only.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 // GPC_RESULT_VULKAN. `*frame` is then NULL.
 GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
@@ -877,33 +915,40 @@ GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
                            const struct GpcOptions *options,
                            struct GpcFrame **frame);
 
-// Makes a frame like this one, for the same buffers and kinds of images, with more of what its last recording lacked. Where it
-// lacked nothing, the new one has as much. The old one is still to be destroyed.
+// Makes a frame like `frame`, for the same buffers and kinds of images, with more of the memory that the last
+// recording lacked. If it lacked none, the new frame has as much memory as the old one. The old frame still has to be
+// destroyed.
 //
-// Threads: no other call uses the frame at the time. Lifetime: the buffers and alpha maps lent outlive the new frame too.
+// Threads: no other call uses the frame at the same time. Lifetime: the lent buffers and alpha maps outlive the new
+// frame too.
 // Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 GpcResult gpc_frame_grow(const struct GpcFrame *frame,
                          struct GpcFrame **grown);
 
-// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes smaller
-// keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+// Changes the size of the images, in pixels. Pipelines are kept, and so is memory that suffices: a frame that becomes
+// smaller keeps all of its memory. Otherwise, the first frame that is resized allocates memory, which the other frames
+// of the antialiaser then share.
 //
-// Threads: no other call uses the frame at the time.
+// Threads: no other call uses the frame at the same time.
 // Lifetime: the commands of the frame's last recording are done, or will never be executed.
-// Errors: as gpc_frame_create; the frame is then as it was.
+// Errors: as gpc_frame_create; the frame is unchanged then.
 GpcResult gpc_frame_resize(struct GpcFrame *frame,
                            uint32_t width,
                            uint32_t height);
 
-// Records the antialiasing of what the application has drawn, in any images of the kinds and the size that the frame was created
-// for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates nothing on the device. It updates
-// descriptor sets of the frame's own, for which the last recording has to be done. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
-// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
-// no memory of the library but by gpc_store.
+// Records the antialiasing of the images that the application has drawn, such as the current image of a swapchain. The
+// images have the kinds and the size for which the frame was created. The call neither submits nor waits, and
+// allocates no device memory; it updates descriptor sets of the frame, so the commands of the frame's last recording
+// must be done.
 //
-// Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
-// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers, the images and what `shade` records
-// outlive the execution of the commands.
+// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
+// The application must bind and push its state again afterwards. `user` is passed to `shade`, whose shaders write no
+// memory of the library except by gpc_store.
+//
+// Threads: no other call uses the frame or the command buffer at the same time. Different frames may be recorded at
+// the same time.
+// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers,
+// the images and the objects that `shade` records outlive the execution of the commands.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 GpcResult gpc_frame_record(struct GpcFrame *frame,
                            VkCommandBuffer commands,
@@ -912,54 +957,53 @@ GpcResult gpc_frame_record(struct GpcFrame *frame,
                            GpcShade shade,
                            void *user);
 
-// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
-// submitted or still run, it answers GPC_RESULT_NOT_READY.
+// Result of the last recording, available once its commands are done, until the next recording begins. The call does
+// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
 //
-// Threads: no gpc_frame_record of the frame runs at the time.
+// Threads: no gpc_frame_record of the frame runs at the same time.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 GpcResult gpc_frame_outcome(const struct GpcFrame *frame,
                             struct GpcOutcome *outcome);
 
-// Bytes of device memory that a frame takes, beside what the application lends; 0 for NULL.
+// Number of bytes of device memory that a frame uses, without the application's buffers and images; 0 for NULL.
 //
 // Threads: any.
 uint64_t gpc_frame_memory_bytes(const struct GpcFrame *frame);
 
-// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them; 0 for NULL.
+// Part of gpc_frame_memory_bytes that other frames of the same antialiaser may use too, in bytes; counts once for all
+// of them. 0 for NULL.
 //
 // Threads: any.
 uint64_t gpc_frame_shared_memory_bytes(const struct GpcFrame *frame);
 
-// Destroys a frame, whose commands are done. NULL does nothing.
+// Destroys a frame, whose commands are done. NULL is ignored.
 //
-// Threads: no other call uses the frame at the time.
+// Threads: no other call uses the frame at the same time.
 void gpc_frame_destroy(struct GpcFrame *frame);
 
-// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): nothing is lent, and there is one
-// shading key.
+// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, and with one shading key.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_geometry(struct GpcGeometry *geometry, size_t size);
 
-// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): colours alone are lent. Their format is still to be set.
+// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): with a colour image only, whose format still
+// has to be set.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_image_kinds(struct GpcImageKinds *kinds,
                                size_t size);
 
-// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages): no image is lent.
+// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages), without images.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_images(struct GpcImages *images, size_t size);
 
-// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList): nothing is
-// lent.
+// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList), without buffers.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_location_list(struct GpcLocationList *list, size_t size);
 
-// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery): no locations are
-// sampled.
+// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery), without locations and draws.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_list_scenery(struct GpcListScenery *scenery, size_t size);
@@ -969,12 +1013,12 @@ GpcResult gpc_init_list_scenery(struct GpcListScenery *scenery, size_t size);
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_list_outcome(struct GpcListOutcome *outcome, size_t size);
 
-// Makes the pipelines and memory to sample a list of locations. With one sample each location is sampled where it is, with
-// more as a superpixel around it. Of the options, detection, contrast, thin and shade_all do not matter; width and height are
-// those of the image whose pixels locations count in.
+// Makes the pipelines and memory to sample a list of locations. With one sample, each location is sampled at its own
+// position; with more, as a superpixel around it. The options `detection`, `contrast`, `thin` and `shade_all` are
+// ignored; `width` and `height` are the size of the image in whose pixels locations are given.
 //
 // Threads: any; several lists may be created at once.
-// Lifetime: the buffers and views lent outlive the list. The structs are read during the call alone.
+// Lifetime: the lent buffers and views outlive the list. The structs are read during the call only.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 // GPC_RESULT_VULKAN. `*list` is then NULL.
 GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
@@ -983,22 +1027,26 @@ GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
                           const struct GpcOptions *options,
                           struct GpcList **list);
 
-// Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
-// new one has as much. The old one is still to be destroyed.
+// Makes a list like `list`, for the same buffers, with more of the memory that the last recording lacked. If it lacked
+// none, the new list has as much memory as the old one. The old list still has to be destroyed.
 //
-// Threads: no other call uses the list at the time. Lifetime: the buffers and views lent outlive the new list too.
+// Threads: no other call uses the list at the same time. Lifetime: the lent buffers and views outlive the new list
+// too.
 // Errors: as gpc_list_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 GpcResult gpc_list_grow(const struct GpcList *list,
                         struct GpcList **grown);
 
-// Records the sampling of locations. It submits nothing, waits for nothing, allocates nothing on the device
-// and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family lent; what was
-// bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
-// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
+// Records the sampling of locations. The call neither submits nor waits, allocates no device memory, and updates no
+// descriptor.
 //
-// Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
-// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and what `shade` records outlive the
-// execution of the commands.
+// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
+// The application must bind and push its state again afterwards; the results are visible to all later commands. `user`
+// is passed to `shade`, whose shaders write no memory of the library except by gpc_store.
+//
+// Threads: no other call uses the list or the command buffer at the same time. Different lists may be recorded at the
+// same time.
+// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and
+// the objects that `shade` records outlive the execution of the commands.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 GpcResult gpc_list_record(struct GpcList *list,
                           VkCommandBuffer commands,
@@ -1006,40 +1054,41 @@ GpcResult gpc_list_record(struct GpcList *list,
                           GpcShade shade,
                           void *user);
 
-// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
-// submitted or still run, it answers GPC_RESULT_NOT_READY.
+// Result of the last recording, available once its commands are done, until the next recording begins. The call does
+// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
 //
-// Threads: no gpc_list_record of the list runs at the time.
+// Threads: no gpc_list_record of the list runs at the same time.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 GpcResult gpc_list_outcome(const struct GpcList *list,
                            struct GpcListOutcome *outcome);
 
-// Bytes of device memory that a list takes, beside what the application lends; 0 for NULL.
+// Number of bytes of device memory that a list uses, without the application's buffers; 0 for NULL.
 //
 // Threads: any.
 uint64_t gpc_list_memory_bytes(const struct GpcList *list);
 
-// Destroys a list, whose commands are done. NULL does nothing.
+// Destroys a list, whose commands are done. NULL is ignored.
 //
-// Threads: no other call uses the list at the time.
+// Threads: no other call uses the list at the same time.
 void gpc_list_destroy(struct GpcList *list);
 
-// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, contrast and thin
-// triangles detected, shading in parts. Width and height are still to be set.
+// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, detection of contrast
+// and thin triangles, shading in parts. `width` and `height` still have to be set.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 GpcResult gpc_init_options(struct GpcOptions *options,
                            size_t size);
 
-// Checks that a shader was compiled with a gpc_visibility.glsl that this library takes. Check each shader that shades samples,
-// where its pipeline is made. Arguments are those of VkShaderModuleCreateInfo: `code_size` is in bytes.
+// Checks that a shader was compiled with a supported version of gpc_visibility.glsl. Call this for each shader that
+// shades samples, where its pipeline is made. The arguments are those of VkShaderModuleCreateInfo: `code_size` is in
+// bytes.
 //
 // Threads: any.
-// Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for what is no SPIR-V; GPC_RESULT_SHADER_VERSION.
+// Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE if the code is not SPIR-V; GPC_RESULT_SHADER_VERSION.
 GpcResult gpc_check_shader(const uint32_t *code,
                            size_t code_size);
 
-// The version of the library, packed as GPC_VERSION is.
+// Version of the library, packed as GPC_VERSION is.
 //
 // Threads: any.
 uint32_t gpc_version(void);

@@ -1,4 +1,4 @@
-//! Answers of functions, and messages.
+//! Results of functions, and error messages.
 
 use super::names::in_c;
 use super::version::GPC_ABI_VERSION;
@@ -11,40 +11,41 @@ use std::cell::RefCell;
 use std::ffi::{CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What a function answers.
+/// Result of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum GpcResult {
-    /// It did what was asked.
+    /// Success.
     Success = 0,
-    /// A pointer is NULL or a handle VK_NULL_HANDLE.
+    /// Pointer that is NULL, or handle that is VK_NULL_HANDLE.
     Null = 1,
-    /// A size or a stride is none that the struct has in this or an earlier version of the header: it was not set, or the
-    /// application was compiled with the header of a later version.
+    /// Size or stride that the struct has in no version of the header up to the library's. Either the member was not
+    /// set, or the application was compiled with the header of a later version.
     StructSize = 2,
-    /// A value is none of those possible, or contradicts another.
+    /// Value that is not possible, or that contradicts another one.
     Value = 3,
-    /// A recording has more draws, triangles, vertices or indices than its frame was created for.
+    /// Recording with more draws, triangles, vertices or indices than its frame was created for.
     Capacity = 4,
-    /// The device, its instance or its loader lacks something that is needed.
+    /// Device, instance or loader that lacks a requirement.
     Unsupported = 5,
-    /// Memory ran out, or GpcOptions.max_memory allows too little.
+    /// Memory that ran out, or a GpcOptions.max_memory that allows too little.
     OutOfMemory = 6,
-    /// The device was lost.
+    /// Lost device.
     DeviceLost = 7,
-    /// The driver refused something else.
+    /// Any other refusal by the driver.
     Vulkan = 8,
-    /// A defect of the library. What took part in the call is to be destroyed and not used otherwise.
+    /// Defect of the library. The objects that took part in the call must be destroyed and not used otherwise.
     Panic = 9,
-    /// The commands of the last recording are not done, or there was none.
+    /// Query about a recording whose commands are not done, or before the first recording.
     NotReady = 10,
-    /// The member `type` of a struct is of another struct, or its member `next` leads to one that the library does not know.
+    /// Member `type` with the value of another struct, or member `next` that points to a struct that the library does
+    /// not know.
     StructType = 11,
-    /// A shader was compiled with no gpc_visibility.glsl, or with one of a version that the library does not take.
+    /// Shader that was compiled without gpc_visibility.glsl, or with a version of it that the library does not support.
     ShaderVersion = 12,
 }
 
-/// Why a function did not do what was asked.
+/// Reason for which a function failed.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Error {
     #[error("{0} is NULL")]
@@ -96,7 +97,7 @@ pub(super) enum Error {
     Panic(String),
 }
 
-/// What a size can be, where one was found that is none of the struct's.
+/// Message about a size that the struct does not have, with the possible sizes.
 fn sizes(name: &str, found: usize, expected: usize) -> String {
     if found > expected {
         let version = env!("CARGO_PKG_VERSION");
@@ -159,10 +160,10 @@ thread_local! {
     static LAST: RefCell<CString> = RefCell::default();
 }
 
-/// What the last call of the calling thread that failed has to say: UTF-8, in English, for a log. Never NULL; empty where
-/// none has failed.
+/// Message of the calling thread's last call that failed: UTF-8, in English, for logs. Never NULL; empty if no call has
+/// failed.
 ///
-/// Threads: any. The text is the thread's own.
+/// Threads: any. Each thread has its own message.
 /// Lifetime: until the thread's next call of this library that fails, or its end.
 #[unsafe(no_mangle)]
 pub extern "C" fn gpc_last_error() -> *const c_char {
@@ -170,16 +171,16 @@ pub extern "C" fn gpc_last_error() -> *const c_char {
     text.unwrap_or(c"".as_ptr())
 }
 
-/// Runs the body of a function of the API: panics end here, and errors leave their message.
+/// Runs the body of a function of the API. Panics end here, and the message of an error is stored for gpc_last_error.
 pub(super) fn answer(body: impl FnOnce() -> Result<(), Error>) -> GpcResult {
-    // Whatever a panic leaves half made is not to be used again, as the documentation of the result says.
+    // After a panic, the objects that took part must not be used, as the documentation of the result says.
     let done = catch_unwind(AssertUnwindSafe(body));
     let Err(error) = done.unwrap_or_else(|payload| Err(Error::Panic(said(payload.as_ref()))))
     else {
         return GpcResult::Success;
     };
     let text = error.to_string().replace('\0', " ");
-    // A thread that is ending has no place for messages any more.
+    // A thread that is ending can't store messages any more.
     let _ = LAST.try_with(|last| *last.borrow_mut() = CString::new(text).unwrap_or_default());
     error.result()
 }
@@ -190,7 +191,7 @@ fn said(payload: &(dyn Any + Send)) -> String {
     text.unwrap_or("a panic").to_owned()
 }
 
-/// The calling thread's message.
+/// Message of the calling thread.
 #[cfg(test)]
 pub(super) fn last_error() -> String {
     // SAFETY: the text lives until this thread's next failure.

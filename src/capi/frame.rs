@@ -18,7 +18,7 @@ pub struct GpcFrame {
     inner: Frame,
 }
 
-/// What a recording shows.
+/// Draws and view of a recording.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcScenery {
@@ -28,18 +28,22 @@ pub struct GpcScenery {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// How many draws there are.
+    /// Number of draws.
     pub draw_count: u32,
-    /// sizeof(GpcDraw), where there are some.
+    /// sizeof(GpcDraw), if there are draws.
     pub draw_stride: u32,
-    /// The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
+    /// Draws, read during the call only. Triangle IDs count from 1 in the order of the draws. May be NULL if there are
+    /// none.
     pub draws: *const GpcDraw,
-    /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
-    /// clip space. It tells how far apart two depths are.
+    /// Projection matrix by columns, from view space, whose unit of length is the world's, to clip space: the one with
+    /// which positions in clip space were computed. The matrix tells how far apart two depths are.
     pub projection: [[f32; 4]; 4],
-    /// Where clip space lies on the images: x, y, width and height of the application's VkViewport, in pixels of the images. The height
-    /// is negative with GpcGeometry.y_up. It holds the frame's part of the images, which is the application's scissor rectangle: the
-    /// pixels of the size in GpcOptions from GpcImages.corner on. Four zeros, as gpc_init_scenery gives, for a viewport that is the part.
+    /// Viewport of the application, as VkViewport: x, y, width and height in pixels of the images. The height is
+    /// negative with GpcGeometry.y_up.
+    ///
+    /// The viewport contains the frame's part of the images, which is the application's scissor rectangle: the upper
+    /// left pixel is GpcImages.corner, the size that in GpcOptions. Four zeros, as gpc_init_scenery sets them, stand
+    /// for a viewport equal to the part.
     pub viewport: [f32; 4],
 }
 
@@ -49,12 +53,12 @@ unsafe impl Element for GpcScenery {
     const SIZES: &'static [usize] = sizes!(GpcScenery, projection, viewport);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcScenery {
     const TYPE: GpcStructType = GpcStructType::Scenery;
 }
 
-/// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery): there are no draws.
+/// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery), without draws.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -73,19 +77,21 @@ pub struct GpcVisibilitySamples {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// How many keys there are.
+    /// Number of shading keys.
     pub keys: u32,
-    /// The set of gpc_antialiaser_samples_layout, to be bound for compute where the shaders expect it.
+    /// Descriptor set with the layout of gpc_antialiaser_samples_layout, to be bound for compute at the set number that
+    /// the shaders use.
     pub descriptor_set: vk::DescriptorSet,
     /// Buffer of the keys' indirect dispatches, in workgroups of 64 invocations.
     pub dispatches: vk::Buffer,
-    /// Where in it, in bytes, the dispatch of key 0 is.
+    /// Offset of the dispatch of key 0 in the buffer, in bytes.
     pub dispatch_offset: u64,
-    /// Bytes from the dispatch of a key to that of the next one.
+    /// Distance in bytes from the dispatch of one key to that of the next.
     pub dispatch_stride: u64,
-    /// A buffer whose first word is zero where the round has nothing to do, so that its dispatches are of no workgroups. Recorded
-    /// after vkCmdBeginConditionalRenderingEXT with it, at offset 0, and ended before the callback returns, they take no time
-    /// there, as the library's own. VK_NULL_HANDLE without GpcDevice.conditional_rendering, and where what is shaded is no round.
+    /// Buffer for conditional rendering; its first 32-bit word is zero if the round has no work. The dispatches of such
+    /// a round have no workgroups. To skip them altogether, record them between vkCmdBeginConditionalRenderingEXT, with
+    /// this buffer and offset 0, and its end, within the callback. VK_NULL_HANDLE without
+    /// GpcDevice.conditional_rendering, and for shading outside of rounds.
     pub condition: vk::Buffer,
 }
 
@@ -95,16 +101,20 @@ unsafe impl Element for GpcVisibilitySamples {
     const SIZES: &'static [usize] = sizes!(GpcVisibilitySamples, condition);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcVisibilitySamples {
     const TYPE: GpcStructType = GpcStructType::VisibilitySamples;
 }
 
-/// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, in rounds that have
-/// nothing to do as well, on its thread, outside of a render pass and of conditional rendering. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
-/// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
-/// it returns.
+/// Function of the application that records the shading of a round's samples into a command buffer: for each key, a
+/// pipeline, the samples' descriptor set, and the key's indirect dispatch. `samples` lives until the function returns.
+///
+/// gpc_frame_record and gpc_list_record call the function on their thread, a fixed number of times, also for rounds
+/// without work, outside of a render pass and of conditional rendering. The library's writes are visible to the
+/// dispatches, which need no barrier between them, and the library waits for their writes.
+///
+/// The function may bind and push anything. The function must not throw or jump out, and must not use the frame or
+/// list.
 pub type GpcShade = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -113,7 +123,7 @@ pub type GpcShade = Option<
     ),
 >;
 
-/// What a recording did.
+/// Result of a recording.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcOutcome {
@@ -123,19 +133,19 @@ pub struct GpcOutcome {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// Rounds that had work.
+    /// Number of rounds that had work.
     pub rounds: u32,
-    /// Superpixels and tiles that found no room. gpc_frame_grow makes a frame with more.
+    /// Number of superpixels and tiles for which memory did not suffice. gpc_frame_grow makes a frame with more memory.
     pub left_over: u64,
-    /// Superpixels.
+    /// Number of superpixels.
     pub superpixels: u64,
-    /// Triangles in all draws.
+    /// Number of triangles in all draws.
     pub triangles: u64,
-    /// Visibility samples that were shaded.
+    /// Number of visibility samples that were shaded.
     pub visibility_samples: u64,
-    /// Bytes of device memory that the frame takes, beside what the application lends.
+    /// Number of bytes of device memory that the frame uses, without the application's buffers and images.
     pub memory_bytes: u64,
-    /// Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    /// Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     pub gpu_milliseconds: f64,
 }
 
@@ -145,7 +155,7 @@ unsafe impl Element for GpcOutcome {
     const SIZES: &'static [usize] = sizes!(GpcOutcome, gpu_milliseconds);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcOutcome {
     const TYPE: GpcStructType = GpcStructType::Outcome;
 }
@@ -159,12 +169,13 @@ pub unsafe extern "C" fn gpc_init_outcome(outcome: *mut GpcOutcome, size: usize)
     unsafe { init(outcome, size) }
 }
 
-/// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number of
-/// its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that the library's passes hand to
-/// each other, where its size suffices for several, so that the commands of all frames of an antialiaser are executed on one queue.
+/// Makes the pipelines and memory of a frame. An application has one for each frame in flight, whatever the number of
+/// its swapchain's images, and makes new ones if a buffer changes. Frames share the memory that the library's passes
+/// hand to each other if its size suffices for several, so the commands of all frames of an antialiaser must be
+/// executed on one queue.
 ///
 /// Threads: any; several frames may be created at once.
-/// Lifetime: the buffers and alpha maps lent outlive the frame. The structs are read during the call alone.
+/// Lifetime: the lent buffers and alpha maps outlive the frame. The structs are read during the call only.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 /// GPC_RESULT_VULKAN. `*frame` is then NULL.
 #[unsafe(no_mangle)]
@@ -190,10 +201,12 @@ pub unsafe extern "C" fn gpc_frame_create(
     unsafe { hand_over(frame, "frame", make) }
 }
 
-/// Makes a frame like this one, for the same buffers and kinds of images, with more of what its last recording lacked. Where it
-/// lacked nothing, the new one has as much. The old one is still to be destroyed.
+/// Makes a frame like `frame`, for the same buffers and kinds of images, with more of the memory that the last
+/// recording lacked. If it lacked none, the new frame has as much memory as the old one. The old frame still has to be
+/// destroyed.
 ///
-/// Threads: no other call uses the frame at the time. Lifetime: the buffers and alpha maps lent outlive the new frame too.
+/// Threads: no other call uses the frame at the same time. Lifetime: the lent buffers and alpha maps outlive the new
+/// frame too.
 /// Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_grow(
@@ -209,12 +222,13 @@ pub unsafe extern "C" fn gpc_frame_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes smaller
-/// keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+/// Changes the size of the images, in pixels. Pipelines are kept, and so is memory that suffices: a frame that becomes
+/// smaller keeps all of its memory. Otherwise, the first frame that is resized allocates memory, which the other frames
+/// of the antialiaser then share.
 ///
-/// Threads: no other call uses the frame at the time.
+/// Threads: no other call uses the frame at the same time.
 /// Lifetime: the commands of the frame's last recording are done, or will never be executed.
-/// Errors: as gpc_frame_create; the frame is then as it was.
+/// Errors: as gpc_frame_create; the frame is unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_resize(
     frame: *mut GpcFrame,
@@ -228,15 +242,19 @@ pub unsafe extern "C" fn gpc_frame_resize(
     })
 }
 
-/// Records the antialiasing of what the application has drawn, in any images of the kinds and the size that the frame was created
-/// for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates nothing on the device. It updates
-/// descriptor sets of the frame's own, for which the last recording has to be done. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
-/// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
-/// no memory of the library but by gpc_store.
+/// Records the antialiasing of the images that the application has drawn, such as the current image of a swapchain. The
+/// images have the kinds and the size for which the frame was created. The call neither submits nor waits, and
+/// allocates no device memory; it updates descriptor sets of the frame, so the commands of the frame's last recording
+/// must be done.
 ///
-/// Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
-/// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers, the images and what `shade` records
-/// outlive the execution of the commands.
+/// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
+/// The application must bind and push its state again afterwards. `user` is passed to `shade`, whose shaders write no
+/// memory of the library except by gpc_store.
+///
+/// Threads: no other call uses the frame or the command buffer at the same time. Different frames may be recorded at
+/// the same time.
+/// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers,
+/// the images and the objects that `shade` records outlive the execution of the commands.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_record(
@@ -284,10 +302,10 @@ pub unsafe extern "C" fn gpc_frame_record(
     })
 }
 
-/// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
-/// submitted or still run, it answers GPC_RESULT_NOT_READY.
+/// Result of the last recording, available once its commands are done, until the next recording begins. The call does
+/// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
 ///
-/// Threads: no gpc_frame_record of the frame runs at the time.
+/// Threads: no gpc_frame_record of the frame runs at the same time.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_outcome(
@@ -316,7 +334,7 @@ pub unsafe extern "C" fn gpc_frame_outcome(
     })
 }
 
-/// Bytes of device memory that a frame takes, beside what the application lends; 0 for NULL.
+/// Number of bytes of device memory that a frame uses, without the application's buffers and images; 0 for NULL.
 ///
 /// Threads: any.
 #[unsafe(no_mangle)]
@@ -325,7 +343,8 @@ pub unsafe extern "C" fn gpc_frame_memory_bytes(frame: *const GpcFrame) -> u64 {
     unsafe { frame.as_ref() }.map_or(0, |frame| frame.inner.memory_bytes())
 }
 
-/// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them; 0 for NULL.
+/// Part of gpc_frame_memory_bytes that other frames of the same antialiaser may use too, in bytes; counts once for all
+/// of them. 0 for NULL.
 ///
 /// Threads: any.
 #[unsafe(no_mangle)]
@@ -334,16 +353,16 @@ pub unsafe extern "C" fn gpc_frame_shared_memory_bytes(frame: *const GpcFrame) -
     unsafe { frame.as_ref() }.map_or(0, |frame| frame.inner.shared_memory_bytes())
 }
 
-/// Destroys a frame, whose commands are done. NULL does nothing.
+/// Destroys a frame, whose commands are done. NULL is ignored.
 ///
-/// Threads: no other call uses the frame at the time.
+/// Threads: no other call uses the frame at the same time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_destroy(frame: *mut GpcFrame) {
     // SAFETY: passed on to the caller.
     unsafe { take_back(frame) };
 }
 
-/// An application's materials behind a function of C.
+/// Materials of an application, shaded by its C function.
 pub(super) struct Callback {
     pub shade: unsafe extern "C" fn(*mut c_void, vk::CommandBuffer, *const GpcVisibilitySamples),
     pub user: *mut c_void,

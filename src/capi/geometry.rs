@@ -1,4 +1,4 @@
-//! Triangles that the application lends.
+//! Geometry that the application lends.
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes};
@@ -8,41 +8,43 @@ use crate::host::{
 use ash::vk;
 use std::ffi::c_void;
 
-/// What positions are.
+/// Space and format of vertex positions.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcPositionSpace {
-    /// Four floats in clip space: the very values of the vertex shader's gl_Position.
+    /// Clip space, four floats: the same values as the vertex shader's gl_Position.
     Clip = 0,
-    /// Three floats in a space of each draw's own, from which GpcDraw.to_clip leads to clip space.
+    /// Object space of the draw, three floats; GpcDraw.to_clip transforms them to clip space.
     Object = 1,
 }
 
-/// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
-/// modes are best those of the sampler that the application's own pass reads the map with.
+/// Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
+/// equal those of the sampler with which the application's own pass reads the map.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcAlphaMap {
-    /// A two-dimensional view of an image made with VK_IMAGE_USAGE_SAMPLED_BIT, of floats or normalised numbers. Its fourth
-    /// component is alpha; that of a view may be any of the image.
+    /// Two-dimensional view of an image that was created with VK_IMAGE_USAGE_SAMPLED_BIT and holds floats or normalised
+    /// numbers. The fourth component of the view is alpha; the view's swizzle can take alpha from any channel of the
+    /// image.
     pub view: vk::ImageView,
     /// Width in texels, up to 65,535.
     pub width: u32,
     /// Height in texels, up to 65,535.
     pub height: u32,
-    /// How many mipmap levels there are; 1 for none.
+    /// Number of mipmap levels, at least 1.
     pub levels: u32,
-    /// How alpha lies between texels that are larger than pixels: VK_FILTER_LINEAR or NEAREST.
+    /// Filter where texels are larger than pixels: VK_FILTER_LINEAR or VK_FILTER_NEAREST.
     pub mag_filter: vk::Filter,
-    /// The same where texels are smaller.
+    /// Filter where texels are smaller than pixels: VK_FILTER_LINEAR or VK_FILTER_NEAREST.
     pub min_filter: vk::Filter,
-    /// Whether alpha is that of two levels, blended (VK_SAMPLER_MIPMAP_MODE_LINEAR), or of the nearest one (NEAREST).
+    /// Filter between mipmap levels: VK_SAMPLER_MIPMAP_MODE_LINEAR blends two levels, NEAREST reads the nearest level.
     pub mipmap_mode: vk::SamplerMipmapMode,
-    /// What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
+    /// Address mode along u, for coordinates outside of the image: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or
+    /// CLAMP_TO_EDGE.
     pub address_u: vk::SamplerAddressMode,
-    /// The same along v.
+    /// Address mode along v: the same possibilities as for u.
     pub address_v: vk::SamplerAddressMode,
-    /// The least alpha that is there.
+    /// Smallest alpha at which the surface exists.
     pub cutoff: f32,
     /// 0.
     pub reserved: u32,
@@ -54,31 +56,32 @@ unsafe impl Element for GpcAlphaMap {
     const SIZES: &'static [usize] = sizes!(GpcAlphaMap, reserved);
 }
 
-/// Buffers that draws read, as they are bound for them: those of a mesh, or of many meshes. Members are as those of GpcGeometry.
+/// Buffers that draws read, bound together: those of one mesh, or of many meshes that share buffers. The members have
+/// the same requirements as those of GpcGeometry.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcMesh {
-    /// Positions of vertices.
+    /// Buffer of vertex positions.
     pub positions: vk::Buffer,
-    /// Where the first one is, in bytes.
+    /// Offset of the first position in bytes.
     pub positions_offset: u64,
-    /// Bytes from one to the next.
+    /// Distance in bytes from one position to the next.
     pub position_stride: u32,
-    /// How many vertices there can be.
+    /// Largest number of vertices.
     pub vertex_capacity: u32,
-    /// Indices; ignored with VK_INDEX_TYPE_NONE_KHR.
+    /// Index buffer; ignored with VK_INDEX_TYPE_NONE_KHR.
     pub indices: vk::Buffer,
-    /// Where they begin, in bytes.
+    /// Offset of the first index in bytes.
     pub indices_offset: u64,
-    /// VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR.
+    /// Type of the indices: VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32, or VK_INDEX_TYPE_NONE_KHR for none.
     pub index_type: vk::IndexType,
-    /// How many indices there can be.
+    /// Largest number of indices.
     pub index_capacity: u32,
-    /// Texture coordinates of the vertices. VK_NULL_HANDLE where no draw of them has an alpha map.
+    /// Buffer of the vertices' texture coordinates. VK_NULL_HANDLE if no draw of the mesh has an alpha map.
     pub coordinates: vk::Buffer,
-    /// Where those of the first vertex are, in bytes.
+    /// Offset of the first vertex's coordinates in bytes.
     pub coordinates_offset: u64,
-    /// Bytes from one vertex to the next.
+    /// Distance in bytes from one vertex to the next.
     pub coordinates_stride: u32,
     /// 0.
     pub reserved: u32,
@@ -112,8 +115,8 @@ impl GpcMesh {
     }
 }
 
-/// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
-/// executed.
+/// Buffers and capacities of the application. The contents of the buffers may change in every frame: the library reads
+/// them when a recording is executed.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcGeometry {
@@ -123,69 +126,72 @@ pub struct GpcGeometry {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
+    /// Largest number of vertices. A larger index is clamped to the last vertex; in object space, to the last vertex of
+    /// the draw.
     pub vertex_capacity: u32,
-    /// Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
-    /// with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.
+    /// Buffer of vertex positions, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, and with
+    /// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes.
     pub positions: vk::Buffer,
-    /// Where the first one is, in bytes: a multiple of 4.
+    /// Offset of the first position in bytes: a multiple of 4.
     pub positions_offset: u64,
-    /// Bytes from one to the next: a multiple of 4, and at least those of a position.
+    /// Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
     pub position_stride: u32,
-    /// What they are: a GpcPositionSpace.
+    /// Space and format of positions: a GpcPositionSpace.
     pub position_space: u32,
-    /// With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
-    /// Otherwise ignored.
+    /// Largest total number of vertices of a frame's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
+    /// that several draws share count once for each draw.
     pub position_capacity: u32,
-    /// VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR if there are no indices, so that draws take vertices in
-    /// their order, as vkCmdDraw does.
+    /// Type of the indices: VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR without indices, so
+    /// that draws read consecutive vertices, as vkCmdDraw does.
     pub index_type: vk::IndexType,
-    /// Indices. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a multiple of 4 bytes.
-    /// Ignored with VK_INDEX_TYPE_NONE_KHR.
+    /// Index buffer, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; ignored with VK_INDEX_TYPE_NONE_KHR. With 16-bit
+    /// indices, its size is a multiple of 4 bytes.
     pub indices: vk::Buffer,
-    /// Where they begin, in bytes: a multiple of an index's size.
+    /// Offset of the first index in bytes: a multiple of the size of an index.
     pub indices_offset: u64,
-    /// How many indices there can be.
+    /// Largest number of indices.
     pub index_capacity: u32,
-    /// Most triangles of all draws of a frame.
+    /// Largest total number of triangles of a frame's draws.
     pub triangle_capacity: u32,
-    /// Most draws of a frame.
+    /// Largest number of draws of a frame.
     pub draw_capacity: u32,
-    /// How many shading keys there are, 1 to 16,383.
+    /// Number of shading keys, 1 to 16,383.
     pub keys: u32,
-    /// VK_TRUE if y points up in clip space, as with a viewport of negative height; VK_FALSE if down, as Vulkan has it.
+    /// VK_TRUE if y points up in clip space, as with a viewport of negative height; VK_FALSE if y points down, Vulkan's
+    /// default.
     pub y_up: vk::Bool32,
-    /// VK_TRUE if depth runs from 1 near to 0 far; VK_FALSE if from 0 to 1.
+    /// VK_TRUE if depth is reversed: from 1 at the near plane to 0 at the far plane; VK_FALSE if it runs from 0 to 1.
     pub reversed_depth: vk::Bool32,
-    /// Where there are alpha maps, texture coordinates of the vertices, two floats each. Made with
-    /// VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Otherwise ignored.
+    /// Buffer of the vertices' texture coordinates, two floats each, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    /// ignored without alpha maps.
     pub coordinates: vk::Buffer,
-    /// Where those of the first vertex are, in bytes: a multiple of 4.
+    /// Offset of the first vertex's coordinates in bytes: a multiple of 4.
     pub coordinates_offset: u64,
-    /// Bytes from one vertex to the next: a multiple of 4, at least 8.
+    /// Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
     pub coordinates_stride: u32,
-    /// How many alpha maps there are.
+    /// Number of alpha maps.
     pub alpha_map_count: u32,
-    /// sizeof(GpcAlphaMap), where there are some.
+    /// sizeof(GpcAlphaMap), if there are alpha maps.
     pub alpha_map_stride: u32,
     /// VK_TRUE if draws may be blended.
     pub blended: vk::Bool32,
-    /// What draws are tested by that are not opaque, read during the call alone. The library reads the images, in
-    /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
-    /// be NULL where there are none.
+    /// Alpha maps of draws that are not opaque, read during the call only. The library reads their images when a
+    /// frame's first recording is executed, in the layout VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, and keeps a copy of
+    /// their alpha. May be NULL if there are none.
     pub alpha_maps: *const GpcAlphaMap,
-    /// Further buffers that draws may read, read during the call alone. The members `positions` to `index_capacity` and
-    /// `coordinates` to `coordinates_stride` are mesh 0, the first of these is mesh 1: see GpcDraw.mesh. May be NULL where there are
-    /// none.
+    /// Meshes beyond the first, read during the call only; may be NULL if there are none. The members `positions` to
+    /// `index_capacity` and `coordinates` to `coordinates_stride` are mesh 0, and the first element here is mesh 1: see
+    /// GpcDraw.mesh.
     pub more_meshes: *const GpcMesh,
-    /// How many there are.
+    /// Number of elements of `more_meshes`.
     pub more_mesh_count: u32,
-    /// sizeof(GpcMesh), where there are some.
+    /// sizeof(GpcMesh), if there are further meshes.
     pub more_mesh_stride: u32,
-    /// What the image of depth holds where depth in clip space is 0: minDepth of the application's VkViewport. gpc_init_geometry
-    /// gives 0.
+    /// Value in the depth image for the clip-space depth 0: minDepth of the application's VkViewport. gpc_init_geometry
+    /// sets 0.
     pub min_depth: f32,
-    /// The same where it is 1: maxDepth. gpc_init_geometry gives 1.
+    /// Value in the depth image for the clip-space depth 1: maxDepth of the application's VkViewport. gpc_init_geometry
+    /// sets 1.
     pub max_depth: f32,
 }
 
@@ -198,19 +204,18 @@ unsafe impl Element for GpcGeometry {
         Self {
             keys: 1,
             max_depth: 1.0,
-            // SAFETY: any bytes are a value of it.
+            // SAFETY: the struct may have any bytes.
             ..unsafe { std::mem::zeroed() }
         }
     }
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcGeometry {
     const TYPE: GpcStructType = GpcStructType::Geometry;
 }
 
-/// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): nothing is lent, and there is one
-/// shading key.
+/// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, and with one shading key.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -235,7 +240,7 @@ impl GpcAlphaMap {
 }
 
 impl GpcGeometry {
-    /// Mesh 0.
+    /// Mesh 0, from the members of this struct.
     fn own_mesh(&self) -> Mesh {
         let mesh = GpcMesh {
             positions: self.positions,
@@ -255,7 +260,7 @@ impl GpcGeometry {
     }
 
     /// # Safety
-    /// `alpha_maps` and `more_meshes` show as many as are counted.
+    /// `alpha_maps` and `more_meshes` point to as many elements as their counts say.
     pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
         // SAFETY: passed on to the caller.
         let maps = unsafe {
@@ -306,16 +311,17 @@ impl GpcGeometry {
     }
 }
 
-/// How the corners of a draw make triangles: which of its indices, or of its vertices where there are none, belong to which.
-/// Primitive restart is not known: a draw is one strip or fan.
+/// Primitive topology of a draw: how consecutive corners (indices, or vertices without indices) form triangles.
+/// Primitive restart is not supported: a draw is a single strip or fan.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcTopology {
-    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: each three make one.
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST: every three corners form a triangle.
     List = 0,
-    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each one from the third on makes one with the two before it.
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP: each corner from the third on forms a triangle with the two before it.
     Strip = 1,
-    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each one from the third on makes one with the one before it and the first.
+    /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each corner from the third on forms a triangle with the one before it and
+    /// the first.
     Fan = 2,
 }
 
@@ -323,36 +329,38 @@ pub enum GpcTopology {
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcDraw {
-    /// Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
+    /// First index of the draw. For a mesh without indices: its first vertex, counted from `vertex_offset`.
     pub first_index: u32,
-    /// How many triangles it has.
+    /// Number of triangles.
     pub triangle_count: u32,
-    /// Added to each of its indices.
+    /// Offset that is added to each index.
     pub vertex_offset: i32,
-    /// With GPC_POSITION_SPACE_OBJECT, how many vertices it has, from `vertex_offset` on. Larger indices are taken for the
-    /// last. Otherwise ignored.
+    /// Number of vertices from `vertex_offset` on, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. An index beyond
+    /// the last of these vertices is clamped to the last one.
     pub vertex_count: u32,
-    /// With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
+    /// Matrix from object space to clip space, by columns, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
     pub to_clip: [[f32; 4]; 4],
-    /// 1 + the index of the alpha map that says where it is, 0 where it is everywhere. Draws with alpha maps come after those
-    /// without.
+    /// 1 + the index of the alpha map of the alpha test; 0 for a surface without holes. Draws with alpha maps come
+    /// after those without.
     pub alpha_map: u32,
-    /// The shading key, from 0: which of the application's pipelines shades it.
+    /// Shading key: the number of the application's pipeline that shades the draw, from 0.
     pub key: u32,
-    /// A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
-    /// where detection compares colours.
+    /// Material number of the application's choice, up to 65,535, which its shaders can read. Detection by colours
+    /// assumes that triangles with the same number look alike.
     pub material: u32,
-    /// VK_TRUE if back faces show. A front face is counter-clockwise on the screen.
+    /// VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen.
     pub double_sided: vk::Bool32,
-    /// VK_TRUE if light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
-    /// several parts of a superpixel where the pixels around tell that it does.
+    /// VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
+    /// draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
     pub detailed: vk::Bool32,
-    /// VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
-    /// lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
+    /// VK_TRUE if the draw is translucent. The application's shaders then store an opacity, with which the draw is
+    /// composited over the surfaces behind it. Blended draws have no alpha map and come after all others. They require
+    /// GpcGeometry.blended.
     pub blended: vk::Bool32,
-    /// The buffers that it reads: 0 for those of GpcGeometry itself, n for GpcGeometry.more_meshes[n - 1].
+    /// Mesh whose buffers the draw reads: 0 for the buffers of GpcGeometry itself, n for GpcGeometry.more_meshes[n -
+    /// 1].
     pub mesh: u32,
-    /// How its indices, or its vertices, make triangles: a GpcTopology.
+    /// Topology: how indices, or vertices without indices, form triangles: a GpcTopology.
     pub topology: u32,
 }
 
@@ -363,10 +371,10 @@ unsafe impl Element for GpcDraw {
 }
 
 impl GpcDraw {
-    /// Draws that the member `draws` of a struct shows; `names` are that member and its stride.
+    /// Draws of an array; `names` are the member with the pointer, and the member with the stride.
     ///
     /// # Safety
-    /// The pointer is null, or shows so many draws of so many bytes.
+    /// The pointer is null, or points to as many elements, of `stride` bytes each, as `counts` say.
     pub(super) unsafe fn all(
         draws: *const Self,
         counts: (u32, u32),

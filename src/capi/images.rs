@@ -10,31 +10,32 @@ use std::ffi::c_void;
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImageState {
-    /// Its layout.
+    /// Layout of the image.
     pub layout: vk::ImageLayout,
-    /// Stages that use it.
+    /// Pipeline stages that use the image.
     pub stage: vk::PipelineStageFlags2,
-    /// How they use it.
+    /// Memory accesses of these stages.
     pub access: vk::AccessFlags2,
 }
 
-/// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
+/// Image of the application: single-sampled, with one level and one layer, and at least as large as the size in
+/// GpcOptions.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImage {
-    /// The image.
+    /// Handle of the image.
     pub image: vk::Image,
-    /// A two-dimensional view of it, of one aspect.
+    /// Two-dimensional view of the image, with a single aspect.
     pub view: vk::ImageView,
-    /// The aspects of the image; of a format with stencil, that too, although it is not read.
+    /// All aspects of the image's format, including stencil, which the library does not read.
     pub aspects: vk::ImageAspectFlags,
-    /// Its state when the recording begins.
+    /// State of the image when the recording begins.
     pub before: GpcImageState,
-    /// Its state when the recording is done.
+    /// State of the image when the recording is done.
     pub after: GpcImageState,
 }
 
-/// The kinds of images that a frame is recorded with.
+/// Kinds of images with which a frame is recorded.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImageKinds {
@@ -44,14 +45,15 @@ pub struct GpcImageKinds {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// VK_TRUE if triangle IDs are lent; VK_FALSE if the library draws IDs and depth for itself.
+    /// VK_TRUE if the application lends triangle IDs; VK_FALSE if the library draws IDs and depth itself.
     pub ids: vk::Bool32,
-    /// VK_TRUE if depth is lent, which goes with IDs and is needed there by GpcOptions.thin.
+    /// VK_TRUE if the application lends depth. This requires `ids`; with `ids`, GpcOptions.thin requires depth.
     pub depth: vk::Bool32,
-    /// The format of the views of colours: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
+    /// Format of the views of the colour image: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or
+    /// B10G11R11_UFLOAT.
     pub color_format: vk::Format,
-    /// VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image of colours holds
-    /// linear light, or encodes it itself.
+    /// VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the colour
+    /// image holds linear light, or its format encodes the light.
     pub color_encoded: vk::Bool32,
 }
 
@@ -61,12 +63,13 @@ unsafe impl Element for GpcImageKinds {
     const SIZES: &'static [usize] = sizes!(GpcImageKinds, color_encoded);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcImageKinds {
     const TYPE: GpcStructType = GpcStructType::ImageKinds;
 }
 
-/// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): colours alone are lent. Their format is still to be set.
+/// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): with a colour image only, whose format still
+/// has to be set.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -86,8 +89,8 @@ impl GpcImageKinds {
     }
 }
 
-/// What the application has drawn, one sample a pixel, and where its picture goes: images of the kinds that the frame was created
-/// for.
+/// Images that the application has drawn with one sample a pixel. The result is drawn into `color`. The images are of
+/// the kinds for which the frame was created.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImages {
@@ -97,16 +100,18 @@ pub struct GpcImages {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
-    /// order of the frame's draws, 0 where there is none. Without GpcImageKinds.ids, image and view are VK_NULL_HANDLE.
+    /// Image of triangle IDs, VK_FORMAT_R32_UINT, created with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest
+    /// triangle in the order of the frame's draws, 0 for no triangle. Without GpcImageKinds.ids, image and view are
+    /// VK_NULL_HANDLE.
     pub ids: GpcImage,
-    /// Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
-    /// Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
+    /// Image of the nearest triangle's depth, of any depth format, created with VK_IMAGE_USAGE_SAMPLED_BIT; its view
+    /// has the depth aspect only. Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
     pub depth: GpcImage,
-    /// Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT: superpixels are drawn into it.
+    /// Colour image, created with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, into which
+    /// superpixels are drawn.
     pub color: GpcImage,
-    /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
-    /// library neither reads nor writes what lies around it.
+    /// Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
+    /// reads nor writes pixels outside of it.
     pub corner: [u32; 2],
 }
 
@@ -116,12 +121,12 @@ unsafe impl Element for GpcImages {
     const SIZES: &'static [usize] = sizes!(GpcImages, corner);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcImages {
     const TYPE: GpcStructType = GpcStructType::Images;
 }
 
-/// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages): no image is lent.
+/// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages), without images.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]

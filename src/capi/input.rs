@@ -1,14 +1,14 @@
-//! Reading what C hands over.
+//! Input from C: structs, arrays and objects.
 //!
-//! A struct that was compiled into an application stays as it was there, while the library grows: later versions of the library
-//! add members at the end. So every struct that is handed over says how large it is, arrays say how large their elements are, and
-//! what an application does not know of has the value that its `gpc_init` function gives it.
+//! Structs may differ in size: an application keeps the struct of the header with which it was compiled, and later
+//! versions of the library add members at the end. So every struct begins with its size, and every array has a stride.
+//! Members that the application's header lacks have the values that the `gpc_init` function sets.
 
 use super::error::{Error, GpcResult, answer};
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 
-/// What a struct is: the value of its member `type`, which its gpc_init function sets.
+/// Type of a struct: the value of its member `type`, which its gpc_init function sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum GpcStructType {
@@ -38,33 +38,34 @@ pub enum GpcStructType {
     ImageKinds = 12,
 }
 
-/// What C hands over by its size.
+/// Struct of the C API with several possible sizes, alone or as the element of an array.
 ///
 /// # Safety
-/// It is `repr(C)`, and any bytes are a value of it.
+/// The type is `repr(C)`, and any bytes are a value of it.
 pub(super) unsafe trait Element: Copy {
-    /// Its name in C.
+    /// Name of the struct in C.
     const NAME: &'static str;
-    /// Its sizes in bytes in all versions of the header, the present one last: made by [`sizes`] of the last member of each.
+    /// Sizes of the struct in bytes in all versions of the header, the present one last. [`sizes`] computes them from
+    /// the last member of each version.
     const SIZES: &'static [usize];
 
-    /// What members hold that an application does not set.
+    /// Values of members that an application does not set.
     fn defaults() -> Self {
-        // SAFETY: any bytes are a value of it.
+        // SAFETY: any bytes are a value of the struct.
         unsafe { MaybeUninit::zeroed().assume_init() }
     }
 }
 
-/// A struct that C hands over alone.
+/// Struct of the C API that is passed by pointer, with a size and a type.
 ///
 /// # Safety
-/// It begins with the members of [`Head`].
+/// The struct begins with the members of [`Head`].
 pub(super) unsafe trait Struct: Element {
-    /// The value of its member `type`.
+    /// Value of the member `type`.
     const TYPE: GpcStructType;
 }
 
-/// What every [`Struct`] begins with.
+/// First members of every [`Struct`].
 #[derive(Clone, Copy)]
 #[repr(C)]
 struct Head {
@@ -73,7 +74,7 @@ struct Head {
     next: *const c_void,
 }
 
-/// The bytes of a struct up to the end of each member named.
+/// Number of bytes of a struct up to the end of each of the named members.
 macro_rules! sizes {
     ($name:ident, $($last:ident),+) => {
         &[$(std::mem::offset_of!($name, $last) + $crate::capi::input::bytes_of(|of: &$name| &of.$last)),+]
@@ -81,12 +82,12 @@ macro_rules! sizes {
 }
 pub(super) use sizes;
 
-/// The bytes of a member.
+/// Number of bytes of a member.
 pub(super) const fn bytes_of<T, M>(_: fn(&T) -> &M) -> usize {
     size_of::<M>()
 }
 
-/// Refuses a size that the struct has in no version of the header.
+/// Checks that a size is the struct's in some version of the header.
 fn check_size<T: Element>(found: usize, of: impl Fn(&str) -> String) -> Result<(), Error> {
     const {
         assert!(
@@ -105,10 +106,10 @@ fn check_size<T: Element>(found: usize, of: impl Fn(&str) -> String) -> Result<(
     })
 }
 
-/// The struct that a pointer shows.
+/// Reads the struct at a pointer.
 ///
 /// # Safety
-/// The pointer is null, or shows a `T` of the size that its first member says.
+/// The pointer is null, or points to a `T` of the size that its first member says.
 pub(super) unsafe fn read<T: Struct>(pointer: *const T) -> Result<T, Error> {
     // SAFETY: passed on to the caller; the size is one that the struct has in a version of the header.
     unsafe {
@@ -117,10 +118,10 @@ pub(super) unsafe fn read<T: Struct>(pointer: *const T) -> Result<T, Error> {
     }
 }
 
-/// The first bytes that a pointer shows, and defaults after them.
+/// Copies the first `bytes` bytes at a pointer, followed by defaults.
 ///
 /// # Safety
-/// The pointer shows so many bytes, and a `T` has as many or more.
+/// `bytes` bytes at the pointer can be read, and a `T` has at least as many.
 unsafe fn copied<T: Element>(pointer: *const T, bytes: usize) -> T {
     let mut value = T::defaults();
     // SAFETY: passed on to the caller; any bytes are a value.
@@ -130,7 +131,7 @@ unsafe fn copied<T: Element>(pointer: *const T, bytes: usize) -> T {
     value
 }
 
-/// Refuses a struct that is no `T` of a known size, or is extended by one that is not known.
+/// Checks that a struct is a `T` of a known size, without unknown extensions.
 ///
 /// # Safety
 /// As [`read`].
@@ -151,7 +152,7 @@ unsafe fn check<T: Struct>(pointer: *const T) -> Result<Head, Error> {
         });
     }
     if !head.next.is_null() {
-        // SAFETY: what is chained begins with a size and a type.
+        // SAFETY: a chained struct begins with a size and a type.
         let found = unsafe { head.next.cast::<[u32; 2]>().read() }[1];
         return Err(Error::Next {
             name: T::NAME,
@@ -161,10 +162,10 @@ unsafe fn check<T: Struct>(pointer: *const T) -> Result<Head, Error> {
     Ok(head)
 }
 
-/// Fills a struct of an application's with its size, its type and defaults.
+/// Fills a struct of the application with its size, its type and defaults.
 ///
 /// # Safety
-/// The pointer is null, or shows `size` bytes that nobody else uses meanwhile.
+/// The pointer is null, or points to `size` bytes that nobody else uses during the call.
 pub(super) unsafe fn init<T: Struct>(pointer: *mut T, size: usize) -> GpcResult {
     answer(|| {
         if pointer.is_null() {
@@ -177,10 +178,10 @@ pub(super) unsafe fn init<T: Struct>(pointer: *mut T, size: usize) -> GpcResult 
     })
 }
 
-/// Answers in a struct of an application's, as far as it is known there.
+/// Writes a result to a struct of the application, as far as its version of the struct has the members.
 ///
 /// # Safety
-/// As [`read`]; nobody else uses the struct meanwhile.
+/// As for [`read`]; nobody else uses the struct during the call.
 pub(super) unsafe fn write<T: Struct>(
     pointer: *mut T,
     make: impl FnOnce() -> Result<T, Error>,
@@ -194,32 +195,32 @@ pub(super) unsafe fn write<T: Struct>(
 }
 
 /// # Safety
-/// The pointer shows `size` bytes, which is at most those of a `T`.
+/// The pointer points to `size` bytes, at most the size of a `T`.
 unsafe fn put<T: Struct>(pointer: *mut T, mut value: T, size: usize, next: *const c_void) {
     let head = Head {
         size: size as u32,
         kind: T::TYPE as u32,
         next,
     };
-    // SAFETY: passed on to the caller; a `T` begins with a head.
+    // SAFETY: guaranteed by the caller; a `T` begins with a head.
     unsafe {
         (&raw mut value).cast::<Head>().write(head);
         std::ptr::copy_nonoverlapping((&raw const value).cast::<u8>(), pointer.cast(), size);
     }
 }
 
-/// A struct for an application to read.
+/// Completes a struct that an application reads: sets its size and type.
 pub(super) fn shown<T: Struct>(mut value: T) -> T {
     // SAFETY: the struct is as large as it says.
     unsafe { put(&raw mut value, value, size_of::<T>(), std::ptr::null()) };
     value
 }
 
-/// The elements that a pointer shows, `stride` bytes each; none where their number is 0. `array` is the argument or member that
-/// the pointer is, its number and its stride have the endings `_count` and `_stride` of it.
+/// Elements of an array at a pointer, `stride` bytes each; none if their number is 0. `array` is the name of the
+/// argument or member that holds the pointer; the names of number and stride end in `_count` and `_stride`.
 ///
 /// # Safety
-/// The pointer is null, or shows so many elements of so many bytes.
+/// The pointer is null, or points to as many elements of `stride` bytes as the number says.
 pub(super) unsafe fn elements<T: Element>(
     pointer: *const T,
     (count, stride): (u32, u32),
@@ -238,28 +239,28 @@ pub(super) unsafe fn elements<T: Element>(
     Ok((0..count as usize).map(element).collect())
 }
 
-/// The object that a pointer shows.
+/// Object at a pointer.
 ///
 /// # Safety
-/// The pointer is null, or shows a live `T` that nobody changes for as long as the reference is used.
+/// The pointer is null, or points to a live `T` that nobody changes as long as the reference is used.
 pub(super) unsafe fn object<'a, T>(pointer: *const T, name: &'static str) -> Result<&'a T, Error> {
     // SAFETY: passed on to the caller.
     unsafe { pointer.as_ref() }.ok_or(Error::Null(name))
 }
 
-/// Where an answer goes.
+/// Place at a pointer, to which a result is written.
 ///
 /// # Safety
-/// The pointer is null, or shows a `T` that nobody else uses for as long as the reference is used.
+/// The pointer is null, or points to a `T` that nobody else uses as long as the reference is used.
 pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result<&'a mut T, Error> {
     // SAFETY: passed on to the caller.
     unsafe { pointer.as_mut() }.ok_or(Error::Null(name))
 }
 
-/// Hands over an object that is made, the argument `name`; NULL where it can't be.
+/// Makes an object and stores it in the argument `name`; stores NULL if making it fails.
 ///
 /// # Safety
-/// The pointer is null, or shows a place that nobody else uses meanwhile.
+/// The pointer is null, or points to memory that nobody else uses during the call.
 pub(super) unsafe fn hand_over<T>(
     to: *mut *mut T,
     name: &'static str,
@@ -274,7 +275,7 @@ pub(super) unsafe fn hand_over<T>(
     })
 }
 
-/// Destroys an object that was handed over, if there is one.
+/// Destroys an object that [`hand_over`] stored, if there is one.
 ///
 /// # Safety
 /// The pointer is null or came from [`hand_over`], and is not used again.
@@ -288,7 +289,7 @@ pub(super) unsafe fn take_back<T>(object: *mut T) {
     });
 }
 
-/// A number of C's for one of a few values, which have names in C.
+/// Value of an enumeration for its number in C.
 pub(super) fn choice<T: Clone>(
     name: &'static str,
     found: u32,
@@ -307,7 +308,7 @@ pub(super) fn choice<T: Clone>(
     })
 }
 
-/// VK_TRUE or VK_FALSE.
+/// Value of a VkBool32.
 pub(super) fn flag(name: &'static str, found: u32) -> Result<bool, Error> {
     choice(name, found, &[(0, "VK_FALSE", false), (1, "VK_TRUE", true)])
 }

@@ -12,27 +12,28 @@ use crate::host::{List, Location, LocationList};
 use ash::vk;
 use std::ffi::c_void;
 
-/// Pipelines and memory to sample the locations of a list, of one frame in flight.
+/// Pipelines and memory to sample the locations of a list, for one frame in flight.
 pub struct GpcList {
     inner: List,
 }
 
-/// A place on the image plane, as it lies in the buffer of a GpcLocationList: 32 bytes.
+/// Sample location on the image plane: 32 bytes, an element of a GpcLocationList's buffer.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcLocation {
-    /// The pixel that it lies in: column and row from the upper left corner of the image that GpcOptions names.
+    /// Column and row of the pixel that contains the location, from the upper left corner of the image of the size in
+    /// GpcOptions.
     pub pixel: [i32; 2],
-    /// Where it lies in the pixel, x and y down, from 0 to 1.
+    /// Position in that pixel: x to the right and y down, from 0 to 1.
     pub within: [f32; 2],
-    /// How far apart it lies from its neighbours, in pixels: the change of x and y to the next column, and to the next row, of
-    /// what the application makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    /// Jacobian of the location's mapping, in pixels: the changes of x and y to the next column, and those to the next
+    /// row, of the application's output. Sub-samples and texture filters cover this parallelogram.
     pub jacobian: [[f32; 2]; 2],
 }
 
 const _: () = assert!(size_of::<GpcLocation>() == size_of::<Location>());
 
-/// Where a list of locations lies, and where what they see goes.
+/// Buffers of the application for a list: sample locations, and the resulting colours.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcLocationList {
@@ -42,17 +43,18 @@ pub struct GpcLocationList {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// Most locations of a recording.
+    /// Largest number of locations of a recording.
     pub capacity: u32,
-    /// GpcLocations, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. They may change
-    /// with every recording.
+    /// Buffer of GpcLocations, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and
+    /// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. Its contents may change with every recording.
     pub locations: vk::Buffer,
-    /// Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    /// Offset of the first location in bytes: a multiple of 256, or of the device's offset alignment for buffer
+    /// descriptors.
     pub offset: u64,
-    /// What they see, made with VK_BUFFER_USAGE_TRANSFER_DST_BIT: four floats a location, in their order: linear light and
-    /// opacity, by which the light is multiplied.
+    /// Buffer for the colours of the locations, created with VK_BUFFER_USAGE_TRANSFER_DST_BIT. Each location, in the
+    /// order of the list, gets four floats: linear light, premultiplied by opacity, and opacity.
     pub colors: vk::Buffer,
-    /// Where that of the first location goes, in bytes: a multiple of 4.
+    /// Offset of the first location's colour in bytes: a multiple of 4.
     pub colors_offset: u64,
 }
 
@@ -62,13 +64,12 @@ unsafe impl Element for GpcLocationList {
     const SIZES: &'static [usize] = sizes!(GpcLocationList, colors_offset);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcLocationList {
     const TYPE: GpcStructType = GpcStructType::LocationList;
 }
 
-/// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList): nothing is
-/// lent.
+/// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList), without buffers.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -80,7 +81,7 @@ pub unsafe extern "C" fn gpc_init_location_list(
     unsafe { init(list, size) }
 }
 
-/// What a recording of a list samples, and where.
+/// Locations and draws of a recording of a list.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcListScenery {
@@ -90,13 +91,13 @@ pub struct GpcListScenery {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// How many locations are sampled: the first ones of the buffer.
+    /// Number of locations to sample, from the first one of the buffer on.
     pub location_count: u32,
-    /// How many draws there are.
+    /// Number of draws.
     pub draw_count: u32,
-    /// The draws that locations see, read during the call alone. May be NULL where there are none.
+    /// Draws, read during the call only. May be NULL if there are none.
     pub draws: *const GpcDraw,
-    /// sizeof(GpcDraw), where there are some.
+    /// sizeof(GpcDraw), if there are draws.
     pub draw_stride: u32,
     /// 0.
     pub reserved: u32,
@@ -108,13 +109,12 @@ unsafe impl Element for GpcListScenery {
     const SIZES: &'static [usize] = sizes!(GpcListScenery, reserved);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcListScenery {
     const TYPE: GpcStructType = GpcStructType::ListScenery;
 }
 
-/// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery): no locations are
-/// sampled.
+/// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery), without locations and draws.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -138,7 +138,7 @@ impl GpcLocationList {
     }
 }
 
-/// What a recording of a list did.
+/// Result of a recording of a list.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcListOutcome {
@@ -148,15 +148,16 @@ pub struct GpcListOutcome {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// Locations off the image, or that are no numbers. They show the background.
+    /// Number of locations that lie outside of the image or are not finite; these show the background.
     pub left_out: u32,
-    /// Cells and tiles that found no room, and show the background. gpc_list_grow makes a list with more.
+    /// Number of cells and tiles for which memory did not suffice; these show the background. gpc_list_grow makes a
+    /// list with more memory.
     pub left_over: u64,
-    /// Visibility samples that were shaded.
+    /// Number of visibility samples that were shaded.
     pub visibility_samples: u64,
-    /// Bytes of device memory that the list takes, beside what the application lends.
+    /// Number of bytes of device memory that the list uses, without the application's buffers.
     pub memory_bytes: u64,
-    /// Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    /// Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     pub gpu_milliseconds: f64,
 }
 
@@ -166,7 +167,7 @@ unsafe impl Element for GpcListOutcome {
     const SIZES: &'static [usize] = sizes!(GpcListOutcome, gpu_milliseconds);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcListOutcome {
     const TYPE: GpcStructType = GpcStructType::ListOutcome;
 }
@@ -183,12 +184,12 @@ pub unsafe extern "C" fn gpc_init_list_outcome(
     unsafe { init(outcome, size) }
 }
 
-/// Makes the pipelines and memory to sample a list of locations. With one sample each location is sampled where it is, with
-/// more as a superpixel around it. Of the options, detection, contrast, thin and shade_all do not matter; width and height are
-/// those of the image whose pixels locations count in.
+/// Makes the pipelines and memory to sample a list of locations. With one sample, each location is sampled at its own
+/// position; with more, as a superpixel around it. The options `detection`, `contrast`, `thin` and `shade_all` are
+/// ignored; `width` and `height` are the size of the image in whose pixels locations are given.
 ///
 /// Threads: any; several lists may be created at once.
-/// Lifetime: the buffers and views lent outlive the list. The structs are read during the call alone.
+/// Lifetime: the lent buffers and views outlive the list. The structs are read during the call only.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 /// GPC_RESULT_VULKAN. `*list` is then NULL.
 #[unsafe(no_mangle)]
@@ -216,10 +217,11 @@ pub unsafe extern "C" fn gpc_list_create(
     unsafe { hand_over(list, "list", make) }
 }
 
-/// Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
-/// new one has as much. The old one is still to be destroyed.
+/// Makes a list like `list`, for the same buffers, with more of the memory that the last recording lacked. If it lacked
+/// none, the new list has as much memory as the old one. The old list still has to be destroyed.
 ///
-/// Threads: no other call uses the list at the time. Lifetime: the buffers and views lent outlive the new list too.
+/// Threads: no other call uses the list at the same time. Lifetime: the lent buffers and views outlive the new list
+/// too.
 /// Errors: as gpc_list_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_grow(
@@ -235,14 +237,17 @@ pub unsafe extern "C" fn gpc_list_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Records the sampling of locations. It submits nothing, waits for nothing, allocates nothing on the device
-/// and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family lent; what was
-/// bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
-/// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
+/// Records the sampling of locations. The call neither submits nor waits, allocates no device memory, and updates no
+/// descriptor.
 ///
-/// Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
-/// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and what `shade` records outlive the
-/// execution of the commands.
+/// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
+/// The application must bind and push its state again afterwards; the results are visible to all later commands. `user`
+/// is passed to `shade`, whose shaders write no memory of the library except by gpc_store.
+///
+/// Threads: no other call uses the list or the command buffer at the same time. Different lists may be recorded at the
+/// same time.
+/// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and
+/// the objects that `shade` records outlive the execution of the commands.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_record(
@@ -277,10 +282,10 @@ pub unsafe extern "C" fn gpc_list_record(
     })
 }
 
-/// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
-/// submitted or still run, it answers GPC_RESULT_NOT_READY.
+/// Result of the last recording, available once its commands are done, until the next recording begins. The call does
+/// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
 ///
-/// Threads: no gpc_list_record of the list runs at the time.
+/// Threads: no gpc_list_record of the list runs at the same time.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_outcome(
@@ -307,7 +312,7 @@ pub unsafe extern "C" fn gpc_list_outcome(
     })
 }
 
-/// Bytes of device memory that a list takes, beside what the application lends; 0 for NULL.
+/// Number of bytes of device memory that a list uses, without the application's buffers; 0 for NULL.
 ///
 /// Threads: any.
 #[unsafe(no_mangle)]
@@ -316,9 +321,9 @@ pub unsafe extern "C" fn gpc_list_memory_bytes(list: *const GpcList) -> u64 {
     unsafe { list.as_ref() }.map_or(0, |list| list.inner.memory_bytes())
 }
 
-/// Destroys a list, whose commands are done. NULL does nothing.
+/// Destroys a list, whose commands are done. NULL is ignored.
 ///
-/// Threads: no other call uses the list at the time.
+/// Threads: no other call uses the list at the same time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_destroy(list: *mut GpcList) {
     // SAFETY: passed on to the caller.

@@ -6,16 +6,16 @@ use ash::vk;
 use std::ffi::{CString, c_char, c_void};
 use std::ptr::NonNull;
 
-/// Where memory lies.
+/// Kind of memory.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcMemoryUse {
-    /// On the device.
+    /// Device memory.
     Device = 0,
-    /// Written by the CPU, read by the device: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
+    /// Memory that the CPU writes and the device reads: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
     Upload = 1,
-    /// Written by the device, read by the CPU: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, at best
-    /// VK_MEMORY_PROPERTY_HOST_CACHED_BIT too.
+    /// Memory that the device writes and the CPU reads: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, and
+    /// preferably VK_MEMORY_PROPERTY_HOST_CACHED_BIT.
     Readback = 2,
 }
 
@@ -29,13 +29,14 @@ pub struct GpcMemoryRequest {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// What it is for, for a log: UTF-8, alive until the function returns.
+    /// Purpose of the memory, for logs: UTF-8, alive until the function returns.
     pub name: *const c_char,
-    /// Its size, alignment and possible types.
+    /// Size, alignment and permitted memory types.
     pub requirements: vk::MemoryRequirements,
-    /// Where it lies: a GpcMemoryUse.
+    /// Kind of memory: a GpcMemoryUse.
     pub usage: u32,
-    /// VK_TRUE for a buffer, VK_FALSE for an image of optimal tiling: see VkPhysicalDeviceLimits.bufferImageGranularity.
+    /// VK_TRUE for a buffer, VK_FALSE for an image with optimal tiling: see
+    /// VkPhysicalDeviceLimits.bufferImageGranularity.
     pub linear: vk::Bool32,
 }
 
@@ -45,7 +46,7 @@ unsafe impl Element for GpcMemoryRequest {
     const SIZES: &'static [usize] = sizes!(GpcMemoryRequest, linear);
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcMemoryRequest {
     const TYPE: GpcStructType = GpcStructType::MemoryRequest;
 }
@@ -54,20 +55,22 @@ unsafe impl Struct for GpcMemoryRequest {
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcMemory {
-    /// The memory.
+    /// Handle of the memory object.
     pub memory: vk::DeviceMemory,
-    /// Where in it, in bytes: a multiple of the alignment that was asked for.
+    /// Offset in the memory object in bytes: a multiple of the requested alignment.
     pub offset: u64,
-    /// The address at which that offset is mapped; NULL for memory of the device that is not mapped, or not coherent.
+    /// Address at which the offset is mapped; NULL for device memory that is not mapped, or not coherent.
     pub mapped: *mut c_void,
-    /// The application's own.
+    /// Any pointer of the application; the library does not use it.
     pub user: *mut c_void,
 }
 
-/// Allocates memory of the device that was lent: as large and aligned as asked for, of one of the types asked for, used by nobody
-/// else until it is freed. VK_FALSE where memory ran out. It must not throw or jump out, and must not use the library.
+/// Function of the application that allocates memory of the lent device. The memory has the requested size and
+/// alignment and one of the requested types, and nobody else uses it until it is freed. VK_FALSE if memory ran out. The
+/// function must not throw or jump out, and must not use the library.
 ///
-/// Threads: it is called by those that create antialiasers, frames and lists, several at once if the application has several do so.
+/// Threads: those that create antialiasers, frames and lists; several at the same time if the application creates
+/// several at the same time.
 pub type GpcAllocate = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -76,12 +79,13 @@ pub type GpcAllocate = Option<
     ) -> vk::Bool32,
 >;
 
-/// Frees memory that a GpcAllocate gave. No command uses it any more. It must not throw or jump out, and must not use the library.
+/// Function of the application that frees memory from GpcAllocate. No command uses the memory any more. The function
+/// must not throw or jump out, and must not use the library.
 ///
-/// Threads: as GpcAllocate, and those that destroy.
+/// Threads: as GpcAllocate, and those that destroy objects.
 pub type GpcFree = Option<unsafe extern "C" fn(user: *mut c_void, memory: *const GpcMemory)>;
 
-/// An application's functions.
+/// Allocation functions of an application.
 pub(super) struct Functions {
     pub allocate:
         unsafe extern "C" fn(*mut c_void, *const GpcMemoryRequest, *mut GpcMemory) -> vk::Bool32,
@@ -94,7 +98,7 @@ unsafe impl Send for Functions {}
 // SAFETY: as above.
 unsafe impl Sync for Functions {}
 
-// SAFETY: the header asks the application for what the trait does.
+// SAFETY: the header requires of the application's functions what the trait requires.
 unsafe impl AllocateMemory for Functions {
     fn allocate(&self, request: &MemoryRequest<'_>) -> Option<HostMemory> {
         let name = CString::new(request.name).unwrap_or_default();

@@ -1,10 +1,10 @@
-//! The C API: [`crate::host`] for applications in C, C++ and whatever calls C.
+//! The C API: [`crate::host`] for applications in C, C++ and other languages that can call C.
 //!
-//! `include/gpc.h` is made of these files by cbindgen, documentation included, so that what is written here is written for
-//! readers of the header. The test `capi` holds the two together.
+//! cbindgen makes `include/gpc.h` from these files, with their documentation, so comments here address readers of the
+//! header. The test `capi` checks that the header matches.
 //!
-//! The functions are unsafe for what can't be checked of pointers and handles: their contract is their documentation and the
-//! header's introduction, in `cbindgen.toml`. Panics end at the boundary, as `GPC_RESULT_PANIC`.
+//! The functions are unsafe because pointers and handles can't be checked completely: their contract is their
+//! documentation and the header's introduction, in `cbindgen.toml`. Panics end at the boundary, as `GPC_RESULT_PANIC`.
 
 mod device;
 mod error;

@@ -1,11 +1,11 @@
-//! C's names in messages of the engine.
+//! Names in C for members that the engine's error messages mention.
 
 use super::error::Error;
 use super::options::GROWTHS;
 use crate::host::{EngineError, HostError};
 use crate::vulkan::VulkanError;
 
-/// Message of the error, with C's names for what C wrote.
+/// Message of an error, with the names that the members have in C.
 pub(super) fn in_c(error: &HostError) -> String {
     match error {
         HostError::Engine(EngineError::Vulkan(VulkanError::NoFunction(name))) => {
@@ -176,13 +176,13 @@ pub(super) fn in_c(error: &HostError) -> String {
     }
 }
 
-/// The member of C's that the engine calls `what`.
+/// Name in C of the member that the engine calls `what`.
 fn c_name(what: &str) -> &str {
     let known = NAMES.iter().find(|(name, _)| *name == what);
     known.map_or(what, |(_, member)| member)
 }
 
-/// The member that bounds the number of what a recording has.
+/// Name of the member that limits the number of `what` in a recording.
 fn capacity_name(what: &str) -> &'static str {
     match what {
         "draws" => "GpcGeometry.draw_capacity",
@@ -192,13 +192,13 @@ fn capacity_name(what: &str) -> &'static str {
     }
 }
 
-/// The image that the engine calls `what`, without its member `image`.
+/// Name in C of the image that the engine calls `what`, without its member `image`.
 fn image_name(what: &str) -> &str {
     let name = c_name(what);
     name.strip_suffix(".image").unwrap_or(name)
 }
 
-/// What the engine's errors call members, and C's names of these.
+/// Names of members in the engine's errors, each with its name in C.
 const NAMES: [(&str, &str); 32] = [
     ("the buffer of positions", "GpcGeometry.positions"),
     ("the buffer of indices", "GpcGeometry.indices"),

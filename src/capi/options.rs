@@ -1,4 +1,4 @@
-//! How frames are antialiased.
+//! Options of antialiasing.
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
@@ -8,63 +8,64 @@ use crate::sampling::Pattern;
 use ash::vk;
 use std::ffi::c_void;
 
-/// Where in a superpixel the samples lie.
+/// Pattern of the sample locations in a superpixel.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcPattern {
-    /// The first points of a scrambled Sobol sequence: any count.
+    /// First points of a scrambled Sobol sequence. Any number of samples.
     Sobol = 0,
-    /// A turned lattice; of counts that are no square, as GPC_PATTERN_KOROBOV.
+    /// Rotated square lattice. Any number of samples; for a number that is no square, the same as GPC_PATTERN_KOROBOV.
     Lattice = 1,
-    /// The best lattice of rank 1: any count.
+    /// Best rank-1 lattice. Any number of samples.
     Korobov = 2,
-    /// The centres of a square grid: square counts only.
+    /// Centres of a square grid. Square numbers of samples only.
     Grid = 3,
-    /// The standard locations of Vulkan: 1, 2, 4, 8 or 16 samples.
+    /// Standard sample locations of Vulkan: 1, 2, 4, 8 or 16 samples.
     Rotated = 4,
-    /// GpcOptions.locations.
+    /// Offsets of the application, in GpcOptions.locations.
     List = 5,
-    /// 512 or 1,024 samples on straight lines; the count decides in how many places a superpixel is shaded. Below 16 samples, and
-    /// where each sample is shaded, as GPC_PATTERN_SOBOL. Any count.
+    /// 512 or 1,024 samples on straight lines. Any number of samples; the number determines in how many places a
+    /// superpixel is shaded. Below 16 samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
     Lines = 6,
 }
 
-/// How often the inside of a superpixel is shaded.
+/// Rate of shading within a superpixel.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcShading {
-    /// Once a visible triangle.
+    /// One shading for each visible triangle.
     Triangle = 0,
-    /// Once a visible triangle, but in several parts of the pixel where the colours around it vary.
+    /// One shading for each visible triangle; several, in different parts of the pixel, where the surrounding colours
+    /// vary.
     Part = 1,
-    /// Once a sample.
+    /// One shading for each sample.
     Sample = 2,
 }
 
-/// What makes a pixel a superpixel.
+/// Rule by which a pixel becomes a superpixel.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 pub enum GpcDetection {
-    /// A contrasting colour beside it.
+    /// A neighbour with a contrasting colour.
     Contrast = 0,
-    /// Another triangle in a contrasting colour beside it.
+    /// A neighbour with another triangle and a contrasting colour.
     Edges = 1,
-    /// Another triangle beside it.
+    /// A neighbour with another triangle.
     Exact = 2,
-    /// Nothing: every pixel is one. To measure with.
+    /// No condition: every pixel is a superpixel. For measurements.
     Every = 3,
 }
 
-/// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
+/// Value of GpcOptions.contrast for the default threshold: 6, or 1 from 128 samples on.
 pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
 
-/// The value of GpcOptions.growths for the number that suits the samples: 1, and 2 from 128 samples on.
+/// Value of GpcOptions.growths for the default number: 1, or 2 from 128 samples on.
 pub const GPC_GROWTHS_OF_SAMPLES: u32 = u32::MAX;
 
-/// What GpcOptions.growths can be.
+/// Possible values of GpcOptions.growths, in words.
 pub(super) const GROWTHS: &str = "0 to 8, or GPC_GROWTHS_OF_SAMPLES";
 
-/// How a frame is antialiased; gpc_init_options gives defaults.
+/// Options of antialiasing a frame; gpc_init_options sets defaults.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcOptions {
@@ -74,54 +75,59 @@ pub struct GpcOptions {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
-    /// Width in pixels of the images lent.
+    /// Width of the frame in pixels: of the part of the lent images that is antialiased.
     pub width: u32,
-    /// Their height.
+    /// Height of the frame in pixels: of the part of the lent images that is antialiased.
     pub height: u32,
-    /// Samples of a superpixel, 1 to 1,024.
+    /// Number of samples of a superpixel, 1 to 1,024.
     pub samples: u32,
-    /// Where they lie: a GpcPattern.
+    /// Pattern of the sample locations: a GpcPattern.
     pub pattern: u32,
-    /// How often a superpixel is shaded: a GpcShading.
+    /// Rate of shading within a superpixel: a GpcShading.
     pub shading: u32,
-    /// What makes a superpixel: a GpcDetection.
+    /// Rule by which a pixel becomes a superpixel: a GpcDetection.
     pub detection: u32,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255, or GPC_CONTRAST_OF_SAMPLES.
+    /// Contrast threshold in 8-bit sRGB code values, 0 to 255, or GPC_CONTRAST_OF_SAMPLES: two colours contrast if any
+    /// channel differs by more.
     pub contrast: u32,
-    /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
-    /// too.
+    /// VK_TRUE if a triangle that is too thin to cover a pixel's centre makes the pixel a superpixel. If IDs are lent,
+    /// depth is needed too.
     pub thin: vk::Bool32,
-    /// VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
+    /// VK_TRUE if the image holds radiance that is tone-mapped later; detection then compares tone-mapped colours.
     pub high_dynamic_range: vk::Bool32,
-    /// VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
+    /// VK_TRUE if textures are filtered over the area that each sample represents; VK_FALSE if over the whole pixel.
     pub sharp: vk::Bool32,
-    /// VK_TRUE if the application's shading makes the colours of all pixels, so that the colour image may hold anything before;
-    /// VK_FALSE if of superpixels alone, which are drawn over what it holds.
+    /// VK_TRUE if the application's shading computes the colours of all pixels, so that the colour image may have any
+    /// contents before; VK_FALSE if only superpixels are shaded, and drawn over the image's contents.
     pub shade_all: vk::Bool32,
-    /// VK_TRUE if `background` shows where neither a triangle nor, unless `flat_background` says otherwise, something that the
-    /// application has drawn is; VK_FALSE if that is transparent.
+    /// VK_TRUE if the background has the colour `background`; VK_FALSE if it is transparent. The background is visible
+    /// where there is no triangle and, unless `flat_background` is set, where the application has drawn nothing either.
     pub has_background: vk::Bool32,
-    /// Linear light.
+    /// Background as linear light.
     pub background: [f32; 3],
-    /// VK_TRUE if `background`, or nothing, shows wherever no triangle is. With VK_FALSE, where the application lends its colours,
-    /// a sample of a superpixel that sees no triangle shows what the application has drawn, with its alpha: the colour of the pixel
-    /// if its centre saw no triangle, else of the nearest one of the 8 pixels around it, then of the 24, whose centre saw none, else
-    /// the background. It has to be VK_TRUE with GpcGeometry.blended, and does not matter with `shade_all`.
+    /// VK_TRUE if the background is visible wherever there is no triangle.
+    ///
+    /// With VK_FALSE, if the application lends its colours, a sample of a superpixel that meets no triangle takes the
+    /// colour and alpha that the application has drawn: of the pixel if its centre shows no triangle, else of the
+    /// nearest such pixel among the 8 around it, then among the 24 around it, else the background.
+    ///
+    /// GpcGeometry.blended requires VK_TRUE. With `shade_all`, the flag is ignored.
     pub flat_background: vk::Bool32,
-    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
-    /// rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need or, on GPUs
-    /// with plenty of memory, usually needs; those that it does not need take next to no time on devices with
-    /// GpcDevice.conditional_rendering, and little on others.
+    /// Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
+    /// Superpixels that these rounds leave keep their drawn colours and are counted as left over.
+    ///
+    /// 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
+    /// without work take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
     pub max_rounds: u32,
-    /// How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
+    /// Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     pub location_count: u32,
-    /// With GPC_PATTERN_LIST, offsets of the samples from the pixel's centre in pixels, x to the right and y down, each from
-    /// -0.5 up to 0.5, read during the call alone. Otherwise ignored.
+    /// Offsets of the samples from the pixel's centre in pixels, with GPC_PATTERN_LIST; otherwise ignored. x points to
+    /// the right and y down, each at least -0.5 and below 0.5. Read during the call only.
     pub locations: *const [f32; 2],
-    /// Bound on the device memory of a frame in bytes, 0 for none.
+    /// Largest number of bytes of device memory for a frame; 0 for no limit.
     pub max_memory: u64,
-    /// How often pixels become superpixels because they contrast with a superpixel beside them, with GPC_DETECTION_CONTRAST: 0 to 8, or
-    /// GPC_GROWTHS_OF_SAMPLES.
+    /// Number of growths, with GPC_DETECTION_CONTRAST: 0 to 8, or GPC_GROWTHS_OF_SAMPLES. In each growth, pixels that
+    /// contrast with a neighbouring superpixel become superpixels too.
     pub growths: u32,
     /// 0.
     pub reserved: u32,
@@ -145,19 +151,19 @@ unsafe impl Element for GpcOptions {
             high_dynamic_range: u32::from(defaults.high_dynamic_range),
             sharp: u32::from(defaults.sharp),
             shade_all: u32::from(defaults.shade_all),
-            // SAFETY: any bytes are a value of it.
+            // SAFETY: the struct may have any bytes.
             ..unsafe { std::mem::zeroed() }
         }
     }
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for GpcOptions {
     const TYPE: GpcStructType = GpcStructType::Options;
 }
 
-/// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, contrast and thin
-/// triangles detected, shading in parts. Width and height are still to be set.
+/// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, detection of contrast
+/// and thin triangles, shading in parts. `width` and `height` still have to be set.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -168,7 +174,7 @@ pub unsafe extern "C" fn gpc_init_options(options: *mut GpcOptions, size: usize)
 
 impl GpcOptions {
     /// # Safety
-    /// With `GpcPattern::List`, `locations` shows as many as are counted.
+    /// With `GpcPattern::List`, `locations` points to as many pairs as `location_count` says.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {
         let shadings = [
             (

@@ -1,13 +1,14 @@
-//! Shaders of the application's.
+//! Check of the application's shaders.
 
 use super::error::{Error, GpcResult, answer};
 use crate::host::check_shader;
 
-/// Checks that a shader was compiled with a gpc_visibility.glsl that this library takes. Check each shader that shades samples,
-/// where its pipeline is made. Arguments are those of VkShaderModuleCreateInfo: `code_size` is in bytes.
+/// Checks that a shader was compiled with a supported version of gpc_visibility.glsl. Call this for each shader that
+/// shades samples, where its pipeline is made. The arguments are those of VkShaderModuleCreateInfo: `code_size` is in
+/// bytes.
 ///
 /// Threads: any.
-/// Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for what is no SPIR-V; GPC_RESULT_SHADER_VERSION.
+/// Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE if the code is not SPIR-V; GPC_RESULT_SHADER_VERSION.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_check_shader(code: *const u32, code_size: usize) -> GpcResult {
     answer(|| {

@@ -1,4 +1,4 @@
-//! What programs in C can't provoke.
+//! Tests of cases that programs in C can't provoke.
 
 use super::error::{Error, GpcResult, answer, last_error};
 use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
@@ -43,7 +43,7 @@ fn the_header_has_the_version_of_the_package() {
     assert_eq!(version, env!("CARGO_PKG_VERSION"));
 }
 
-/// A struct of three versions of a header, the last of which added `third`.
+/// Struct of three versions of a header; the last version added `third`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 struct Grown {
@@ -72,12 +72,12 @@ unsafe impl Element for Grown {
     }
 }
 
-// SAFETY: it begins with size, type and next.
+// SAFETY: the struct begins with size, type and next.
 unsafe impl Struct for Grown {
     const TYPE: GpcStructType = GpcStructType::Scenery;
 }
 
-/// What an application compiled with a header holds in which `Grown` has so many bytes: it, and what lies behind it.
+/// Memory of an application whose header has a `Grown` of `size` bytes: the struct, and the bytes after it.
 fn compiled_with(size: usize) -> Grown {
     let mut grown = Grown {
         size: 0,
@@ -129,7 +129,7 @@ fn a_struct_of_a_later_header_and_one_of_another_size_are_refused() {
     ] {
         let mut grown = compiled_with(40);
         grown.size = size;
-        // SAFETY: what is read at most are the first 40 bytes.
+        // SAFETY: at most the first 40 bytes are read.
         let error = unsafe { read(&raw const grown) }.unwrap_err();
         assert_eq!(error.to_string(), message);
     }
@@ -144,7 +144,7 @@ fn elements_of_an_earlier_header_are_read_by_their_stride() {
     let found = unsafe { elements(pointer, (2, 32), names) }.unwrap();
     let members: Vec<_> = found.iter().map(|g| (g.first, g.second, g.third)).collect();
     assert_eq!(members, [(2, 3, 3), (6, 7, 3)]);
-    // SAFETY: refused before anything is read.
+    // SAFETY: the stride is refused before anything is read.
     let error = unsafe { elements(pointer, (2, 33), names) }.unwrap_err();
     assert!(error.to_string().starts_with("array_stride is 33; it can"));
 }

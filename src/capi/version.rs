@@ -1,19 +1,19 @@
 //! Versions of the header, the library and the binary interface between them.
 
-/// The version of the header: gpc_version says that of the library.
+/// Version of the header; gpc_version returns that of the library.
 pub const GPC_VERSION_MAJOR: u32 = 0;
 /// See GPC_VERSION_MAJOR.
 pub const GPC_VERSION_MINOR: u32 = 2;
 /// See GPC_VERSION_MAJOR.
 pub const GPC_VERSION_PATCH: u32 = 0;
-/// The version of the header as one number, larger for later versions; packed as by VK_MAKE_API_VERSION.
+/// Version of the header as one number, larger for later versions, packed as by VK_MAKE_API_VERSION.
 pub const GPC_VERSION: u32 =
     (GPC_VERSION_MAJOR << 22) | (GPC_VERSION_MINOR << 12) | GPC_VERSION_PATCH;
-/// The version of the binary interface: it changes only if programs that were compiled with an earlier header have to be
-/// compiled again. The shared library's name has it: libgpc.so.1.
+/// Version of the binary interface. A new version requires programs to be compiled again with the new header. The name
+/// of the shared library contains it: libgpc.so.1.
 pub const GPC_ABI_VERSION: u32 = 1;
 
-/// The version of the library, packed as GPC_VERSION is.
+/// Version of the library, packed as GPC_VERSION is.
 ///
 /// Threads: any.
 #[unsafe(no_mangle)]

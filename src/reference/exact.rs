@@ -1,8 +1,8 @@
 //! Exact signs and accurately rounded values of sums of products (J. R. Shewchuk, "Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates", 1997).
 //!
-//! The results are exact unless the last bit of a product falls below 2^-1074. With 32-bit floating-point vertices
-//! this takes a point with coordinates finer than 2^-700.
+//! The results are exact unless the last bit of a product falls below 2^-1074. With vertices of 32-bit floats, this
+//! happens only for points whose coordinates are finer than 2^-700.
 
 /// Unevaluated sum of a 64-bit value and its rounding error, the value first.
 pub(super) type Pair = [f64; 2];

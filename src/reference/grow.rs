@@ -1,15 +1,15 @@
-//! Growth: superpixels that grow beside others.
+//! Growth: pixels that become superpixels because they contrast with a neighbouring superpixel.
 //!
-//! A feature that covers no pixel centre may show in the samples of a superpixel. The pixels beside it then become
-//! superpixels too, if they contrast with it. A pixel's own colour is that of its centre; the colour of a superpixel
-//! beside it is the resolved colour of its samples.
+//! A feature that covers no pixel centre may show in the samples of a superpixel. Its neighbours then become
+//! superpixels too, if they contrast with the superpixel. The comparison uses the colour at a neighbour's centre, and
+//! the resolved colour of the superpixel.
 
 use super::detect::{TILE_HEIGHT, TILE_WIDTH};
 
-/// Superpixels that grow, as one word for each tile in the order of [`superpixels`](super::detect::superpixels).
-/// `superpixels` holds the existing ones, none of which grows again. `seen` holds the displayed colours of all pixels'
-/// centres, `resolved` the colours of superpixels; both as RGBA, 8 bits each, red in the lowest byte, row by row of
-/// `width` pixels. A channel must differ by more than `threshold` code values.
+/// Superpixels that grow, as one word for each tile in the order of [`superpixels`](super::detect::superpixels). The
+/// argument `superpixels` holds the existing ones, none of which grows again. `seen` holds the displayed colours of all
+/// pixels' centres, and `resolved` the colours of superpixels. Both are RGBA, 8 bits each, red in the lowest byte, in
+/// rows of `width` pixels. A channel must differ by more than `threshold` code values.
 ///
 /// # Panics
 /// If `seen` and `resolved` differ in length, or `superpixels` is too short for them.

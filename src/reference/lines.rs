@@ -3,9 +3,9 @@
 /// Number of samples of a line.
 pub const BITS: u32 = 64;
 
-/// Offsets of the samples of a pixel on `lines` rows, or columns, from its centre in pixels, one line after the other.
-/// `lines` is a power of two. The samples of a line are evenly spaced; the place of the first one differs from line to
-/// line, so that all samples together are evenly spread over both axes.
+/// Offsets of a pixel's samples from its centre, in pixels. The samples lie on `lines` rows, or columns if `columns` is
+/// set, one line after the other; `lines` is a power of two. The samples of a line are evenly spaced. The position of
+/// the first sample differs from line to line, so that all samples together are evenly spread over both axes.
 #[must_use]
 pub fn offsets(columns: bool, lines: u32) -> Vec<[f64; 2]> {
     let samples = (0..lines).flat_map(|line| (0..BITS).map(move |bit| (line, bit)));

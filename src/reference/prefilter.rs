@@ -58,8 +58,8 @@ impl Cube {
     }
 }
 
-/// Average of `levels` around the direction `normal`. `rays` are given around +z: each is a direction, by whose z it
-/// is weighted, and the level that it reads.
+/// Average of `levels` around the direction `normal`. Each of `rays` is a direction relative to +z, whose z component
+/// is its weight, and the level that it reads.
 #[must_use]
 pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
     let turn = if normal.z >= 0.0 { 1.0 } else { -1.0 };

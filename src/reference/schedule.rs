@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
-/// Largest number of tests of a triangle in a tile that a round makes for tiles without a list.
+/// Largest number of tests of a triangle against a tile in a round, for tiles without a list.
 const MOST_TRIALS: u32 = 1 << 28;
-/// Number of entries of such tiles that a round takes in any case.
+/// Number of entries of tiles without a list that a round takes in any case.
 const FEWEST_TRIED: u32 = 4096;
 
 /// Facts about a tile before the first round.
@@ -34,7 +34,7 @@ pub enum ScheduledList {
     Masked,
     /// Tiles that also have BLEND triangles.
     Blended,
-    /// Tiles without a list, to whose samples triangles are shown one by one.
+    /// Tiles without a list, whose samples test all triangles one by one.
     Unlisted,
 }
 
@@ -57,7 +57,7 @@ pub struct Rounds {
     pub lanes: u32,
     /// Largest number of candidates of a tile with a list.
     pub longest_list: u32,
-    /// The same for tiles with BLEND triangles.
+    /// Largest number of candidates of a tile with a list, if the tile has BLEND triangles.
     pub longest_layered: u32,
     /// Whether the scene has BLEND triangles.
     pub blends: bool,
@@ -109,8 +109,8 @@ impl Rounds {
         }
     }
 
-    /// Needs of a tile: candidates or the room of its samples in their place, records, headers, and entries without a
-    /// list.
+    /// Needs of a tile: candidates, or the room that samples take in their place; records; headers; and entries without
+    /// a list.
     fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] =
             [self.samples, self.block, self.parts, self.layers].map(u64::from);

@@ -36,8 +36,8 @@ pub struct Receiver {
     pub is_backlit: bool,
 }
 
-/// Further places in a pixel that are probed, relative to its centre. The pixel becomes a superpixel if a light
-/// reaches only one of its centre and a probe on the same triangle.
+/// Offsets from a pixel's centre of further places that are tested. The pixel becomes a superpixel if a light reaches
+/// either its centre or a place on the same triangle, but not both.
 pub const PROBES: [[f64; 2]; 3] = [
     [0.34375, 0.34375],
     [-0.296_875, 0.40625],

@@ -1,6 +1,6 @@
 //! Polygons that lines and points cover in an image, and the choice of the mesh edges that are drawn.
 //!
-//! A vertex is in clip space: (pixel x * w, pixel y * w, z, w), with z = w on the near plane and less beyond it.
+//! A vertex is in clip space: (pixel x * w, pixel y * w, z, w). On the near plane, z = w; farther from the eye, z < w.
 //! Polygons are in pixels and counter-clockwise on the screen, whose y points down.
 
 /// A vertex in clip space.
@@ -12,7 +12,7 @@ const LONGEST_MITRE: f64 = 4.0;
 /// Number of corners of a disc's polygon.
 const DISC_CORNERS: u32 = 16;
 
-/// Part of a segment beyond the near plane; `None` if there is none.
+/// Part of a segment with z <= w, so not nearer than the near plane; `None` if there is no such part.
 fn clipped(from: Clip, to: Clip) -> Option<[Clip; 2]> {
     let before = |p: Clip| p[3] - p[2];
     let at_plane = |front: Clip, behind: Clip| {

@@ -1,9 +1,9 @@
-//! Where a texture is read for a place that is shaded, so that it is averaged over the place's footprint.
+//! Texture filtering over the footprint of a shaded place: the texture coordinates and the mipmap level that are read.
 
-/// At how many places a texture is read along the longer axis of a footprint, at the most.
+/// Largest number of places along the longer axis of a footprint at which a texture is read.
 pub const MOST_PROBES: u32 = 8;
 
-/// The places, and the mipmap level that is read there.
+/// Places at which a texture is read, and their mipmap level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probes {
     /// Number of places, from 1.
@@ -12,19 +12,20 @@ pub struct Probes {
     pub level: i32,
     /// Texture coordinates of the first place.
     pub first: [f64; 2],
-    /// What leads from a place to the next one.
+    /// Difference of texture coordinates from one place to the next.
     pub step: [f64; 2],
-    /// How far the footprint is from one with another count, level or axis: about the share by which a side of it would
-    /// have to change.
+    /// Distance to the nearest footprint with another count, level or axis, as the approximate fraction by which a side
+    /// would have to change.
     pub margin: f64,
 }
 
-/// Where a texture of `size` texels is read around the texture coordinates `at`, whose changes along the two sides of the
-/// footprint are `sides`.
+/// Places at which a texture of `size` texels is read around the texture coordinates `at`. `sides` are the changes of
+/// the texture coordinates along the two sides of the footprint.
 ///
-/// The texels have 0.58 (the root of 1/3) of the footprint's width, as a trilinear filter of such texels has the variance of a box of
-/// that width. There are two places where the footprint is more than 1.25 times as long as wide, three where it is more than 2.25
-/// times, and so on. Where it is longer than the most places make up for, the texels are wider than the footprint.
+/// The width of a texel is 0.58 (the root of 1/3) of the footprint's width, because a trilinear filter of such texels
+/// has the same variance as a box of that width. A footprint that is more than 1.25 times as long as wide has two
+/// places, one more than 2.25 times has three, and so on. If a footprint is longer than the largest number of places
+/// can cover, its texels are larger.
 #[must_use]
 pub fn probes(size: [u32; 2], at: [f64; 2], sides: [[f64; 2]; 2]) -> Probes {
     let texels = sides.map(|side| [0, 1].map(|axis| side[axis] * f64::from(size[axis])));

@@ -1,6 +1,6 @@
-//! Triangles of lists, strips and fans, with corners in the order in which Vulkan has them.
+//! Triangles of lists, strips and fans, with their corners in Vulkan's order.
 
-/// Triangles of a list: each three corners are one.
+/// Triangles of a list: every three corners form a triangle.
 #[must_use]
 pub fn list<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
     let triangles = corners.chunks_exact(3);
@@ -9,8 +9,8 @@ pub fn list<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
         .collect()
 }
 
-/// Triangles of a strip: each corner from the third on makes one with the two before it. Every other one has these two exchanged,
-/// so that all face the same side.
+/// Triangles of a strip: each corner from the third on forms a triangle with the two before it. In every other
+/// triangle, these two are exchanged, so that all triangles have the same orientation.
 #[must_use]
 pub fn strip<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
     let triangles = corners.windows(3).enumerate();
@@ -22,7 +22,7 @@ pub fn strip<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
         .collect()
 }
 
-/// Triangles of a fan: each corner from the third on makes one with the one before it and the first.
+/// Triangles of a fan: each corner from the third on forms a triangle with the one before it and the first.
 #[must_use]
 pub fn fan<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
     let Some((first, others)) = corners.split_first() else {

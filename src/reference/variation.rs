@@ -40,7 +40,7 @@ pub enum ShadedParts {
 ///
 /// Parts of a single sample are merged one step less: in pairs instead of fours, and not at all instead of in pairs.
 ///
-/// `alike` is the contrast threshold, and 0 in superpixels that grew, because no centre saw the colours with which
+/// `alike` is the contrast threshold. In superpixels that grew it is 0, because no centre saw the colours with which
 /// they contrast.
 #[must_use]
 pub fn parts(

@@ -38,13 +38,13 @@ pub struct Hit {
 pub struct Visibility {
     /// The nearest surface; `None` for background.
     pub nearest: Option<Hit>,
-    /// Depth of the next surface behind it, or of an equally near one.
+    /// Depth of the next surface behind the nearest one, or of an equally near one.
     pub second: Option<f64>,
     /// Distance in pixels of the sample from the nearest edge of any triangle, including hidden ones; infinite without
     /// triangles.
     pub edge_margin: f64,
     /// Smallest distance of the triangles' depths at the sample from the bounds 0 and 1, relative to the size of the
-    /// terms of which they are sums; infinite without triangles.
+    /// terms that add up to a depth; infinite without triangles.
     pub clip_margin: f64,
 }
 
@@ -78,7 +78,7 @@ impl Surface {
         &self.edges
     }
 
-    /// Depth of the triangle's plane at a sample, and the size of the terms of which it is the sum.
+    /// Depth of the triangle's plane at a sample, and the size of the terms that add up to the depth.
     fn depth(&self, sample: [f64; 2]) -> [f64; 2] {
         let values = self.edges.values(sample);
         // The order depends on the vertices alone, so that coincident triangles agree to the bit.

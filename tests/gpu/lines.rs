@@ -16,7 +16,7 @@ use crate::visibility::soup;
 const SIZE: [u32; 2] = [32, 24];
 
 /// Both numbers of lines: for up to 64 samples of a superpixel, and above.
-const SAMPLES: [(u32, u32); 2] = [(64, 8), (256, 16)];
+const SAMPLES: [(u32, u32); 2] = [(64, 8), (256, 32)];
 
 fn on_lines(samples: u32) -> Settings {
     everywhere(SIZE, Pattern::Lines, samples)

@@ -84,21 +84,13 @@ fn the_passes_of_all_rounds_are_timed() {
         if passes[0].is_empty() {
             return; // The device has no timestamps.
         }
-        let of = |passes: &[PassTime], name| {
-            passes
-                .iter()
-                .filter(|time| time.pass == name)
-                .map(|time| time.ms)
-                .sum::<f64>()
-        };
+        let names = |passes: &[PassTime]| passes.iter().map(|time| time.pass).collect::<Vec<_>>();
+        let mut timed = names(passes[0]);
+        assert!(timed.contains(&"rounds"), "{passes:?}");
+        timed.retain(|name| *name != "rounds");
+        assert_eq!(timed, names(passes[1]));
         let total = |passes: &[PassTime]| passes.iter().map(|time| time.ms).sum::<f64>();
-        let [all, first] = [of(passes[1], "sample"), of(passes[0], "sample")];
-        assert!(
-            of(passes[0], "rounds") > 0.5 * total(passes[0]),
-            "{passes:?}"
-        );
-        assert!(of(passes[1], "rounds") == 0.0, "{passes:?}");
-        assert!(all > 4.0 * first, "{passes:?}");
+        assert!(total(passes[1]) > 0.5 * total(passes[0]), "{passes:?}");
     });
 }
 

@@ -7,7 +7,7 @@ pub(crate) use crate::engine::passes::spirv::{
     WRAP_REPEAT as REPEAT,
 };
 
-/// The bits of the wrap modes along u and v.
+/// Flag bits for the wrap modes `u` and `v`.
 pub(crate) fn beyond([u, v]: [u32; 2]) -> u32 {
     u << 8 | v << 10
 }

@@ -8,8 +8,9 @@ pub struct ColorConstants {
     pub tonemap: bool,
     /// Whether detection compares tone-mapped colours.
     pub tonemap_codes: bool,
-    /// Whether textures are filtered over the area that a shading represents, along both axes.
+    /// Whether textures are filtered over the whole footprint of a shaded place, along both axes.
     pub box_filter: bool,
-    /// Whether a triangle transmits another share of light than its opacity leaves, for example a tinted one.
+    /// Whether the transmittance of any triangle differs from 1 - opacity, for example because the triangle tints
+    /// light.
     pub tinted: bool,
 }

@@ -4,7 +4,7 @@ use ash::vk;
 
 /// A scene's triangles, as far as passes depend on them.
 pub trait Content: Sync {
-    /// Number of indices of triangles, or an upper bound; some indices may belong to no triangle.
+    /// Number of triangle slots: every triangle's index is smaller. Some slots may be empty.
     fn index_count(&self) -> u32;
 
     /// Whether triangles are drawn by instances.
@@ -22,7 +22,7 @@ pub trait Content: Sync {
     /// Whether most triangles may need several shadings in a pixel.
     fn is_mostly_high_frequency(&self) -> bool;
 
-    /// Whether any triangle transmits another share of light than its opacity leaves.
+    /// Whether the transmittance of any triangle differs from 1 - opacity.
     fn is_tinted(&self) -> bool;
 
     /// Number of shading keys, at least 1.

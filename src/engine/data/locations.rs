@@ -1,4 +1,4 @@
-//! Sampling locations on the device, which take the place of pixels.
+//! Lists of sampling locations on the device; they are sampled instead of pixels.
 
 use super::{Resources, SampleSet};
 use crate::engine::passes::spirv::{LOAD_WORDS, distribute_set};
@@ -11,9 +11,9 @@ use ash::vk;
 /// Kind of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cells {
-    /// A pixel of the mask with its samples.
+    /// A pixel that the mask marks, with its samples.
     Pixels,
-    /// A location with samples around it, placed by its Jacobian.
+    /// A location, with samples around it that its Jacobian places.
     Superpixels,
     /// Several locations of a tile, each sampled once.
     Points,
@@ -34,7 +34,7 @@ impl Cells {
         self != Self::Pixels
     }
 
-    /// Whether occluders of the locations are sought.
+    /// Whether cells search for occluders of their locations.
     pub(crate) fn are_occluders(self) -> bool {
         self == Self::Occluders
     }
@@ -47,7 +47,7 @@ pub struct LocationSizes {
     pub locations: u32,
     /// Number of cells.
     pub cells: u32,
-    /// Number of places in the order, in which cells have room for their locations.
+    /// Number of places in the order of locations: each cell has places for its largest number of locations.
     pub places: u32,
     /// Number of groups of cells; a subgroup samples one.
     pub groups: u32,
@@ -83,9 +83,9 @@ impl LocationSizes {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ListedLocation {
-    /// Pixel of the plane in which it lies.
+    /// Column and row of the pixel that contains the location, on the plane.
     pub pixel: [i32; 2],
-    /// Place in the pixel, x and y from 0 to 1.
+    /// Position in that pixel, x and y from 0 to 1.
     pub within: [f32; 2],
     /// Columns of its Jacobian: changes of x and y per column and per row of the output.
     pub jacobian: [[f32; 2]; 2],
@@ -103,10 +103,11 @@ pub struct CellSizes {
 }
 
 impl CellSizes {
-    /// Smallest room of a cell for locations that are sampled once each; on large subgroups it is larger.
+    /// Smallest value of [`Self::in_cell`] for locations that are sampled once each; rounded up to a multiple of the
+    /// subgroup size.
     const POINTS_IN_CELL: u32 = 16;
 
-    /// Sizes for a device that uses `lanes` invocations of a subgroup.
+    /// Sizes for a device whose kernels use `lanes` invocations of a subgroup.
     #[must_use]
     pub fn new(lanes: u32, cells: Cells, samples: u32) -> Self {
         let in_cell = match cells {
@@ -126,7 +127,7 @@ impl CellSizes {
     }
 }
 
-/// Largest number of parts, of at most `size` things each, that `count` things make if tiles don't share parts.
+/// Largest number of groups that `count` items form, if a group holds at most `size` items of a single tile.
 fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
     count.min((count / size).saturating_add(tiles))
 }
@@ -141,9 +142,9 @@ pub struct LocationBuffers {
     pub cells: BufferView,
     /// A vector for each group.
     pub groups: BufferView,
-    /// Numbers of cells and samples, and first cell, of each tile.
+    /// For each tile: number of cells, number of samples, and index of the first cell.
     pub tile_loads: Buffer,
-    /// Words of `distribute` for each tile: see `shaders/include/tile_locations.glsl`.
+    /// Words with which `distribute` counts, for each tile: see `shaders/include/tile_locations.glsl`.
     pub(crate) loads: Buffer,
 }
 
@@ -231,7 +232,7 @@ impl Resources {
         ]
     }
 
-    /// Records the sorting of a list into a region that has begun.
+    /// Records the sorting of a list into cells, after [`Self::record_begin`] has begun the region.
     pub fn record_locations(
         &self,
         recorder: &Recorder<'_>,

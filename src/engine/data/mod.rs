@@ -1,4 +1,4 @@
-//! What the passes read and write: the memory of a frame, and the layouts of what lies in it.
+//! Memory of a frame that the passes read and write, and the layouts of the data in it.
 
 pub(crate) mod alpha_flags;
 mod color_constants;
@@ -11,7 +11,7 @@ mod triangle_word;
 pub(crate) mod upload;
 mod visibility;
 
-/// The uniform block `Frame` of `shaders/include/frame.glsl`, whose comments say what the fields are.
+/// Uniform block `Frame` of `shaders/include/frame.glsl`, whose comments explain the fields.
 pub use crate::engine::passes::spirv::Frame as FrameUniform;
 pub use color_constants::ColorConstants;
 pub use content::Content;

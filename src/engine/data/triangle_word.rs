@@ -7,7 +7,7 @@ pub(crate) struct TriangleWord {
     pub material: u32,
     /// Material bin or shading key, 14 bits.
     pub bin: u32,
-    /// Whether it may need several shadings in a superpixel.
+    /// Whether the triangle may need several shadings in a superpixel.
     pub high_frequency: bool,
     /// Whether back faces are visible.
     pub double_sided: bool,
@@ -21,7 +21,7 @@ impl TriangleWord {
     /// Bit of triangles whose back faces are visible.
     pub const DOUBLE_SIDED: u32 = 1 << 31;
 
-    /// The word.
+    /// Encodes the fields as the word.
     pub fn bits(self) -> u32 {
         let flag = |bit: u32, set: bool| if set { bit } else { 0 };
         self.material

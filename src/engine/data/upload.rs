@@ -57,7 +57,7 @@ impl<'a> Uploader<'a> {
         Ok(())
     }
 
-    /// Makes a texel buffer with these data; an element is a texel.
+    /// Makes a texel buffer with the contents `data`; each element is a texel.
     pub(crate) fn texels<T: NoUninit>(
         &mut self,
         name: &str,
@@ -74,7 +74,7 @@ impl<'a> Uploader<'a> {
         Ok(view)
     }
 
-    /// Makes a storage buffer with these bytes.
+    /// Makes a storage buffer with the contents `bytes`.
     pub(crate) fn storage(&mut self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST

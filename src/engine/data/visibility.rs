@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Uniform block about a frame for hosts' shaders.
 pub(crate) use crate::engine::passes::spirv::GpcFrame as VisibilityUniform;
 
-/// Makes the layout of the set, with which hosts make their pipelines.
+/// Makes the layout of the set; hosts use it in the layouts of their pipelines.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
     SetLayout::new(gpu, &gpc_visibility_set::ALL)
 }
@@ -57,7 +57,7 @@ impl Resources {
                 (&geometry.draws.table).into(),
             ),
             (gpc_visibility_set::GPC_DRAW_OF, draw_of),
-            // A frame's shaders read no locations.
+            // Without a list, shaders don't read this binding.
             (
                 gpc_visibility_set::GPC_LOCATIONS,
                 geometry.locations.map_or(draw_of, Shown::from),

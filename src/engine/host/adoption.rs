@@ -1,4 +1,4 @@
-//! How what a host lends becomes triangles that passes read.
+//! Passes that convert the triangles that a host lends to the form that the other passes read.
 
 use super::content::HostContent;
 use super::draw::{DrawRun, PlacedDraws};
@@ -9,34 +9,34 @@ use crate::engine::pipelines::OwnSet;
 use crate::vulkan::{Memory, Pipeline, Recorder};
 use std::sync::Arc;
 
-/// The passes that read a host's buffers, and a frame's draws.
+/// Passes that read a host's buffers, and the draws of a frame.
 pub(super) struct Adoption {
     pub draws: Draws,
     transform: Option<Pipeline>,
     coordinates: Option<Pipeline>,
-    /// For meshes without indices, with indices of 16 bits, and of 32.
+    /// Pipelines of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
     adopt: [Option<Pipeline>; 3],
-    /// Of each mesh.
+    /// Descriptor sets of each mesh.
     sets: Vec<MeshSets>,
     geometry: Geometry,
     shared: Arc<Shared>,
 }
 
-/// What passes read of a mesh.
+/// Descriptor sets with which passes read a mesh.
 struct MeshSets {
     transform: Option<OwnSet>,
     coordinates: Option<OwnSet>,
     adopt: OwnSet,
 }
 
-/// Which pipeline of `adopt` reads these indices.
+/// Index into `adopt` of the pipeline that reads these indices.
 fn kernel(indices: Option<Indices>) -> usize {
     indices.map_or(0, |indices| if indices.are_short() { 1 } else { 2 })
 }
 
 impl MeshSets {
     /// # Safety
-    /// The mesh's buffers are as [`Geometry`] says and outlive this.
+    /// The mesh's buffers are as [`Geometry`] says, and outlive the returned value.
     unsafe fn new(
         shared: &Shared,
         draws: &Draws,
@@ -48,7 +48,7 @@ impl MeshSets {
         // Without indices, the shader does not read that binding.
         let indices = mesh.indices.map(|indices| indices.lent(limits).info());
         let lent = content.alpha().zip(mesh.lent_coordinates(limits));
-        // SAFETY: of the host's buffers as the caller says; the rest goes with the frame.
+        // SAFETY: the caller guarantees the host's buffers; the others live as long as the frame.
         unsafe {
             let transform = content.made_positions().map(|made| {
                 let lent = mesh.lent_positions(geometry.position_space, limits);
@@ -69,7 +69,7 @@ impl MeshSets {
 
 impl Adoption {
     /// # Safety
-    /// The host's buffers are as [`Geometry`] says and outlive this.
+    /// The host's buffers are as [`Geometry`] says, and outlive the returned value.
     pub unsafe fn new(
         shared: &Arc<Shared>,
         memory: &Memory,
@@ -106,7 +106,7 @@ impl Adoption {
         })
     }
 
-    /// Records positions in clip space and triangles, those of draws that fit.
+    /// Records the conversion of the placed draws: positions in clip space, and triangles.
     pub fn record(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
         if placed.triangles == 0 {
             return;
@@ -168,8 +168,9 @@ impl Adoption {
         }
     }
 
-    /// Meshes, and the first and the number of positions in clip space that are made of each: of a run of draws or, where the host
-    /// has them in clip space, of a mesh that is drawn.
+    /// Parts of meshes to transform: the index of a mesh, and the first index and the number of the positions in clip
+    /// space that are made from it. With positions in object space, each run of draws is a part; with positions in clip
+    /// space, each mesh that is drawn.
     fn vertex_parts(&self, placed: &PlacedDraws) -> Vec<(usize, [u32; 2])> {
         if self.geometry.position_space != PositionSpace::Clip {
             let part = |run: &DrawRun| (run.mesh, run.positions);

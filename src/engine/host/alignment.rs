@@ -1,17 +1,18 @@
-//! Parts of buffers that a host lends, as descriptors can have them.
+//! Ranges of lent buffers, aligned as descriptors require.
 
 use super::HostError;
 use crate::vulkan::{Limits, VulkanError};
 use ash::vk;
 
-/// A part of a lent buffer: from a multiple of what the device asks for on, with what lies before the first element.
+/// Range of a lent buffer for a descriptor. The range starts at the alignment that the device requires, so it may
+/// include bytes before the first element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct LentBytes {
     buffer: vk::Buffer,
     offset: u64,
     /// Bytes before the first element.
     pub before: u32,
-    /// Bytes in all.
+    /// Size of the range, including the bytes before the first element.
     bytes: u64,
 }
 
@@ -30,7 +31,7 @@ impl LentBytes {
         }
     }
 
-    /// The same with whole words of 4 bytes.
+    /// The same range, extended to whole words of 4 bytes.
     pub fn in_words(self) -> Self {
         Self {
             bytes: self.bytes.next_multiple_of(4),
@@ -46,12 +47,13 @@ impl LentBytes {
     }
 }
 
-/// What descriptors of buffers may begin at: at least the bytes of a position in clip space.
+/// Alignment in bytes of buffer offsets in descriptors: at least 16, the size of a position in clip space.
 pub(super) fn descriptor_alignment(limits: &Limits) -> u64 {
     limits.buffer_alignment.max(16)
 }
 
-/// Checks an offset and what it has to be a multiple of, a stride and the least that it can be, and a part of a buffer.
+/// Checks the layout of a lent buffer: `offset` is a multiple of `alignment`, `stride` a multiple of 4 and not below
+/// its minimum, and the range `lent` within the device's limits.
 pub(super) fn check_layout(
     limits: &Limits,
     (offset_name, offset, alignment): (&'static str, u64, u64),

@@ -13,38 +13,40 @@ use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, Specialized, Vulkan
 use ash::vk;
 use std::sync::Arc;
 
-/// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
-/// modes are best those of the sampler that the host's own pass reads the map with.
+/// Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
+/// equal those of the sampler with which the host's own pass reads the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlphaMap {
-    /// A two-dimensional view of an image made with `SAMPLED`, of floats or normalised numbers. Its fourth component is
-    /// alpha; that of a view may be any of the image.
+    /// Two-dimensional view of an image that was created with `SAMPLED` and holds floats or normalised numbers. The
+    /// fourth component of the view is alpha; the view's swizzle can take alpha from any channel of the image.
     pub view: vk::ImageView,
     /// Width and height in texels, up to 65,535.
     pub size: [u32; 2],
-    /// How many mipmap levels there are; 1 for none.
+    /// Number of mipmap levels, at least 1.
     pub levels: u32,
-    /// How alpha lies between texels that are larger than pixels: `LINEAR` or `NEAREST`.
+    /// Filter where texels are larger than pixels: `LINEAR` or `NEAREST`.
     pub mag_filter: vk::Filter,
-    /// The same where texels are smaller.
+    /// Filter where texels are smaller than pixels: `LINEAR` or `NEAREST`.
     pub min_filter: vk::Filter,
-    /// Whether alpha is that of two levels, blended (`LINEAR`), or of the nearest one (`NEAREST`).
+    /// Filter between mipmap levels: `LINEAR` blends two levels, `NEAREST` reads the nearest level.
     pub mipmap_mode: vk::SamplerMipmapMode,
-    /// What is beyond the image along u and v: `REPEAT`, `MIRRORED_REPEAT` or `CLAMP_TO_EDGE`.
+    /// Address modes along u and v, for coordinates outside of the image: `REPEAT`, `MIRRORED_REPEAT` or
+    /// `CLAMP_TO_EDGE`.
     pub address: [vk::SamplerAddressMode; 2],
-    /// The least alpha that is there.
+    /// Smallest alpha at which the surface exists.
     pub cutoff: f32,
 }
 
-/// Vectors of a row of the table that `shaders/include/material.glsl` describes, and those that the alpha test reads.
+/// Number of vectors of an alpha map's row in the table that `shaders/include/material.glsl` describes, as far as the
+/// alpha test reads the row.
 pub(super) const ROW: usize = UV_ROWS + 2;
 const BASE_COLOR: usize = spirv::MATERIAL_BASE_COLOR as usize;
 const FACTORS: usize = spirv::MATERIAL_FACTORS as usize;
 const ALPHA: usize = spirv::MATERIAL_ALPHA as usize;
 const UV_ROWS: usize = spirv::MATERIAL_UV_ROWS as usize;
-/// Most alpha maps: triangles have 16 bits for theirs.
+/// Largest number of alpha maps: a triangle has 16 bits for the index of its map.
 pub(super) const MOST_MAPS: u32 = 1 << 16;
-/// Largest width and height: the table has 16 bits for each.
+/// Largest width and height of an alpha map: the table has 16 bits for each.
 const LONGEST: u32 = u16::MAX as u32;
 
 impl AlphaMap {
@@ -107,7 +109,8 @@ impl AlphaMap {
         set.fold(TEXTURED | beyond(self.modes()), |all, (flag, _)| all | flag)
     }
 
-    /// Its row, if its table of levels is at `table`.
+    /// Row of the map in the table of materials. `table` is the index at which the map's levels are listed in the
+    /// atlas.
     fn row(&self, table: u32) -> [[u32; 4]; ROW] {
         let [width, height] = self.size;
         let mut row = [[0; 4]; ROW];
@@ -139,14 +142,14 @@ fn wrap(mode: vk::SamplerAddressMode) -> Option<u32> {
     }
 }
 
-/// Where alpha maps lie in the atlas.
+/// Layout of the alpha maps in the atlas.
 #[derive(Default)]
 struct Places {
-    /// The tables of levels, which the atlas begins with.
+    /// Tables of levels, at the beginning of the atlas: the first word of each level.
     tables: Vec<u32>,
-    /// Of each map, its row.
+    /// Rows of all maps, one after the other.
     rows: Vec<[u32; 4]>,
-    /// Of each map, its levels.
+    /// Levels of each map.
     levels: Vec<Vec<AlphaLevel>>,
     words: u64,
 }
@@ -162,7 +165,7 @@ impl Places {
             places.rows.extend(map.row(table));
             let mut levels = Vec::new();
             for number in 0..map.levels {
-                // What does not fit is refused before it is used.
+                // An atlas that is too large, whose offsets may wrap here, is refused before it is used.
                 let level = map.level(number, places.words as u32);
                 places.tables.push(level.first);
                 places.words += level.words();
@@ -178,7 +181,7 @@ impl Places {
 pub(super) struct Alpha {
     pub atlas: BufferView,
     pub rows: BufferView,
-    /// Of each position in clip space.
+    /// Texture coordinates of each position in clip space.
     pub coordinates: BufferView,
     places: Places,
 }
@@ -202,14 +205,13 @@ impl Alpha {
                 places.rows.len() as u64,
                 vk::Format::R32G32B32A32_UINT,
             )?,
-            // Its fourth component is 1, as vertex colours have it that are not there.
             coordinates: texels("texture coordinates", positions, vk::Format::R32G32_SFLOAT)?,
             places,
         })
     }
 }
 
-/// What reads alpha maps, once.
+/// Pass that reads the host's alpha maps into the atlas, once.
 pub(super) struct AlphaReading {
     sets: Vec<OwnSet>,
     shared: Arc<Shared>,
@@ -217,7 +219,7 @@ pub(super) struct AlphaReading {
 
 impl AlphaReading {
     /// # Safety
-    /// The views outlive this.
+    /// The views of the alpha maps outlive the returned value.
     pub unsafe fn new(
         shared: &Arc<Shared>,
         geometry: &Geometry,
@@ -236,7 +238,7 @@ impl AlphaReading {
         })
     }
 
-    /// Records it, where there are alpha maps.
+    /// Records the pass, if there are alpha maps.
     pub fn record(&self, recorder: &Recorder<'_>, content: &HostContent) {
         let Some(alpha) = content.alpha() else {
             return;
@@ -280,7 +282,7 @@ mod tests {
     #[test]
     fn maps_follow_their_tables() {
         let places = Places::new(&[map([4, 2], 3), map([1, 1], 1)]);
-        // 5 x 3, 3 x 2 and 2 x 2 words; 2 x 2.
+        // Words of the levels: 5 x 3, 3 x 2 and 2 x 2 for the first map; 2 x 2 for the second.
         assert_eq!(places.tables, [4, 19, 25, 29]);
         assert_eq!(places.words, 33);
         assert_eq!(places.rows.len(), 2 * ROW);

@@ -1,4 +1,4 @@
-//! A host's triangles as passes read them.
+//! Triangles of a host in the form that passes read.
 
 use super::Geometry;
 use super::alpha::Alpha;
@@ -11,22 +11,22 @@ use std::sync::Arc;
 
 /// Positions in clip space.
 enum Positions {
-    /// The host's, where they are.
+    /// Positions in the host's buffer, read in place.
     Lent {
         texels: TexelView,
         info: vk::DescriptorBufferInfo,
     },
-    /// Those that `transform` makes.
+    /// Positions that `transform` writes.
     Made(BufferView),
 }
 
-/// A host's triangles, and what stands for what a host has not.
+/// A host's triangles, with placeholders for data that hosts don't have.
 pub(super) struct HostContent {
     triangles: BufferView,
     draw_of: Buffer,
     positions: Positions,
     alpha: Option<Alpha>,
-    /// Stand for attributes and materials, which no pass reads of a host's triangles.
+    /// Placeholders for attributes and materials, which no pass reads for a host's triangles.
     unread_floats: BufferView,
     unread_words: BufferView,
     unread: Buffer,
@@ -37,7 +37,7 @@ pub(super) struct HostContent {
 
 impl HostContent {
     /// # Safety
-    /// The host's buffer of positions is as [`Geometry`] says and outlives this.
+    /// The host's buffer of positions is as [`Geometry`] says, and outlives the returned value.
     pub unsafe fn new(
         gpu: &Arc<Gpu>,
         memory: &Memory,
@@ -91,7 +91,7 @@ impl HostContent {
         &self.triangles.buffer
     }
 
-    /// The draw of each triangle.
+    /// Index of each triangle's draw.
     pub fn draw_of(&self) -> &Buffer {
         &self.draw_of
     }
@@ -111,7 +111,7 @@ impl HostContent {
         }
     }
 
-    /// The positions that `transform` is to make, if any.
+    /// Buffer into which `transform` writes positions; `None` if positions are read in place.
     pub fn made_positions(&self) -> Option<&Buffer> {
         match &self.positions {
             Positions::Lent { .. } => None,
@@ -119,12 +119,12 @@ impl HostContent {
         }
     }
 
-    /// Stands for lights, which the engine does not read.
+    /// Placeholder for lights, which the engine does not read.
     pub fn lights(&self) -> &Buffer {
         &self.unread
     }
 
-    /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
+    /// Texel buffers of `shaders/include/frame.glsl` for a host's triangles, by binding.
     pub fn texels(&self) -> [BoundTexels; 10] {
         let positions = match &self.positions {
             Positions::Lent { texels, .. } => texels.texels(),
@@ -183,7 +183,8 @@ impl Content for HostContent {
         false
     }
 
-    /// One more than the host has, since samples of a single key would not be listed.
+    /// Number of shading keys: the host's, and one more, because visibility samples with a single key would not be
+    /// sorted into lists.
     fn bin_count(&self) -> u32 {
         self.keys + 1
     }

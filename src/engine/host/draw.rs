@@ -1,4 +1,4 @@
-//! What a host draws.
+//! Draws of a host.
 
 use super::{Geometry, HostError, Mesh, PositionSpace, Topology};
 use crate::engine::data::{HostDraw, TriangleWord};
@@ -6,41 +6,42 @@ use crate::engine::data::{HostDraw, TriangleWord};
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
-    /// The buffers that it reads: the place of a mesh in [`Geometry::meshes`].
+    /// Index into [`Geometry::meshes`] of the mesh whose buffers the draw reads.
     pub mesh: u32,
-    /// Its first index; of a mesh without indices, its first vertex, counted from `vertex_offset`.
+    /// First index of the draw. For a mesh without indices: its first vertex, counted from `vertex_offset`.
     pub first_index: u32,
-    /// How many triangles it has.
+    /// Number of triangles.
     pub triangle_count: u32,
-    /// How its indices, or its vertices, make triangles.
+    /// Topology: how indices, or vertices without indices, form triangles.
     pub topology: Topology,
-    /// Added to each of its indices.
+    /// Offset that is added to each index.
     pub vertex_offset: i32,
-    /// Where positions are in object space, how many vertices it has, from `vertex_offset` on. Larger indices are taken for
-    /// the last. Otherwise not read.
+    /// Number of vertices from `vertex_offset` on, if positions are in object space; otherwise ignored. An index beyond
+    /// the last of these vertices is clamped to the last one.
     pub vertex_count: u32,
-    /// Where positions are in object space, the matrix that leads from there to clip space, in columns. Otherwise not read.
+    /// Matrix from object space to clip space, by columns, if positions are in object space; otherwise ignored.
     pub to_clip: [[f32; 4]; 4],
-    /// Which of [`Geometry::alpha_maps`] says where it is; `None` where it is everywhere. Draws with alpha maps come after
-    /// those without.
+    /// Index into [`Geometry::alpha_maps`] of the map of the alpha test; `None` for a surface without holes. Draws with alpha
+    /// maps come after those without.
     pub alpha_map: Option<u16>,
-    /// The shading key: which of the host's pipelines shades it.
+    /// Shading key: the number of the host's pipeline that shades the draw, from 0.
     pub key: u32,
-    /// A number of the host's, which its shaders see. Triangles of one number are taken to look alike where detection
-    /// compares colours.
+    /// Material number of the host's choice, which its shaders can read. Detection by colours assumes that triangles
+    /// with the same number look alike.
     pub material: u16,
-    /// Whether back faces show. A front face is counter-clockwise on the screen.
+    /// Whether back faces are visible. A front face is counter-clockwise on the screen.
     pub double_sided: bool,
-    /// Whether light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
-    /// several parts of a superpixel where the pixels around tell that it does.
+    /// Whether the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
+    /// draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
     pub detailed: bool,
-    /// Whether it is seen through: what the host's shading stores has an opacity then, and is composited over what lies
-    /// behind. Such draws have no alpha map and come after all others; [`Geometry::blended`] says that there may be some.
+    /// Whether the draw is translucent. The host's shaders then store an opacity, with which the draw is composited
+    /// over the surfaces behind it. Blended draws have no alpha map and come after all others. They require
+    /// [`Geometry::blended`].
     pub blended: bool,
 }
 
 impl Default for Draw {
-    /// Nothing, with the identity for a matrix.
+    /// Empty draw whose matrix is the identity.
     fn default() -> Self {
         Self {
             mesh: 0,
@@ -62,39 +63,39 @@ impl Default for Draw {
     }
 }
 
-/// Draws that follow each other and are read alike.
+/// Consecutive draws of the same mesh and topology, which are read together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DrawRun {
-    /// Their mesh.
+    /// Index of the mesh.
     pub mesh: usize,
     pub topology: Topology,
-    /// Their first triangle among those of all draws, and how many they have.
+    /// First triangle of the run, counted over all draws, and number of triangles.
     pub triangles: [u32; 2],
-    /// Where positions are in object space, their first one among those in clip space, and how many they have.
+    /// First position of the run in clip space and number of positions, if positions are in object space.
     pub positions: [u32; 2],
 }
 
-/// A frame's draws as the device reads them.
+/// Draws of a frame, with their places in the device's buffers.
 #[derive(Default)]
 pub(super) struct PlacedDraws {
     pub draws: Vec<HostDraw>,
-    /// One a draw where positions are in object space; otherwise none.
+    /// Matrix of each draw if positions are in object space; otherwise empty.
     pub matrices: Vec<[[f32; 4]; 4]>,
-    /// Those with triangles.
+    /// Runs of the draws that have triangles.
     pub runs: Vec<DrawRun>,
-    /// Triangles of all.
+    /// Number of triangles of all draws.
     pub triangles: u32,
-    /// Triangles of those that are opaque.
+    /// Number of triangles of opaque draws without alpha maps; these triangles come first.
     pub opaque: u32,
-    /// Triangles of those that are not blended.
+    /// Number of triangles of draws that are not blended.
     pub solid: u32,
 }
 
 impl PlacedDraws {
-    /// Those of a frame.
+    /// Places the draws of a frame.
     ///
     /// # Errors
-    /// The first draw that does not fit.
+    /// If a draw is invalid, or the draws exceed a capacity; the error names the first such draw.
     pub fn new(geometry: &Geometry, draws: &[Draw]) -> Result<Self, HostError> {
         let capacity = |what, found, capacity| HostError::Capacity {
             what,
@@ -110,7 +111,7 @@ impl PlacedDraws {
             draws: Vec::with_capacity(draws.len()),
             ..Self::default()
         };
-        // Of the meshes, where positions are in clip space.
+        // First positions of the meshes, if positions are in clip space.
         let firsts: Vec<u32> = geometry.first_positions().collect();
         let mut made = 0;
         for (number, draw) in draws.iter().enumerate() {
@@ -175,7 +176,7 @@ impl PlacedDraws {
         Ok(placed)
     }
 
-    /// Adds a draw to the last run or, if it is read in another way, as a new one.
+    /// Adds a draw to the last run, or begins a run if the draw's mesh or topology differs.
     fn extend_runs(&mut self, draw: &Draw, [first, vertices]: [u32; 2]) {
         if draw.triangle_count == 0 {
             return;
@@ -197,7 +198,7 @@ impl PlacedDraws {
 }
 
 impl PlacedDraws {
-    /// The draws, and how many triangles each has.
+    /// Draws, each with its number of triangles.
     pub fn counted(&self) -> impl Iterator<Item = (&HostDraw, u32)> {
         let next = self.draws.iter().skip(1).map(|draw| draw.first_triangle);
         let ends = next.chain([self.triangles]);
@@ -207,7 +208,7 @@ impl PlacedDraws {
 }
 
 impl Draw {
-    /// Its mesh, where it fits.
+    /// Checks the draw against the geometry, and returns its mesh.
     fn check<'a>(&self, geometry: &'a Geometry, draw: usize) -> Result<&'a Mesh, HostError> {
         let meshes = geometry.meshes.len();
         let found = geometry.meshes.get(self.mesh as usize);
@@ -288,7 +289,7 @@ impl Draw {
 
     fn word(&self) -> u32 {
         let word = TriangleWord {
-            // The alpha test finds its row by it.
+            // The alpha test finds the map's row by this number.
             material: u32::from(self.alpha_map.unwrap_or(self.material)),
             bin: self.key,
             high_frequency: self.detailed,

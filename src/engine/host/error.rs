@@ -1,327 +1,329 @@
-//! What can be wrong with what a host lends.
+//! Errors of the host interface.
 
 use crate::engine::sampler::EngineError;
 use crate::vulkan::VulkanError;
 use ash::vk;
 
-/// An error of antialiasing a host's frames.
+/// Error of antialiasing a host's frames or lists.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum HostError {
-    /// The options are impossible, memory runs out, or the driver refuses something.
+    /// Error of the engine: impossible options, lack of memory, or a refusal by the driver.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// A handle is null.
+    /// Null handle.
     #[error("{0} is VK_NULL_HANDLE")]
     NullHandle(&'static str),
-    /// A count that has to be at least 1 is 0, or more than can be addressed.
+    /// Count that is 0 or above its limit.
     #[error("{what} is {found}; it can be 1 to {most}")]
     Count {
-        /// The count.
+        /// Name of the count.
         what: &'static str,
-        /// What it is.
+        /// Value of the count.
         found: u32,
-        /// What it can be.
+        /// Largest possible value.
         most: u32,
     },
-    /// A buffer's offset is not a multiple of the size of what it holds.
+    /// Buffer offset that is not a multiple of the element size.
     #[error("{what} is {offset} bytes; it can be a multiple of {alignment}")]
     Alignment {
-        /// The offset.
+        /// Name of the offset.
         what: &'static str,
-        /// What it is.
+        /// Value of the offset in bytes.
         offset: u64,
-        /// What it has to be a multiple of.
+        /// Required divisor of the offset.
         alignment: u64,
     },
-    /// Elements lie closer together than they are long, or apart by no whole number of floats.
+    /// Stride that is smaller than an element, or no multiple of 4 bytes.
     #[error("{what} is {found} bytes; it can be any multiple of 4 from {least} on")]
     Stride {
-        /// The stride.
+        /// Name of the stride.
         what: &'static str,
-        /// What it is.
+        /// Value of the stride in bytes.
         found: u32,
-        /// The least that it can be.
+        /// Smallest possible stride in bytes.
         least: u32,
     },
-    /// Something is wrong with one of several meshes.
+    /// Error in one of several meshes.
     #[error("mesh {mesh}: {error}")]
     Mesh {
-        /// The mesh, by its place in the list.
+        /// Index of the mesh.
         mesh: usize,
-        /// What is wrong with it.
+        /// Error in this mesh.
         #[source]
         error: Box<HostError>,
     },
-    /// A depth range is empty, or not finite.
+    /// Depth range that is empty or not finite.
     #[error(
         "the depth range goes from {} to {}; its ends have to be finite numbers that differ", .0[0], .0[1]
     )]
     DepthRange([f32; 2]),
-    /// A viewport is no rectangle, or lies upside down.
+    /// Viewport that is no rectangle, or whose height has the wrong sign.
     #[error(
         "the viewport is {width} x {height} pixels at ({x}, {y}); it needs finite numbers, a positive width, and a height that is {height_sign} as ClipSpace::y_up is {y_up}"
     )]
     Viewport {
-        /// Its left side.
+        /// Left side of the viewport.
         x: f32,
-        /// Its first row.
+        /// Coordinate y of the viewport, as in `VkViewport`.
         y: f32,
-        /// Its width.
+        /// Width of the viewport.
         width: f32,
-        /// Its height.
+        /// Height of the viewport.
         height: f32,
-        /// Positive or negative.
+        /// Required sign of the height: "positive" or "negative".
         height_sign: &'static str,
         /// Whether y points up in clip space.
         y_up: bool,
     },
-    /// A viewport ends within the frame's part of the images: rasterizers draw nothing beyond it, and the library would.
+    /// Viewport that does not contain the frame's part of the images. Rasterizers draw nothing outside of the viewport,
+    /// but the library would.
     #[error(
         "the viewport holds the pixels from ({}, {}) to ({}, {}), and the frame is of those from ({}, {}) to ({}, {}): a frame's part of the images has to lie in the viewport; make Options::size smaller, or begin it elsewhere by Images::corner",
         .viewport[0], .viewport[1], .viewport[2], .viewport[3], .part[0], .part[1], .part[2], .part[3]
     )]
     ViewportPart {
-        /// Left, upper, right and lower side of the viewport.
+        /// Left, upper, right and lower side of the viewport, in pixels.
         viewport: [f64; 4],
-        /// Those of the frame's part.
+        /// Left, upper, right and lower side of the frame's part, in pixels.
         part: [u64; 4],
     },
-    /// Indices are of a type that is not read.
+    /// Index type that is not supported.
     #[error("index_type is {found:?}; it can be UINT16 or UINT32")]
     IndexType {
-        /// What it is.
+        /// Index type that was given.
         found: vk::IndexType,
     },
-    /// The colour image has a format that can't be drawn to or read.
+    /// Format of the colour image that the library can't read or draw to.
     #[error(
         "a colour image of format {0:?}: it can have 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or be B10G11R11_UFLOAT"
     )]
     Format(vk::Format),
-    /// An image with its own sRGB encoding is said to hold codes.
+    /// sRGB format of a colour image that is declared as encoded too.
     #[error("a colour image of format {0:?} holds linear light; it can't be encoded as well")]
     Encoded(vk::Format),
-    /// Thin triangles are found by depth.
+    /// Option `thin` without a depth image.
     #[error(
         "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
     )]
     NoDepth,
-    /// The part of the images that the frame is of ends where no image does.
+    /// Frame's part of the images that ends outside of any possible image.
     #[error(
         "the frame's part of the images ends at {} x {} pixels; images have at most {most} on a side", .end[0], .end[1]
     )]
     Part {
-        /// Columns and rows before its lower right corner.
+        /// Column and row after the last pixel of the part.
         end: [u64; 2],
-        /// Most columns or rows of an image on the device.
+        /// Largest width and height of an image on the device.
         most: u32,
     },
-    /// Alpha maps are looked up by coordinates.
+    /// Alpha maps without texture coordinates in any mesh.
     #[error("there are alpha maps and no texture coordinates: lend Mesh::coordinates")]
     NoCoordinates,
-    /// A draw has an alpha map, and its mesh has no texture coordinates.
+    /// Draw with an alpha map, of a mesh without texture coordinates.
     #[error(
         "draw {draw} has an alpha map, and its mesh {mesh} has no texture coordinates: lend Mesh::coordinates"
     )]
     DrawCoordinates {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// Its mesh.
+        /// Index of the draw's mesh.
         mesh: u32,
     },
-    /// A draw has a mesh that there is none of.
+    /// Draw whose mesh does not exist.
     #[error("draw {draw} has mesh {mesh}, and there are {meshes}, from 0")]
     NoMesh {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// Its mesh.
+        /// Index of the mesh that was given.
         mesh: u32,
-        /// How many there are.
+        /// Number of meshes.
         meshes: usize,
     },
-    /// A draw of a mesh without indices takes vertices that it does not have.
+    /// Draw without indices that reads vertices outside of its mesh.
     #[error(
         "draw {draw} takes the vertices from {first} to before {end} without indices, and has those from {from} to before {vertices}"
     )]
     Corners {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// The first vertex that it takes.
+        /// First vertex that the draw reads.
         first: i64,
-        /// One past the last.
+        /// Vertex after the last one that the draw reads.
         end: i64,
-        /// The first one that it has.
+        /// First vertex of the mesh.
         from: i64,
-        /// One past the last.
+        /// Vertex after the last one of the mesh.
         vertices: i64,
     },
-    /// A coordinate beyond an alpha map leads to what is not read.
+    /// Address mode of an alpha map that is not supported.
     #[error(
         "alpha map {map} has the address mode {found:?}; it can have REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE"
     )]
     Address {
-        /// The map, by its place in the list.
+        /// Index of the map.
         map: usize,
-        /// Its mode along one axis.
+        /// Address mode that was given for one of the axes.
         found: vk::SamplerAddressMode,
     },
-    /// A filter between texels or levels is one that is not known.
+    /// Filter of an alpha map that is not supported.
     #[error("alpha map {map} has the {name} {found}; it can be NEAREST (0) or LINEAR (1)")]
     Filter {
-        /// The map, by its place in the list.
+        /// Index of the map.
         map: usize,
-        /// Which filter.
+        /// Name of the filter's member.
         name: &'static str,
-        /// Its value.
+        /// Value of the filter.
         found: i32,
     },
-    /// A cutoff is not finite.
+    /// Cutoff of an alpha map that is not finite.
     #[error("the cutoff of alpha map {map} is not finite")]
     Cutoff {
-        /// The map, by its place in the list.
+        /// Index of the map.
         map: usize,
     },
-    /// Depth is of no use without IDs.
+    /// Depth image without an image of IDs.
     #[error("depth is lent without IDs: lend both, or neither to have both drawn")]
     NoIds,
-    /// The frame was prepared with an image that a recording does not lend.
+    /// Recording without an image for which the frame was prepared.
     #[error(
         "there is no image of {what}: lend it, or prepare the frame without it in ImageKinds::{}", .what.to_lowercase()
     )]
     MissingImage {
-        /// IDs or depth.
+        /// Kind of the image: IDs or depth.
         what: &'static str,
     },
-    /// A recording lends an image that the frame was prepared without.
+    /// Recording with an image for which the frame was not prepared.
     #[error(
         "an image of {what} is lent, and the frame was prepared without: set ImageKinds::{}", .what.to_lowercase()
     )]
     UnexpectedImage {
-        /// IDs or depth.
+        /// Kind of the image: IDs or depth.
         what: &'static str,
     },
-    /// A frame has more of something than it was prepared for.
+    /// Recording that exceeds a capacity of its frame.
     #[error("{found} {what}; the frame was prepared for {capacity}")]
     Capacity {
-        /// Draws, triangles or vertices.
+        /// Name of the things counted: draws, triangles or vertices.
         what: &'static str,
-        /// How many there are.
+        /// Number in the recording.
         found: u64,
-        /// How many there can be.
+        /// Largest number for which the frame was prepared.
         capacity: u32,
     },
-    /// A draw reads past the index buffer.
+    /// Draw that reads past the end of the index buffer.
     #[error("draw {draw} reads indices up to {end}, and there are {indices}")]
     Indices {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// One past its last index.
+        /// Index after the last one that the draw reads.
         end: u64,
-        /// How many there are.
+        /// Number of indices in the buffer.
         indices: u32,
     },
-    /// A draw, of positions in object space, has no vertices, or some that there are none of.
+    /// Draw in object space that has no vertices, or vertices outside of its mesh.
     #[error(
         "draw {draw} has the vertices from {first} to before {end}; it needs at least one, of those from 0 to before {vertices}"
     )]
     Vertices {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// Its first vertex.
+        /// First vertex of the draw.
         first: i64,
-        /// One past its last.
+        /// Vertex after the last one of the draw.
         end: i64,
-        /// How many there are.
+        /// Number of vertices of the mesh.
         vertices: u32,
     },
-    /// A number of a draw's matrix is not finite.
+    /// Matrix of a draw with a component that is not finite.
     #[error("the matrix of draw {draw} has a number that is not finite")]
     Matrix {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
     },
-    /// A draw has an alpha map that there is none of.
+    /// Draw whose alpha map does not exist.
     #[error("draw {draw} has alpha map {map}, and there are {maps}")]
     AlphaMap {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// Its map.
+        /// Index of the map that was given.
         map: u16,
-        /// How many there are.
+        /// Number of alpha maps.
         maps: usize,
     },
-    /// An opaque draw comes after one with an alpha map.
+    /// Draw without an alpha map, after a draw with one.
     #[error("draw {draw} has no alpha map and comes after one that has: draws without come first")]
     Order {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
     },
-    /// A draw that is not blended comes after one that is.
+    /// Draw that is not blended, after a blended one.
     #[error("draw {draw} is not blended and comes after one that is: these are the last ones")]
     BlendedOrder {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
     },
-    /// The frame was prepared without blended draws.
+    /// Blended draw in a frame that was prepared without [`Geometry::blended`](super::Geometry::blended).
     #[error("draw {draw} is blended; prepare the frame with Geometry::blended")]
     NotBlended {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
     },
-    /// A blended draw has an alpha map.
+    /// Blended draw with an alpha map.
     #[error(
         "draw {draw} is blended and has an alpha map: let its shader store an opacity of 0 instead"
     )]
     BlendedMap {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
     },
-    /// The library shades the centres of pixels by their nearest surface alone.
+    /// Blended geometry with `shade_all`, which shades pixel centres by their nearest surface only.
     #[error(
         "Geometry::blended with Options::shade_all: centres are shaded by the nearest surface alone; draw the colours yourself"
     )]
     BlendedCentres,
-    /// The host's colours of pixels that blended draws cover have these in them.
+    /// Blended geometry without `flat_background`. The host's colours already contain its blended draws, so that the
+    /// library can't composite these over them.
     #[error(
         "Geometry::blended without Options::flat_background: blended draws are composited over Options::background alone; set flat_background and lend the sky as triangles, or draw what is blended after the recording"
     )]
     BlendedBackground,
-    /// A draw has a shading key that there is none of.
+    /// Draw whose shading key does not exist.
     #[error("draw {draw} has shading key {key}, and there are {keys}")]
     Key {
-        /// The draw, by its place in the list.
+        /// Index of the draw.
         draw: usize,
-        /// Its key.
+        /// Shading key that was given.
         key: u32,
-        /// How many there are.
+        /// Number of shading keys.
         keys: u32,
     },
-    /// A number of the projection is not finite.
+    /// Projection matrix with a component that is not finite.
     #[error("the projection matrix has a number that is not finite")]
     Projection,
-    /// The projection makes nothing of heights.
+    /// Projection matrix whose scale along y is 0.
     #[error("the projection matrix has a scale of 0 along y: it is projection[1][1], in columns")]
     FlatProjection,
-    /// An image is in a layout that holds nothing, or is to be left in one.
+    /// Image layout that keeps no contents, before or after the recording.
     #[error(
         "{what} is in the layout {found:?} {when} the recording; it can be any that keeps what the image holds"
     )]
     Layout {
-        /// The image.
+        /// Name of the image.
         what: &'static str,
-        /// Before or after.
+        /// Time of the layout: "before" or "after" the recording.
         when: &'static str,
-        /// The layout.
+        /// Layout that was given.
         found: vk::ImageLayout,
     },
-    /// An image has other aspects than are read.
+    /// Image aspects that are not supported.
     #[error("{what} has the aspects {found:?}; it can have {possible}")]
     Aspects {
-        /// The image.
+        /// Name of the image.
         what: &'static str,
-        /// What was said of it.
+        /// Aspects that were given.
         found: vk::ImageAspectFlags,
-        /// What can be.
+        /// Possible aspects, in words.
         possible: &'static str,
     },
 }
@@ -333,7 +335,7 @@ impl From<VulkanError> for HostError {
 }
 
 impl HostError {
-    /// Refuses a count that is 0 or too large.
+    /// Checks that a count is from 1 to `most`.
     pub(super) fn check_count(what: &'static str, found: u32, most: u32) -> Result<(), Self> {
         if (1..=most).contains(&found) {
             Ok(())

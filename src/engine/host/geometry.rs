@@ -1,23 +1,23 @@
-//! What a host lends for all of its frames' draws.
+//! Geometry of a host: buffers and capacities for the draws of all frames.
 
 use super::alpha::{AlphaMap, MOST_MAPS};
 use super::{HostError, Mesh};
 use crate::vulkan::{Gpu, Limits};
 
-/// How the host's clip space lies.
+/// Conventions of the host's clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipSpace {
-    /// Whether y points up, as with a viewport of negative height; otherwise down, as Vulkan has it.
+    /// Whether y points up, as with a viewport of negative height; otherwise y points down, Vulkan's default.
     pub y_up: bool,
-    /// Whether depth runs from 1 near to 0 far; otherwise from 0 to 1.
+    /// Whether depth is reversed: from 1 at the near plane to 0 at the far plane; otherwise from 0 to 1.
     pub reversed_depth: bool,
-    /// What the image of depth holds where depth in clip space is 0, and where it is 1: `minDepth` and `maxDepth` of the host's
-    /// viewport. They differ.
+    /// Values in the depth image for the clip-space depths 0 and 1: `minDepth` and `maxDepth` of the host's viewport.
+    /// The two values must differ.
     pub depth_range: [f32; 2],
 }
 
 impl Default for ClipSpace {
-    /// As Vulkan has it, with a viewport of positive height and a depth range from 0 to 1.
+    /// Vulkan's default: y down with a viewport of positive height, and depth from 0 to 1.
     fn default() -> Self {
         Self {
             y_up: false,
@@ -28,7 +28,7 @@ impl Default for ClipSpace {
 }
 
 impl ClipSpace {
-    /// Factor and constant that lead from what the image of depth holds to depth that is larger where it is nearer.
+    /// Factor and offset that convert values of the depth image to reversed depth, in which larger values are nearer.
     pub(super) fn depth_of_image(&self) -> [f32; 2] {
         let [least, most] = self.depth_range;
         let (factor, constant) = (1.0 / (most - least), -least / (most - least));
@@ -40,45 +40,47 @@ impl ClipSpace {
     }
 }
 
-/// What positions are.
+/// Space and format of vertex positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PositionSpace {
-    /// Four floats in clip space: the very values that the host's vertex shader outputs.
+    /// Clip space, four floats: the same values that the host's vertex shader outputs.
     Clip,
-    /// Three floats in a space of each draw's own, from which [`Draw::to_clip`](super::Draw::to_clip) leads to clip space.
+    /// Object space of the draw, three floats; [`Draw::to_clip`](super::Draw::to_clip) transforms them to clip space.
     Object {
-        /// Most vertices of all draws of a frame, those that several draws have counted for each.
+        /// Largest total number of vertices of a frame's draws. Vertices that several draws share count once for each
+        /// draw.
         capacity: u32,
     },
 }
 
-/// Buffers of a host. They may hold something else in every frame; the engine reads them when a recording is executed.
+/// Buffers and capacities of a host. The contents of the buffers may change in every frame: the engine reads them when
+/// a recording is executed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
-    /// What draws read: each names one of them.
+    /// Meshes; each draw reads one of them.
     pub meshes: Vec<Mesh>,
-    /// What positions are.
+    /// Space and format of vertex positions.
     pub position_space: PositionSpace,
-    /// What draws are tested by that are not opaque. The library reads the images, in `SHADER_READ_ONLY_OPTIMAL`, when a
-    /// frame's first recording is executed, and keeps what they hold then.
+    /// Alpha maps of draws that are not opaque. The library reads their images when a frame's first recording is
+    /// executed, in the layout `SHADER_READ_ONLY_OPTIMAL`, and keeps a copy of their alpha.
     pub alpha_maps: Vec<AlphaMap>,
     /// Whether draws may be [blended](super::Draw::blended).
     pub blended: bool,
-    /// Most triangles of all draws of a frame.
+    /// Largest total number of triangles of a frame's draws.
     pub triangle_capacity: u32,
-    /// Most draws of a frame.
+    /// Largest number of draws of a frame.
     pub draw_capacity: u32,
-    /// How many shading keys there are, 1 to 16,383.
+    /// Number of shading keys, 1 to 16,383.
     pub keys: u32,
-    /// How clip space lies.
+    /// Conventions of clip space.
     pub clip: ClipSpace,
 }
 
-/// Most shading keys: there is one more within, and 14 bits for all.
+/// Largest number of shading keys: the engine adds one key, and a triangle has 14 bits for its key.
 const MOST_KEYS: u32 = (1 << 14) - 1;
-/// Most triangles: the device counts corners in 32 bits.
+/// Largest number of triangles: the device counts triangle corners in 32 bits.
 const MOST_TRIANGLES: u32 = u32::MAX / 3;
-/// Most meshes: each has descriptor sets of its own.
+/// Largest number of meshes: each has its own descriptor sets.
 const MOST_MESHES: u32 = 1 << 16;
 
 impl Geometry {
@@ -137,7 +139,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// Says which of several meshes an error is of.
+    /// Adds the index of the mesh to an error, if there are several meshes.
     fn in_mesh(&self, mesh: usize, error: HostError) -> HostError {
         match self.meshes.len() {
             1 => error,
@@ -148,7 +150,7 @@ impl Geometry {
         }
     }
 
-    /// Whether passes can read positions where they are: those of a single mesh.
+    /// Whether passes can read positions in place, from the buffer of a single mesh.
     pub(super) fn is_read_in_place(&self, limits: &Limits) -> bool {
         match self.meshes.as_slice() {
             [mesh] => mesh.is_read_in_place(self.position_space, limits),
@@ -156,7 +158,7 @@ impl Geometry {
         }
     }
 
-    /// Where positions are in clip space, the first one of each mesh among those of all.
+    /// First position of each mesh, counted over the positions of all meshes, if positions are in clip space.
     pub(super) fn first_positions(&self) -> impl Iterator<Item = u32> {
         self.meshes.iter().scan(0_u32, |next, mesh| {
             let first = *next;
@@ -165,7 +167,7 @@ impl Geometry {
         })
     }
 
-    /// How many positions in clip space there can be.
+    /// Largest number of positions in clip space.
     pub(super) fn position_capacity(&self) -> u32 {
         match self.position_space {
             PositionSpace::Clip => {
@@ -181,7 +183,8 @@ impl Geometry {
 mod tests {
     use super::*;
 
-    /// Depth that is larger where it is nearer, of depth `z` in clip space, by the image of depth.
+    /// Reversed depth (larger is nearer) for the clip-space depth `z`, computed from the value that the depth image
+    /// holds.
     fn by_image(clip: ClipSpace, z: f32) -> f32 {
         let [least, most] = clip.depth_range;
         let held = least + (most - least) * z;

@@ -5,52 +5,54 @@ use crate::engine::sampler::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// An image: single-sampled, one level, one layer, of the size in [`Options`](super::Options) or larger.
+/// Image of a host: single-sampled, with one level and one layer, and at least as large as
+/// [`Options::size`](super::Options::size).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LentImage {
-    /// The image.
+    /// Handle of the image.
     pub image: vk::Image,
-    /// A two-dimensional view of it, of one aspect.
+    /// Two-dimensional view of the image, with a single aspect.
     pub view: vk::ImageView,
-    /// The aspects of the image; of a format with stencil, that too, although it is not read.
+    /// All aspects of the image's format, including stencil, which the library does not read.
     pub aspects: vk::ImageAspectFlags,
-    /// Its state when the recording begins.
+    /// State of the image when the recording begins.
     pub before: ImageState,
-    /// Its state when the recording is done.
+    /// State of the image when the recording is done.
     pub after: ImageState,
 }
 
-/// The kinds of images that a frame is recorded with.
+/// Kinds of images with which a frame is recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageKinds {
-    /// Whether triangle IDs are lent; otherwise the library draws IDs and depth for itself.
+    /// Whether the host lends triangle IDs; otherwise the library draws IDs and depth itself.
     pub ids: bool,
-    /// Whether depth is lent, which goes with IDs.
+    /// Whether the host lends depth; requires `ids`.
     pub depth: bool,
-    /// The format of views of colours.
+    /// Format of the views of the colour image.
     pub color_format: vk::Format,
-    /// Whether the host's shaders write sRGB codes into a format of plain numbers; otherwise the image of colours holds linear
-    /// light, or encodes it itself.
+    /// Whether the host's shaders write sRGB codes into a format of plain numbers. Otherwise the colour image holds
+    /// linear light, or its format encodes the light.
     pub color_encoded: bool,
 }
 
-/// What the host has drawn, one sample a pixel, and where its picture goes: images of the [kinds](ImageKinds) that the frame was
-/// prepared for.
+/// Images that the host has drawn with one sample a pixel. The result is drawn into `color`. The images are of the
+/// [kinds](ImageKinds) for which the frame was prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Images {
-    /// Triangle IDs, `R32_UINT`, made with `SAMPLED`: 1 + the index of the nearest triangle in the order of the frame's
-    /// draws, 0 where there is none. Without them, the library draws IDs and depth for itself.
+    /// Image of triangle IDs, `R32_UINT`, created with `SAMPLED`: 1 + the index of the nearest triangle in the order of
+    /// the frame's draws, 0 for no triangle. Without this image, the library draws IDs and depth itself.
     pub ids: Option<LentImage>,
-    /// Depth of the nearest triangle, of any depth format, made with `SAMPLED`; the view shows depth alone.
+    /// Image of the nearest triangle's depth, of any depth format, created with `SAMPLED`; its view has the depth
+    /// aspect only.
     pub depth: Option<LentImage>,
-    /// Colours, made with `SAMPLED` and `COLOR_ATTACHMENT`: superpixels are drawn into it.
+    /// Colour image, created with `SAMPLED` and `COLOR_ATTACHMENT`, into which superpixels are drawn.
     pub color: LentImage,
-    /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in
-    /// [`Options`](super::Options); the library neither reads nor writes what lies around it.
+    /// Upper left pixel of the frame's part of these images. The part has the size
+    /// [`Options::size`](super::Options::size); the library neither reads nor writes pixels outside of it.
     pub corner: [u32; 2],
 }
 
-/// Formats of colour that shaders read as floats and draw.
+/// Colour formats that shaders can read as floats and that can be drawn to.
 const FORMATS: [vk::Format; 12] = [
     vk::Format::R8G8B8A8_UNORM,
     vk::Format::R8G8B8A8_SRGB,
@@ -71,7 +73,7 @@ const ENCODING: [vk::Format; 3] = [
     vk::Format::A8B8G8R8_SRGB_PACK32,
 ];
 
-/// Aspects that images may have, and how these are called; the last ones name all.
+/// Possible aspects of images, with their names; the last name covers all possibilities.
 const COLOR: [(vk::ImageAspectFlags, &str); 1] = [(vk::ImageAspectFlags::COLOR, "COLOR")];
 const DEPTH: [(vk::ImageAspectFlags, &str); 2] = [
     (vk::ImageAspectFlags::DEPTH, "DEPTH"),
@@ -84,8 +86,8 @@ const DEPTH: [(vk::ImageAspectFlags, &str); 2] = [
 ];
 
 impl LentImage {
-    /// Refuses an image without handles, of other aspects than `possible`, or that holds nothing before, where it is read then, or
-    /// afterwards.
+    /// Checks the image: its handles exist, its aspects are among `possible`, and its layouts keep the contents, before
+    /// the recording if `is_read`, and afterwards.
     fn check(
         &self,
         (image, view): (&'static str, &'static str),
@@ -145,7 +147,7 @@ impl ImageKinds {
 }
 
 impl Images {
-    /// `most` is the largest side of an image on the device.
+    /// Checks the images and the frame's part of them. `most` is the largest side of an image on the device.
     pub(super) fn check(
         &self,
         kinds: &ImageKinds,
@@ -182,14 +184,14 @@ impl Images {
         self.ids.iter().chain(&self.depth)
     }
 
-    /// Readies all of them for reading.
+    /// Records the barriers that ready all images for reading.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         for image in self.read().chain([&self.color]) {
             image.record(recorder, image.before, ImageState::READ);
         }
     }
 
-    /// The part that the frame is of, `width` x `height` pixels large.
+    /// Rectangle of the frame's part, `width` x `height` pixels large.
     pub(super) fn part(&self, [width, height]: [u32; 2]) -> vk::Rect2D {
         let [x, y] = self.corner.map(|corner| corner as i32);
         vk::Rect2D {
@@ -198,13 +200,13 @@ impl Images {
         }
     }
 
-    /// Readies the colours for drawing.
+    /// Records the barrier that readies the colour image for drawing.
     pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
         self.color
             .record(recorder, ImageState::READ, ImageState::DRAWN);
     }
 
-    /// Hands all of them back.
+    /// Records the barriers that change all images to their final states.
     pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
         for image in self.read() {
             image.record(recorder, ImageState::READ, image.after);

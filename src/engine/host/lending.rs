@@ -1,4 +1,4 @@
-//! What a host lends, on the device: its triangles as passes read them, and what its shaders see of them.
+//! Device objects for a host's geometry: its triangles for the passes, and the data that its shaders read.
 
 use super::adoption::Adoption;
 use super::alpha::AlphaReading;
@@ -18,7 +18,7 @@ use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
-/// A host's geometry, as frames and lists have it.
+/// Geometry of a host on the device, for frames and lists.
 pub(super) struct Lending {
     pub geometry: Geometry,
     pub content: HostContent,
@@ -26,16 +26,16 @@ pub(super) struct Lending {
     adoption: Adoption,
     visibility: Buffer,
     completion: Completion,
-    /// Whether a recording in which alpha maps are read was executed.
+    /// Whether the device has executed a recording that reads the alpha maps.
     has_alpha: bool,
     memory: Memory,
-    /// Triangles of the last recording.
+    /// Number of triangles of the last recording.
     triangles: u32,
 }
 
 impl Lending {
     /// # Safety
-    /// The host's buffers and views are as [`Geometry`] says and outlive this.
+    /// The host's buffers and views are as [`Geometry`] says, and outlive the returned value.
     pub unsafe fn new(
         shared: &Arc<Shared>,
         memory: Memory,
@@ -66,7 +66,8 @@ impl Lending {
         })
     }
 
-    /// The set that the host's shaders read, with the locations of a list where there are any.
+    /// Makes the descriptor set for the host's shaders; `locations` is the buffer of a list's locations, if a list is
+    /// sampled.
     ///
     /// # Safety
     /// The buffer of locations outlives the set's use.
@@ -83,12 +84,12 @@ impl Lending {
             draw_of: self.content.draw_of(),
             locations,
         };
-        // SAFETY: of locations as the caller says; the rest goes with this.
+        // SAFETY: the caller guarantees the buffer of locations; the others live as long as this value.
         Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed, as `is_uploaded` says
-    /// from then on.
+    /// Begins a recording. `upload` records copies to the device. These are recorded again until the device has
+    /// executed a recording with them; `is_uploaded` says whether it has.
     pub fn record_begin(
         &mut self,
         recorder: &Recorder<'_>,
@@ -114,7 +115,7 @@ impl Lending {
         self.has_alpha |= self.completion.forget();
     }
 
-    /// Bytes that it takes.
+    /// Number of bytes of device memory in use.
     pub fn bytes(&self) -> u64 {
         self.memory.used()
     }
@@ -124,7 +125,7 @@ impl Lending {
         self.completion.end(recorder);
     }
 
-    /// Refuses to read what the last recording wrote before its commands are done.
+    /// Checks that the commands of the last recording are done, so that its results can be read.
     pub fn check_done(&self) -> Result<(), HostError> {
         Ok(self.completion.check()?)
     }
@@ -134,8 +135,8 @@ impl Lending {
         self.adoption.record(recorder, placed);
     }
 
-    /// What the host's shaders are told, who filter textures over squares of this side, in what places say or, with `boxes`,
-    /// in what these say of rectangles.
+    /// Uniform block for the host's shaders. Textures are filtered over squares with the side `place_side`, or, with
+    /// `boxes`, over the rectangles that the visibility samples stand for.
     pub fn visible(plane: &ClipPlane, place_side: f32, boxes: bool) -> VisibilityUniform {
         VisibilityUniform {
             scale: plane.scale,
@@ -146,12 +147,12 @@ impl Lending {
         }
     }
 
-    /// Records what the host's shaders are told from here on.
+    /// Records an update of the uniform block for the host's shaders.
     pub fn record_visible(&self, recorder: &Recorder<'_>, visible: &VisibilityUniform) {
         recorder.update(&self.visibility, 0, bytemuck::bytes_of(visible));
     }
 
-    /// The host's materials as the engine calls them.
+    /// The host's materials, in the form in which the engine calls them.
     pub fn shading<'a>(
         &self,
         shading: &'a dyn ShadeSamples,
@@ -170,10 +171,10 @@ impl Lending {
         }
     }
 
-    /// Figures of the last recording, of a sampler in memory of these sizes.
+    /// Statistics of the last recording of `sampler`, whose memory has `sizes`.
     ///
     /// # Errors
-    /// If the commands are not done, what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// If the commands are not done, timestamps can't be read, or the driver ran kernels in subgroups of another size.
     pub fn statistics(
         &self,
         (sampler, sizes): (&Sampler, &ResourceSizes),

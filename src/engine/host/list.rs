@@ -1,4 +1,4 @@
-//! Sample locations that a host lends, in the place of an image's pixels.
+//! Lists of sample locations that a host lends. They are sampled instead of an image's pixels.
 
 use super::draw::PlacedDraws;
 use super::lending::Lending;
@@ -20,47 +20,51 @@ use crate::vulkan::{Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
 
-/// Where a host's list of sample locations lies, and where what they see goes.
+/// Buffers of a host for a list: sample locations, and the resulting colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LocationList {
-    /// [`Location`]s, made with `STORAGE_BUFFER` and `UNIFORM_TEXEL_BUFFER`. They may change with every recording.
+    /// Buffer of [`Location`]s, created with `STORAGE_BUFFER` and `UNIFORM_TEXEL_BUFFER`. Its contents may change with
+    /// every recording.
     pub locations: vk::Buffer,
-    /// Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    /// Offset of the first location in bytes: a multiple of 256, or of the device's offset alignment for buffer
+    /// descriptors.
     pub offset: u64,
-    /// Most locations of a recording.
+    /// Largest number of locations of a recording.
     pub capacity: u32,
-    /// What they see, made with `TRANSFER_DST`: four floats a location, in their order: linear light and opacity, by which the
-    /// light is multiplied.
+    /// Buffer for the colours of the locations, created with `TRANSFER_DST`. Each location, in the order of the list,
+    /// gets four floats: linear light, premultiplied by opacity, and opacity.
     pub colors: vk::Buffer,
-    /// Where that of the first location goes, in bytes: a multiple of 4.
+    /// Offset of the first location's colour in bytes: a multiple of 4.
     pub colors_offset: u64,
 }
 
-/// A place on the image plane, as it lies in a [`LocationList`]: 32 bytes.
+/// Sample location on the image plane: 32 bytes, an element of a [`LocationList`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Location {
-    /// The pixel that it lies in: column and row from the upper left corner of the image that [`Options::size`] names.
+    /// Column and row of the pixel that contains the location, from the upper left corner of the image of size
+    /// [`Options::size`].
     pub pixel: [i32; 2],
-    /// Where it lies in the pixel, x and y down, from 0 to 1.
+    /// Position in that pixel: x to the right and y down, from 0 to 1.
     pub within: [f32; 2],
-    /// How far apart it lies from its neighbours, in pixels: the change of x and y to the next column and to the next row of
-    /// what the host makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    /// Jacobian of the location's mapping, in pixels: the changes of x and y to the next column, and those to the next
+    /// row, of the host's output. Sub-samples and texture filters cover this parallelogram.
     pub jacobian: [[f32; 2]; 2],
 }
 
-/// What the last recording of a [`List`] did.
+/// Result of the last recording of a [`List`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListOutcome {
-    /// Figures.
+    /// Statistics of the recording.
     pub statistics: Statistics,
-    /// Cells and tiles that found no room, and show the background. [`List::grow`] makes a list with more.
+    /// Number of cells and tiles for which memory did not suffice; these show the background. [`List::grow`] makes a
+    /// list with more memory.
     pub left_over: u64,
-    /// Locations off the image, or that are no numbers. They show the background.
+    /// Number of locations that lie outside of the image or are not finite; these show the background.
     pub left_out: u32,
 }
 
-/// Pipelines and memory to sample a host's locations, of one of its frames in flight.
+/// Pipelines and memory to sample a host's locations, for one of its frames in flight.
 pub struct List {
     lending: Lending,
     list: LocationList,
@@ -74,7 +78,7 @@ pub struct List {
     memory: Memory,
     is_uploaded: bool,
     _locations: TexelView,
-    /// Last: layouts go after what was made with them.
+    /// Dropped last, because layouts must outlive the objects that were made with them.
     shared: Arc<Shared>,
 }
 
@@ -204,7 +208,7 @@ impl List {
             capacity,
             runs: 1,
         };
-        // SAFETY: of the list as the caller says; the rest goes with this.
+        // SAFETY: the caller guarantees the list's buffers; the others live as long as this value.
         let (mut sampler, visibility_set) = unsafe {
             (
                 cells.sampler(&context, (&resources, locations.texels()))?,
@@ -231,23 +235,23 @@ impl List {
         })
     }
 
-    /// The options that it was prepared with.
+    /// Options with which the list was prepared.
     #[must_use]
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// Bytes of device memory that it takes, beside what the host lends.
+    /// Number of bytes of device memory in use, without the host's buffers.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.memory.used()
     }
 
-    /// A list like this one, with more of what the last recording lacked: memory for lists of triangles. Where it lacked nothing, it
-    /// is made with as much; [`Options::max_rounds`] stays what it is.
+    /// Makes a list for the same buffers, with more of the memory that the last recording lacked. If it lacked none,
+    /// the new list has as much memory as this one. [`Options::max_rounds`] stays the same.
     ///
     /// # Errors
-    /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
+    /// If memory runs out, or in the cases of [`Self::outcome`] if the last recording is not done.
     ///
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
@@ -258,22 +262,23 @@ impl List {
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
     }
 
-    /// Records the sampling of the first `count` locations. It submits nothing, waits for nothing, allocates nothing on the
-    /// device and updates no descriptor. `shading` is called once a round.
+    /// Records the sampling of the first `count` locations. `shading` is called once for each round. The call neither
+    /// submits nor waits, allocates no device memory, and updates no descriptor.
     ///
     /// # Errors
-    /// If draws or locations are more than there is room for, or a draw is impossible. Nothing is recorded then.
+    /// If the draws or locations exceed a capacity, or a draw is invalid. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
-    ///   compute. What was bound and pushed before has to be bound and pushed again.
-    /// - The commands of this list's last recording are done, or will never be executed: its memory is used again.
-    /// - In recordings up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
-    ///   made visible to it.
-    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it; those to
-    ///   the buffer of colours are done. What this records is visible to all commands after it on the queue.
-    /// - The list, the buffers and what `shading` records outlive the execution of the commands.
-    /// - What `shading` records is valid, and writes no memory of the list but by `gpc_store`.
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the antialiaser's
+    ///   device and a queue family with compute. The caller must bind and push its state again afterwards.
+    /// - The commands of this list's last recording are done, or will never be executed, because its memory is used
+    ///   again.
+    /// - Alpha maps are in `SHADER_READ_ONLY_OPTIMAL` in all recordings up to the first one that is executed. Earlier
+    ///   writes to them were made on the same queue or made visible to it.
+    /// - The device's earlier writes to the lent buffers were recorded into the same queue or made visible to it;
+    ///   earlier writes to the buffer of colours are done. The results are visible to all later commands on the queue.
+    /// - The list, the buffers and the objects that `shading` records outlive the execution of the commands.
+    /// - The commands that `shading` records are valid, and write no memory of the list except by `gpc_store`.
     pub unsafe fn record(
         &mut self,
         commands: vk::CommandBuffer,
@@ -331,7 +336,7 @@ impl List {
         };
         self.sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
-        // SAFETY: the buffer has room for the colours of as many locations as there can be, as the host says.
+        // SAFETY: the host guarantees that the buffer has room for the colours of `capacity` locations.
         unsafe {
             resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes)
         };
@@ -339,11 +344,13 @@ impl List {
         Ok(())
     }
 
-    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
+    /// Result of the last recording, available once its commands are done, until the next recording begins. This does
+    /// not wait.
     ///
     /// # Errors
-    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
-    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still
+    /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
+    /// or timestamps can't be read, or the driver ran kernels in subgroups of another size.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(
@@ -378,7 +385,7 @@ impl List {
         let (settings, geometry) = (&self.settings, &self.lending.geometry);
         let sizes = self.resources.sizes();
         let plane = PlaneBlock {
-            // Locations may lie anywhere in the tiles at the border.
+            // Locations may lie anywhere in the tiles at the border, also outside of the image.
             size: sizes.region,
             ..plane_block(&geometry.clip, &self.plane(), settings.size)
         };
@@ -393,7 +400,7 @@ impl List {
     }
 }
 
-/// A size in whole tiles.
+/// Rounds a size up to whole tiles.
 fn padded([width, height]: [u32; 2]) -> [u32; 2] {
     [width.next_multiple_of(8), height.next_multiple_of(4)]
 }

@@ -1,57 +1,58 @@
-//! Buffers that a host's draws read.
+//! Buffers of a mesh, which a host's draws read.
 
 use super::alignment::{LentBytes, check_layout, descriptor_alignment};
 use super::{HostError, PositionSpace};
 use crate::vulkan::Limits;
 use ash::vk;
 
-/// Texture coordinates of vertices, by which alpha maps are looked up: two floats each.
+/// Texture coordinates of vertices, two floats each, for alpha maps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinates {
-    /// Made with `STORAGE_BUFFER`.
+    /// Buffer, created with `STORAGE_BUFFER`.
     pub buffer: vk::Buffer,
-    /// Where those of the first vertex are, in bytes: a multiple of 4.
+    /// Offset of the first vertex's coordinates in bytes: a multiple of 4.
     pub offset: u64,
-    /// Bytes from one vertex to the next: a multiple of 4, at least 8.
+    /// Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
     pub stride: u32,
 }
 
 /// An index buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Indices {
-    /// Made with `STORAGE_BUFFER`. The buffer of indices of 16 bits reaches to a multiple of 4 bytes.
+    /// Buffer, created with `STORAGE_BUFFER`. With 16-bit indices, its size is a multiple of 4 bytes.
     pub buffer: vk::Buffer,
-    /// Where they begin, in bytes: a multiple of an index's size.
+    /// Offset of the first index in bytes: a multiple of the size of an index.
     pub offset: u64,
-    /// `UINT16` or `UINT32`.
+    /// Type of the indices: `UINT16` or `UINT32`.
     pub index_type: vk::IndexType,
-    /// How many there can be.
+    /// Largest number of indices.
     pub capacity: u32,
 }
 
-/// The buffers that a draw reads, as they are bound for it: those of a mesh, or of many meshes.
+/// Buffers that draws read, bound together: those of one mesh, or of many meshes that share buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mesh {
-    /// Positions of vertices, made with `STORAGE_BUFFER`; where they lie in clip space and 16 bytes apart, with
-    /// `UNIFORM_TEXEL_BUFFER` too.
+    /// Buffer of vertex positions, created with `STORAGE_BUFFER`, and with `UNIFORM_TEXEL_BUFFER` too if positions are
+    /// in clip space with a stride of 16 bytes.
     pub positions: vk::Buffer,
-    /// Where the first one is, in bytes: a multiple of 4.
+    /// Offset of the first position in bytes: a multiple of 4.
     pub positions_offset: u64,
-    /// Bytes from one to the next: a multiple of 4, and at least those of a position.
+    /// Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
     pub position_stride: u32,
-    /// How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
+    /// Largest number of vertices. A larger index is clamped to the last vertex; in object space, to the last vertex of
+    /// the draw.
     pub vertex_capacity: u32,
-    /// Texture coordinates, for draws with alpha maps.
+    /// Texture coordinates; required for draws with alpha maps.
     pub coordinates: Option<Coordinates>,
-    /// Indices. Without them, a draw takes vertices in their order, as `vkCmdDraw` does.
+    /// Index buffer. Without indices, a draw reads consecutive vertices, as `vkCmdDraw` does.
     pub indices: Option<Indices>,
 }
 
-/// Bytes of a position in clip space.
+/// Size of a position in clip space, in bytes.
 const CLIP_BYTES: u64 = 16;
 
 impl PositionSpace {
-    /// Bytes of a position.
+    /// Size of a position in bytes.
     fn bytes(self) -> u64 {
         match self {
             Self::Clip => CLIP_BYTES,
@@ -61,7 +62,7 @@ impl PositionSpace {
 }
 
 impl Indices {
-    /// Bytes of an index, of a type that is read.
+    /// Size of an index in bytes; `None` for an unsupported type.
     fn bytes(&self) -> Option<u64> {
         match self.index_type {
             vk::IndexType::UINT16 => Some(2),
@@ -76,11 +77,11 @@ impl Indices {
 
     pub(super) fn lent(&self, limits: &Limits) -> LentBytes {
         let bytes = u64::from(self.capacity) * self.bytes().unwrap_or_default();
-        // Shaders read words.
+        // Shaders read whole words.
         LentBytes::new(self.buffer, self.offset, bytes, limits).in_words()
     }
 
-    /// Where indices begin in [`Self::lent`], in indices.
+    /// Number of indices in [`Self::lent`] before the first index of the host.
     pub(super) fn first_lent(&self, limits: &Limits) -> u32 {
         let size = if self.are_short() { 2 } else { 4 };
         self.lent(limits).before / size
@@ -123,7 +124,7 @@ impl Coordinates {
 }
 
 impl Mesh {
-    /// Refuses what can't be read. `most_vertices` is the largest number of vertices that there can be.
+    /// Checks that passes can read the buffers. `most_vertices` is the largest possible number of vertices.
     pub(super) fn check(
         &self,
         space: PositionSpace,
@@ -150,7 +151,7 @@ impl Mesh {
         self.indices.map_or(Ok(()), |indices| indices.check(limits))
     }
 
-    /// Refuses texture coordinates that can't be read.
+    /// Checks that passes can read the texture coordinates.
     pub(super) fn check_coordinates(&self, limits: &Limits) -> Result<(), HostError> {
         let check = |lent: Coordinates| lent.check(self.vertex_steps(), limits);
         self.coordinates.map_or(Ok(()), check)
@@ -165,13 +166,13 @@ impl Mesh {
         LentBytes::new(self.positions, self.positions_offset, bytes, limits)
     }
 
-    /// Texture coordinates and the bytes that they lie in, if there are any.
+    /// Texture coordinates and the range of their buffer, if there are any.
     pub(super) fn lent_coordinates(&self, limits: &Limits) -> Option<(Coordinates, LentBytes)> {
         let lent = self.coordinates?;
         Some((lent, lent.lent(self.vertex_steps(), limits)))
     }
 
-    /// Whether passes can read positions where they are, which lie in this space.
+    /// Whether passes can read positions in place, given the `space` in which they are.
     pub(super) fn is_read_in_place(&self, space: PositionSpace, limits: &Limits) -> bool {
         space == PositionSpace::Clip
             && u64::from(self.position_stride) == CLIP_BYTES

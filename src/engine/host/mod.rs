@@ -1,8 +1,9 @@
 //! Antialiasing of an application's own frames: its geometry, its images, its materials.
 //!
-//! The application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
-//! library. [`Frame::record`] then finds the pixels that alias, samples the application's triangles there, has the
-//! application shade what the samples see ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
+//! The application draws its frame as usual, with an additional attachment of triangle IDs, or leaves some or all of
+//! the drawing to the library. [`Frame::record`] then finds the pixels that alias, and samples the application's triangles
+//! there. The application shades the visibility samples ([`ShadeSamples`]). Finally, the resolved pixels are drawn over
+//! those that alias.
 //!
 //! ```text
 //! application                colour, triangle IDs, depth      pipelines of its materials         colour
@@ -11,10 +12,10 @@
 //!                                                                    └──────── rounds ──────────┘
 //! ```
 //!
-//! [`List`] samples locations that the application lends in a buffer, wherever they lie on the image plane, in the place of an
-//! image's pixels: `distribute` sorts them into tiles, and the rounds are the same.
+//! [`List`] samples locations instead of pixels. The application lends the locations, which may lie anywhere on the
+//! image plane, in a buffer. `distribute` sorts them into tiles, and the rounds are the same.
 //!
-//! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
+//! This module knows no material, light or file. `docs/embedding.md` is the manual.
 
 mod adoption;
 mod alignment;
@@ -60,8 +61,8 @@ use ash::vk;
 use scratch::ScratchPool;
 use std::sync::Arc;
 
-/// What frames share that are executed on one queue: layouts, the pipelines made so far, and the memory that passes hand to each
-/// other. An application that antialiases on several queues has one for each.
+/// Shared state of frames that are executed on one queue: layouts, a cache of pipelines, and scratch memory for passes.
+/// An application with several queues needs an `Antialiaser` for each.
 pub struct Antialiaser {
     shared: Arc<Shared>,
 }
@@ -79,20 +80,20 @@ pub(crate) struct Shared {
 }
 
 impl Antialiaser {
-    /// In a host's device. See [`crate::vulkan::Requirements`] for what the device needs.
+    /// Makes an antialiaser on a host's device. [`crate::vulkan::Requirements`] lists what the device must support.
     ///
     /// # Errors
-    /// [`VulkanError::Missing`] lists all that the device lacks.
+    /// [`VulkanError::Missing`] lists everything that the device lacks.
     ///
     /// # Safety
-    /// - The host's handles are alive, belong together and outlive this and all that it prepares.
+    /// - The host's handles are alive, belong together, and outlive the antialiaser and everything that it prepares.
     /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
     pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
         // SAFETY: passed on to the caller.
         Self::in_gpu(unsafe { Gpu::new(host) }?)
     }
 
-    /// In a device that another part of the library works in.
+    /// Makes an antialiaser on a device that another part of the library uses.
     ///
     /// # Errors
     /// If the driver refuses the layouts.
@@ -113,30 +114,30 @@ impl Antialiaser {
         })
     }
 
-    /// The device.
+    /// Device of the antialiaser.
     #[must_use]
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.shared.gpu
     }
 
-    /// The layout of the set that shaders read visibility samples from, for the layouts of the host's own pipelines. It
-    /// lives as long as this and all frames.
+    /// Layout of the descriptor set from which shaders read visibility samples, for the host's own pipeline layouts.
+    /// The layout lives as long as the antialiaser and all frames.
     #[must_use]
     pub fn samples_layout(&self) -> vk::DescriptorSetLayout {
         self.shared.visibility.raw
     }
 
-    /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, whatever the number
-    /// of its swapchain's images, and makes new ones where a buffer changes. Frames share the memory that passes hand to each
-    /// other, where its size suffices for several: it takes no more room for many frames than for one.
+    /// Makes the pipelines and memory of a frame. An application has one for each frame in flight, whatever the number
+    /// of its swapchain's images, and makes new ones if a buffer changes. Frames share the memory that passes hand to
+    /// each other if its size suffices for several, so that many frames take no more of it than one.
     ///
     /// # Errors
-    /// [`HostError`] names what can't be had; nothing is left behind.
+    /// [`HostError`] names the invalid argument or the missing resource. No object is left behind.
     ///
     /// # Safety
-    /// - The buffers and alpha maps are alive, of this device, of the sizes named, made with the usage flags that [`Geometry`]
+    /// - The buffers and alpha maps are alive, belong to the device, have the sizes and usage flags that [`Geometry`]
     ///   names, and outlive the frame.
-    /// - What is recorded with the frames of this antialiaser is executed on one queue.
+    /// - All recordings of this antialiaser's frames are executed on one queue.
     pub unsafe fn prepare(
         &self,
         geometry: &Geometry,
@@ -147,15 +148,16 @@ impl Antialiaser {
         unsafe { Frame::new(&self.shared, geometry, images, options) }
     }
 
-    /// Makes the pipelines and memory to sample a list of locations, for each frame in flight that does. With one sample each
-    /// location is sampled where it is, with more as a superpixel around it. Of the options, detection, contrast, thin and
-    /// `shade_all` do not matter; the size is that of the image whose pixels locations count in.
+    /// Makes the pipelines and memory to sample a list of locations, for one frame in flight. With one sample, each
+    /// location is sampled at its own position; with more, as a superpixel around it. The options `detection`,
+    /// `contrast`, `thin` and `shade_all` are ignored; `size` is the size of the image in whose pixels locations are
+    /// given.
     ///
     /// # Errors
-    /// [`HostError`] names what can't be had; nothing is left behind.
+    /// [`HostError`] names the invalid argument or the missing resource. No object is left behind.
     ///
     /// # Safety
-    /// - The buffers are alive, of this device, of the sizes named, made with the usage flags that [`Geometry`] and
+    /// - The buffers are alive, belong to the device, have the sizes and usage flags that [`Geometry`] and
     ///   [`LocationList`] name, and outlive the list.
     pub unsafe fn prepare_list(
         &self,

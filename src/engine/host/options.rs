@@ -1,58 +1,65 @@
-//! How a host's frames are antialiased.
+//! Options of antialiasing a host's frames.
 
 use crate::engine::sampler::{
     Coverage, Detection, Footprint, Reference, Settings, Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
-/// How a host's frames are antialiased.
+/// Options of antialiasing a host's frames.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Width and height in pixels of the images lent.
+    /// Width and height of the lent images' part to antialias, in pixels.
     pub size: [u32; 2],
-    /// Samples of a superpixel, 1 to 1,024.
+    /// Number of samples of a superpixel, 1 to 1,024.
     pub samples: u32,
-    /// Where they lie.
+    /// Pattern of the sample locations in a superpixel.
     pub pattern: Pattern,
-    /// How often the inside of a superpixel is shaded.
+    /// Rate of shading within a superpixel.
     pub shading: Shading,
-    /// What makes a pixel a superpixel.
+    /// Rule by which a pixel becomes a superpixel.
     pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is 6, and 1 from 128 samples on.
+    /// Contrast threshold in 8-bit sRGB code values: two colours contrast if any channel differs by more. `None` is 6,
+    /// or 1 from 128 samples on.
     pub contrast: Option<u8>,
-    /// How often pixels become superpixels because they contrast with a superpixel beside them, 0 to 8, with [`Detection::Contrast`];
-    /// `None` is once, and twice from 128 samples on.
+    /// Number of growths, 0 to 8, with [`Detection::Contrast`]. In each growth, pixels that contrast with a
+    /// neighbouring superpixel become superpixels too. `None` is 1, or 2 from 128 samples on.
     pub growths: Option<u8>,
-    /// Whether triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth, too.
+    /// Whether a triangle that is too thin to cover a pixel's centre makes the pixel a superpixel. If IDs are lent,
+    /// depth is needed too.
     pub thin: bool,
-    /// Linear light that shows where neither a triangle nor, unless [`Self::flat_background`] says otherwise, something that the
-    /// host has drawn is; `None` is transparent.
+    /// Background as linear light; `None` is transparent. The background is visible where there is no triangle and,
+    /// unless [`Self::flat_background`] is set, where the host has drawn nothing either.
     pub background: Option<[f32; 3]>,
-    /// Whether [`Self::background`] shows wherever no triangle is. Otherwise, where the host lends its colours, a sample of a
-    /// superpixel that sees no triangle shows what the host has drawn, with its alpha: the colour of the pixel if its centre saw no
-    /// triangle, else of the nearest one of the 8 pixels around it, then of the 24, whose centre saw none, else the background. It
-    /// has to be true with [`Geometry::blended`](super::Geometry::blended), and does not matter with [`Self::shade_all`].
+    /// Whether [`Self::background`] is visible wherever there is no triangle.
+    ///
+    /// Otherwise, if the host lends its colours, a sample of a superpixel that meets no triangle takes the colour and
+    /// alpha that the host has drawn: of the pixel if its centre shows no triangle, else of the nearest such pixel
+    /// among the 8 around it, then among the 24 around it, else the background.
+    ///
+    /// [`Geometry::blended`](super::Geometry::blended) requires true. With [`Self::shade_all`], the flag is ignored.
     pub flat_background: bool,
-    /// Whether the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
+    /// Whether the image holds radiance that is tone-mapped later; detection then compares tone-mapped colours.
     pub high_dynamic_range: bool,
-    /// Whether textures are filtered over what each sample stands for, so that the image converges to the scene as it is;
-    /// otherwise over the whole pixel.
+    /// Whether textures are filtered over the area that each sample represents, so that the image converges to the
+    /// unfiltered scene; otherwise over the whole pixel.
     pub sharp: bool,
-    /// Whether the host's shading makes the colours of all pixels, so that the colour image may hold anything before;
-    /// otherwise of superpixels alone, which are drawn over what it holds.
+    /// Whether the host's shading computes the colours of all pixels, so that the colour image may have any contents
+    /// before. Otherwise only superpixels are shaded, and drawn over the image's contents.
     pub shade_all: bool,
-    /// Bound on the device memory of a frame in bytes.
+    /// Largest number of bytes of device memory for a frame; `None` for no limit.
     pub max_memory: Option<u64>,
-    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these.
-    /// What rounds leave keeps the colours that were drawn, and is counted as left over. With `None` there are as many as an image
-    /// may need or, on GPUs with plenty of memory, usually needs; those that it does not need take next to no time on devices with
+    /// Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
+    /// Superpixels that these rounds leave keep their drawn colours and are counted as left over.
+    ///
+    /// `None` allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need.
+    /// Rounds without work take next to no time on devices with
     /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and little on others.
     pub max_rounds: Option<u32>,
 }
 
 impl Options {
-    /// Those for images of a size: 64 samples, contrast and thin triangles detected, shading in parts.
+    /// Default options for images of a size: 64 samples, detection of contrast and thin triangles, shading in parts.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         Self {
@@ -74,7 +81,7 @@ impl Options {
         }
     }
 
-    /// Whether samples that see no triangle show what the host has drawn.
+    /// Whether samples that meet no triangle take the colour that the host has drawn.
     pub(super) fn shows_drawn(&self) -> bool {
         !self.flat_background && !self.shade_all
     }

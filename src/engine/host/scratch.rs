@@ -1,4 +1,4 @@
-//! Memory that the frames of one antialiaser share.
+//! Scratch memory that the frames of one antialiaser share.
 
 use crate::engine::data::{ResourceSizes, Scratch};
 use crate::engine::passes::RasterTargets;
@@ -7,31 +7,31 @@ use crate::vulkan::{Memory, VulkanError};
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// What the passes of a frame hand to each other. The commands of frames run one after the other on their queue, and each
-/// recording begins with a barrier, so that one piece of it serves all frames in flight.
+/// Scratch memory of a frame's passes. All frames in flight can use the same memory, because their commands run one
+/// after the other on one queue, and each recording begins with a barrier.
 pub(super) struct FrameScratch {
     pub passes: Arc<Scratch>,
-    /// What is drawn for hosts that lend no IDs, and its width and height.
+    /// Images of IDs and depth for hosts that lend no IDs, with their width and height.
     targets: Option<(RasterTargets, [u32; 2])>,
     memory: Memory,
 }
 
-/// What a frame needs of it.
+/// Requirements of a frame for scratch memory.
 pub(super) struct ScratchRequest {
     pub sizes: ResourceSizes,
     pub bin_count: u32,
-    /// Whether IDs and depth are drawn into it.
+    /// Whether the frame draws IDs and depth.
     pub targets: bool,
-    /// Most bytes.
+    /// Largest number of bytes; `None` for no limit.
     pub allowed: Option<u64>,
 }
 
-/// The memory that frames use now.
+/// Scratch memory of the frames that exist.
 #[derive(Default)]
 pub(super) struct ScratchPool(Mutex<Vec<Weak<FrameScratch>>>);
 
 impl ScratchPool {
-    /// Memory that a frame uses already, if that suffices; otherwise memory of its own, which later ones may use.
+    /// Returns scratch memory of another frame if it suffices; otherwise allocates memory, which later frames may use.
     ///
     /// # Errors
     /// If memory runs out.
@@ -40,7 +40,7 @@ impl ScratchPool {
         layout: &FrameLayout,
         request: &ScratchRequest,
     ) -> Result<Arc<FrameScratch>, VulkanError> {
-        // Under the lock, so that frames that are prepared at once share.
+        // The lock is held until the end, so that frames that are prepared at the same time share memory.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|scratch| scratch.strong_count() > 0);
         let mut used = known.iter().filter_map(Weak::upgrade);
@@ -85,12 +85,12 @@ impl FrameScratch {
             && request.allowed.is_none_or(|most| self.bytes() <= most)
     }
 
-    /// What IDs and depth are drawn into, where a frame asked for it.
+    /// Images into which IDs and depth are drawn, if a frame requested them.
     pub fn targets(&self) -> Option<&RasterTargets> {
         self.targets.as_ref().map(|(targets, _)| targets)
     }
 
-    /// Bytes that it takes.
+    /// Number of bytes of device memory in use.
     pub fn bytes(&self) -> u64 {
         self.memory.used()
     }

@@ -1,44 +1,44 @@
-//! Whether a host's shader was compiled with the includes of this library.
+//! Check that a host's shader was compiled with the includes of this library.
 
 use crate::engine::passes::spirv::GPC_SHADER_VERSION;
 
-/// Why the library does not take a shader.
+/// Reason for which the library rejects a shader.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShaderError {
-    /// The words are no module of SPIR-V.
+    /// Words that are no SPIR-V module.
     #[error("the shader is not SPIR-V: {0}")]
     NotSpirv(&'static str),
-    /// The shader has no version.
+    /// Shader without the version of `gpc_visibility.glsl`.
     #[error(
         "the shader has no specialization constant {id}, which is the version of gpc_visibility.glsl: include that file, of this library or a later one, and call gpc_sample",
         id = GPC_SHADER_VERSION.0
     )]
     NoVersion,
-    /// The shader has a version that this library does not know.
+    /// Shader with a version that this library does not support.
     #[error(
         "the shader was compiled with version {found} of gpc_visibility.glsl; this library takes version {taken}: compile the shader with the includes of this library",
         taken = GPC_SHADER_VERSION.1
     )]
     Version {
-        /// The version of the include.
+        /// Version of the include with which the shader was compiled.
         found: u32,
     },
 }
 
-/// First word of a module.
+/// First word of a SPIR-V module.
 const MAGIC: u32 = 0x0723_0203;
-/// Words before the first instruction.
+/// Number of words before the first instruction.
 const HEADER: usize = 5;
 const OP_SPEC_CONSTANT: u32 = 50;
 const OP_DECORATE: u32 = 71;
 const SPEC_ID: u32 = 1;
 
-/// Checks that a shader, in words of SPIR-V, was compiled with a `gpc_visibility.glsl` that this library knows. Check each shader
-/// that shades samples, where its pipeline is made.
+/// Checks that a shader, given as SPIR-V words, was compiled with a supported version of `gpc_visibility.glsl`. Call
+/// this for each shader that shades samples, where its pipeline is made.
 ///
 /// # Errors
-/// [`ShaderError`] says what was found.
+/// [`ShaderError`] names the defect.
 pub fn check_shader(code: &[u32]) -> Result<(), ShaderError> {
     let body = match code {
         [MAGIC, ..] => code
@@ -90,7 +90,7 @@ mod tests {
             .collect()
     }
 
-    /// Where the constant's value is.
+    /// Index of the word that holds the value of a constant instruction.
     fn value(code: &[u32]) -> usize {
         let (id, version) = GPC_SHADER_VERSION;
         let decoration = code

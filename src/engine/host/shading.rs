@@ -5,9 +5,9 @@ use crate::engine::sampler::RecordShading;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// Names and text of the GLSL includes for a host's shaders: `gpc_visibility.glsl`, which says how a visibility sample is
-/// laid out and what to do with it, `gpc_texture.glsl`, which filters textures over it, `gpc_position.glsl`, which places
-/// vertices as the library does, and what they include.
+/// Names and texts of the GLSL includes for a host's shaders. `gpc_visibility.glsl` defines visibility samples and the
+/// functions that read and store them, `gpc_texture.glsl` filters textures over a sample's footprint, and
+/// `gpc_position.glsl` transforms vertices as the library does. The other files are included by these three.
 pub const SHADER_INCLUDES: [(&str, &str); 7] = [
     (
         "gpc_visibility.glsl",
@@ -49,10 +49,11 @@ pub struct VisibilitySamples {
 }
 
 impl VisibilitySamples {
-    /// Bytes from the indirect dispatch of a key to that of the next one.
+    /// Distance in bytes from the indirect dispatch of one key to that of the next.
     pub const DISPATCH_STRIDE: u64 = 16;
 
-    /// The set of [`super::Antialiaser::samples_layout`], to be bound for compute where the shaders expect it.
+    /// Descriptor set with the layout [`super::Antialiaser::samples_layout`], to be bound for compute at the set number
+    /// that the shaders use.
     #[must_use]
     pub fn descriptor_set(&self) -> vk::DescriptorSet {
         self.set
@@ -64,30 +65,32 @@ impl VisibilitySamples {
         self.keys
     }
 
-    /// Buffer and offset of the indirect dispatch of a key's samples, in workgroups of 64 invocations; `None` for a key
-    /// that there is none of.
+    /// Buffer and offset of the indirect dispatch over a key's samples, in workgroups of 64 invocations; `None` if
+    /// there is no such key.
     #[must_use]
     pub fn dispatch(&self, key: u32) -> Option<(vk::Buffer, u64)> {
         let index = u64::from(Argument::Shade as u32) + u64::from(key);
         (key < self.keys).then_some((self.arguments, index * Self::DISPATCH_STRIDE))
     }
 
-    /// A buffer whose first word of 32 bits is zero where the round has nothing to do, so that its dispatches are of no
-    /// workgroups. Recorded after `vkCmdBeginConditionalRenderingEXT` with it, at offset 0, and ended before the callback returns,
-    /// they take no time there, as the engine's own. `None` on devices without
-    /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and where what is shaded is no round.
+    /// Buffer for conditional rendering; its first 32-bit word is zero if the round has no work. The dispatches of such
+    /// a round have no workgroups. To skip them altogether, record them between `vkCmdBeginConditionalRenderingEXT`,
+    /// with this buffer and offset 0, and its end, within the callback. `None` on devices without
+    /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and for shading outside of rounds.
     #[must_use]
     pub fn condition(&self) -> Option<vk::Buffer> {
         self.condition
     }
 }
 
-/// A host's materials.
+/// Materials of a host.
 pub trait ShadeSamples {
-    /// Records the shading of a round's samples: for each key a pipeline, the samples' set, and the key's indirect
-    /// dispatch. It is called a fixed number of times for a frame, in rounds that have nothing to do as well, outside of a render
-    /// pass and of conditional rendering. Dispatches need no barrier between them; what the engine wrote is visible to them, and
-    /// the engine waits for what they write. They may bind and push what they like.
+    /// Records the shading of a round's samples: for each key, a pipeline, the samples' descriptor set, and the key's
+    /// indirect dispatch.
+    ///
+    /// The engine calls this a fixed number of times for each frame, also for rounds without work, outside of a render
+    /// pass and of conditional rendering. The engine's writes are visible to the dispatches, which need no barrier
+    /// between them, and the engine waits for their writes. The callback may bind and push anything.
     fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples);
 }
 
@@ -97,11 +100,11 @@ impl<F: Fn(vk::CommandBuffer, &VisibilitySamples)> ShadeSamples for F {
     }
 }
 
-/// A host's materials as a client of the engine.
+/// Materials of a host as a client of the engine.
 pub(super) struct HostShading<'a> {
     pub shading: &'a dyn ShadeSamples,
     pub samples: VisibilitySamples,
-    /// Bound again, since the host binds its own.
+    /// Set that is bound again after the callback, which binds the host's sets.
     pub set: &'a SampleSet,
 }
 

@@ -1,23 +1,24 @@
-//! How the corners of a draw make triangles.
+//! Primitive topologies of draws.
 
 use crate::engine::passes::spirv;
 
-/// How the corners of a draw make triangles: which of its indices, or of its vertices where there are none, belong to which.
-/// Primitive restart is not known: a draw is one strip or fan.
+/// Primitive topology of a draw: how consecutive corners (indices, or vertices without indices) form triangles.
+/// Primitive restart is not supported: a draw is a single strip or fan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Topology {
-    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST`: each three make one.
+    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST`: every three corners form a triangle.
     #[default]
     List = spirv::TOPOLOGY_LIST,
-    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP`: each one from the third on makes one with the two before it.
+    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP`: each corner from the third on forms a triangle with the two before it.
     Strip = spirv::TOPOLOGY_STRIP,
-    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN`: each one from the third on makes one with the one before it and the first.
+    /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN`: each corner from the third on forms a triangle with the one before it and
+    /// the first.
     Fan = spirv::TOPOLOGY_FAN,
 }
 
 impl Topology {
-    /// How many corners so many triangles have.
+    /// Number of corners of `triangles` triangles.
     #[must_use]
     pub fn corners(self, triangles: u32) -> u64 {
         let triangles = u64::from(triangles);

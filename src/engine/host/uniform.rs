@@ -1,4 +1,4 @@
-//! The parts of the uniform block that say what a host lends.
+//! Parts of the uniform block that depend on a host's geometry and images.
 
 use super::alpha::ROW;
 use super::draw::PlacedDraws;
@@ -6,10 +6,11 @@ use super::viewport::ClipPlane;
 use super::{ClipSpace, Geometry, HostError};
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock};
 
-/// Trips that loops have on CPU devices, with some to spare; in each, a workgroup of `bin` takes 64 tiles of 32 pixels.
+/// Number of loop iterations that CPU devices complete, with a margin; in each, a workgroup of `bin` processes 64 tiles
+/// of 32 pixels.
 const TRIPS: u64 = 60_000;
 
-/// Refuses images of more tiles than devices get through.
+/// Checks that an image does not have more tiles than devices can process.
 pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), HostError> {
     let most = TRIPS * 64 * 32;
     if u64::from(width) * u64::from(height) > most {
@@ -22,7 +23,7 @@ pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), HostError> {
     Ok(())
 }
 
-/// A host's triangles, as a recording draws them.
+/// Scene block of a host's triangles for a recording.
 pub(super) fn scene_block(geometry: &Geometry, placed: &PlacedDraws) -> SceneBlock {
     SceneBlock {
         triangle_count: placed.triangles,
@@ -34,10 +35,10 @@ pub(super) fn scene_block(geometry: &Geometry, placed: &PlacedDraws) -> SceneBlo
     }
 }
 
-/// The part of the images, of this size, that a host's clip space lies on.
+/// Plane block of a frame's part of the images, `size` pixels large; `plane` is the mapping of clip space to the part.
 pub(super) fn plane_block(clip: &ClipSpace, plane: &ClipPlane, size: [u32; 2]) -> PlaneBlock {
     let [x, y] = plane.scale;
-    // Depth in which larger is nearer: z, or w - z.
+    // Transformation to reversed depth, in which larger values are nearer: z, or w - z.
     let (z, z_of_w) = if clip.reversed_depth {
         (1.0, 0.0)
     } else {

@@ -1,40 +1,40 @@
-//! Where clip space lies on the images.
+//! Mapping of clip space to the images.
 
 use super::{ClipSpace, HostError};
 
-/// Where clip space lies on the host's images, in pixels from their upper left corner, as in `VkViewport`.
+/// Viewport of the host, as `VkViewport`, in pixels from the upper left corner of its images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewport {
-    /// Its left side.
+    /// Left side of the viewport.
     pub x: f32,
-    /// Its upper side; with a negative height, its lower side.
+    /// Upper side of the viewport; with a negative height, its lower side.
     pub y: f32,
-    /// Its width.
+    /// Width of the viewport.
     pub width: f32,
-    /// Its height: negative if [`ClipSpace::y_up`] is true, otherwise positive.
+    /// Height of the viewport: negative if [`ClipSpace::y_up`] is true, otherwise positive.
     pub height: f32,
 }
 
-/// Clip space in pixels of a frame's part of the images.
+/// Mapping of clip space to pixels of a frame's part of the images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ClipPlane {
-    /// Pixels from the middle of clip space to its sides, y down: a negative y where it points up.
+    /// Factors from normalised device coordinates to pixels with y down; the factor of y is negative if y points up.
     pub scale: [f32; 2],
-    /// The middle of clip space, from the upper left corner of the part.
+    /// Centre of clip space in pixels from the upper left corner of the part.
     pub middle: [f64; 2],
 }
 
 impl ClipPlane {
-    /// That of clip space that spans a part of this size.
+    /// Mapping of a clip space that spans a part of the given size.
     pub fn of_size(clip: &ClipSpace, size: [u32; 2]) -> Self {
         let middle = size.map(|side| 0.5 * f64::from(side));
         Self::with_middle(clip, middle, middle)
     }
 
-    /// That of a viewport, with a part of the images that begins at `corner`.
+    /// Mapping of a viewport, for a part of the images that begins at `corner`.
     ///
     /// # Errors
-    /// If the viewport is no rectangle, or does not hold the part.
+    /// If the viewport is no rectangle, or does not contain the part.
     pub fn of_viewport(
         clip: &ClipSpace,
         viewport: &Viewport,

@@ -8,7 +8,7 @@ use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, Shown, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Triangles and draws that a dispatch adopts, the first index of the host's buffer, counted in indices, and the topology.
+/// Push constants of a dispatch: ranges of triangles and indices, the number of draws, and the topology.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
 /// Makes triangles from indices.
@@ -23,8 +23,8 @@ impl Adopt {
         Ok(Self(LentKernel::new(gpu, &adopt_set::ALL)?))
     }
 
-    /// Makes the pipeline for indices of 16 bits if they `are_short`, otherwise of 32 bits; with `None`, for vertices without
-    /// indices.
+    /// Makes the pipeline: for 16-bit indices if `are_short` is true, for 32-bit indices if it is false, and for
+    /// vertices without indices if it is `None`.
     ///
     /// # Errors
     /// If the driver refuses it.

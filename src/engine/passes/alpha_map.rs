@@ -9,20 +9,20 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// Level of an alpha map: its size in texels, and its first word in the atlas. Bit 0 of `repeats` repeats it along u,
-/// bit 1 along v.
+/// Level of an alpha map: its size in texels, and its first word in the atlas. Bits 0 and 1 of `repeats` say whether
+/// the map repeats along u and v.
 pub(crate) use spirv::AlphaMapPush as AlphaLevel;
 
 impl AlphaLevel {
-    /// Number of words of the level: one for each place between 2 x 2 texels; the first row and column reach half out
-    /// of the image.
+    /// Number of words of the level: (width + 1) x (height + 1). Each word belongs to a corner where 2 x 2 texels meet,
+    /// including the corners at the border of the image.
     pub fn words(&self) -> u64 {
         let [width, height] = self.size.map(|side| u64::from(side) + 1);
         width * height
     }
 }
 
-/// Reads the levels of a host's images.
+/// Kernel that reads the levels of a host's images.
 pub(crate) struct AlphaMaps {
     layout: PipelineLayout,
     set_layout: SetLayout,

@@ -1,4 +1,4 @@
-//! arguments: turns what passes counted into the sizes of the dispatches that follow.
+//! arguments: turns the counts of a pass into the sizes of the dispatches that follow.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -27,8 +27,8 @@ pub(crate) enum After {
 pub(crate) struct Arguments {
     layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
-    /// The pass that counted, and the number of subgroups that [`Sample`](super::Sample) uses for an entry of a list:
-    /// in the first run, for all samples, and of tiles without a list.
+    /// Push constants: the pass that counted, and the numbers of subgroups that [`Sample`](super::Sample) uses for an
+    /// entry of a list: in the first run, in a run with all samples, and for tiles without a list.
     pushed: spirv::ArgumentsPush,
 }
 
@@ -41,8 +41,8 @@ impl Arguments {
         Self::of_samples(layout, after, [1; 3])
     }
 
-    /// Makes the pipeline for the entries of lists, each of which takes a number of subgroups: in the first run, for
-    /// all samples, and of tiles without a list.
+    /// Makes the pipeline for the entries of lists. An entry takes `first` subgroups in the first run, `all` in a run
+    /// with all samples, and `unlisted` for tiles without a list.
     ///
     /// # Errors
     /// As [`Self::new`].

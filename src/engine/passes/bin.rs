@@ -8,7 +8,7 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Lists the pairs, and counts those of each tile.
+/// Lists the pairs, and counts the pairs of each tile.
 pub struct Bin {
     layout: vk::PipelineLayout,
     arguments: Arguments,

@@ -51,7 +51,7 @@ impl Centres {
         }
     }
 
-    /// Bands in which an image of `pixels` pixels is shaded, with room for `room` records.
+    /// Bands of pixels in which an image of `pixels` pixels is shaded; a band fits into the room for `room` records.
     fn bands(pixels: u32, room: u32) -> impl ExactSizeIterator<Item = Range<u32>> {
         let room = room.max(1);
         (0..pixels.div_ceil(room)).map(move |n| n * room..pixels.min((n + 1).saturating_mul(room)))

@@ -6,7 +6,8 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Replaces each leaf of a list of layers by the colour of the list, for [`Resolve`](super::Resolve).
+/// Composites each list of layers. The resulting colour replaces that of the list's leaf, where
+/// [`Resolve`](super::Resolve) reads it.
 pub struct Composite {
     pipeline: Arc<Pipeline>,
 }

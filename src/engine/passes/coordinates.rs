@@ -9,7 +9,7 @@ use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Reads coordinates in the order of positions.
+/// Kernel that reads coordinates in the order of positions.
 pub(crate) struct Coordinates(LentKernel<spirv::Coordinates, VertexCounts>);
 
 impl Coordinates {
@@ -21,7 +21,7 @@ impl Coordinates {
         Ok(Self(LentKernel::new(gpu, &coordinates_set::ALL)?))
     }
 
-    /// Makes the pipeline. If draws have matrices, each draw has positions of its own.
+    /// Makes the pipeline. If draws have matrices, each draw has its own positions.
     ///
     /// # Errors
     /// If the driver refuses it.

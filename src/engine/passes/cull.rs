@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub enum CullFilter {
     /// Triangles that may touch a cell.
     Touching,
-    /// Of these, triangles that may be thin in some cell.
+    /// Triangles that may touch a cell, and may be thin in some cell.
     Thin,
 }
 

@@ -15,7 +15,7 @@ pub enum DetectMode {
     Edges = spirv::DETECT_EDGES,
     /// A neighbour with another triangle.
     Exact = spirv::DETECT_EXACT,
-    /// A BLEND triangle at its centre.
+    /// A BLEND triangle at the pixel's centre.
     Blended = spirv::DETECT_BLENDED,
     /// Every pixel is a superpixel.
     Every = spirv::DETECT_EVERY,
@@ -34,9 +34,10 @@ pub struct DetectOptions {
     pub transparent: bool,
     /// Whether to read the IDs of a multisampled raster, for [`DetectMode::Blended`].
     pub multisampled: bool,
-    /// Number of words for each place that say which lights reach it; these are compared like triangles.
+    /// Number of shadow words of each place; their bits say which lights reach it. Neighbours with different words are
+    /// compared like neighbours with different triangles.
     pub shadow_words: u32,
-    /// Number of pixels around the region within which pixels become superpixels too, for [`Grow`](super::Grow).
+    /// Width in pixels of a border around the region whose pixels become superpixels too, for [`Grow`](super::Grow).
     pub beyond: u32,
 }
 

@@ -16,7 +16,8 @@ const STEPS: [u32; 4] = [
     spirv::DISTRIBUTE_ENCLOSE,
 ];
 
-/// A list of sampling locations, and the region of the plane in which they count: pixels from (0, 0) on.
+/// Size of a list of sampling locations, and of the region of the plane, from pixel (0, 0) on, in which its locations
+/// are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ListRegion {
     /// Size of the region in tiles of 8 x 4 pixels.
@@ -30,8 +31,8 @@ pub struct ListRegion {
 pub enum ListLength<'a> {
     /// The host knows the length: [`ListRegion::count`].
     Known,
-    /// The length is on the device, and at most [`ListRegion::count`]; an indirect dispatch has the number of
-    /// workgroups.
+    /// The device knows the length, which is at most [`ListRegion::count`]; the number of workgroups is in an indirect
+    /// dispatch.
     Counted(&'a Buffer, Argument),
 }
 
@@ -51,7 +52,7 @@ impl Distribute {
     /// If the driver refuses one.
     ///
     /// # Safety
-    /// The view `locations` outlives this, and has as many locations as the resources have room for.
+    /// The view `locations` outlives the returned value, and has as many locations as the resources have room for.
     pub unsafe fn new(
         layout: &FrameLayout,
         cells: Cells,

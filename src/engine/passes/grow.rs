@@ -1,4 +1,4 @@
-//! grow: makes pixels superpixels if they contrast with a superpixel beside them.
+//! grow: makes pixels superpixels if they contrast with a neighbouring superpixel.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
@@ -11,7 +11,8 @@ pub struct Grow {
 }
 
 impl Grow {
-    /// Makes the pipeline. Pixels within `beyond` pixels around the region grow too, for a later growth.
+    /// Makes the pipeline. Pixels in a border of `beyond` pixels around the region grow too, because a later growth
+    /// compares with them.
     ///
     /// # Errors
     /// If the driver refuses it.

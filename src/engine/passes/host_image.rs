@@ -1,4 +1,4 @@
-//! The image of colours that a host has drawn, as input of kernels.
+//! Colour image of a host as input of kernels.
 
 use super::spirv::take_set;
 use crate::engine::pipelines::FrameLayout;
@@ -33,8 +33,8 @@ impl HostImageLayout {
         }))
     }
 
-    /// Makes the set of an image. [`HostImage::show`] sets the image, which holds linear light or, if `encoded`, sRGB
-    /// codes as plain numbers.
+    /// Makes the descriptor set of an image, which [`HostImage::show`] sets. The image holds linear light or, if
+    /// `encoded`, sRGB codes as plain numbers.
     ///
     /// # Errors
     /// If the driver refuses the set.
@@ -48,7 +48,8 @@ impl HostImageLayout {
 }
 
 impl HostImage {
-    /// Sets the image. It must be in the layout `SHADER_READ_ONLY_OPTIMAL` when kernels read it.
+    /// Sets the image that the descriptor set shows. The image must have the layout `SHADER_READ_ONLY_OPTIMAL` when
+    /// kernels read it.
     ///
     /// # Safety
     /// No commands that use the set are pending, and the view outlives the commands that are recorded from now on.

@@ -24,7 +24,7 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Makes the pipeline for images of a format that hold linear light, or with `encoded` sRGB codes as plain
+    /// Makes the pipeline for images of a format, which hold linear light or, if `encoded`, sRGB codes as plain
     /// numbers.
     ///
     /// # Errors

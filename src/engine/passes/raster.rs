@@ -94,7 +94,7 @@ impl RasterTargets {
         }
     }
 
-    /// Changes the layout of single-sampled images to that of the descriptor sets, for frames that draw nothing.
+    /// Changes single-sampled images to the layout that descriptors need, for frames that draw nothing.
     pub fn record_unused(&self, recorder: &Recorder<'_>) {
         for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
             .into_iter()
@@ -109,7 +109,7 @@ impl RasterTargets {
     }
 }
 
-/// Format of IDs. A multisampled attachment need not support integers, but can hold their four bytes.
+/// Format of IDs: four bytes. A multisampled attachment need not support integers, so it has four 8-bit channels.
 fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
     if samples == vk::SampleCountFlags::TYPE_1 {
         vk::Format::R32_UINT
@@ -129,7 +129,7 @@ pub(crate) struct RasterRun {
     pub triangle_count: u32,
     pub double_sided: bool,
     pub masked: bool,
-    /// Whether they are composited, and drawn after all others.
+    /// Whether the triangles are composited; such triangles are drawn after all others.
     pub blended: bool,
 }
 

@@ -7,32 +7,32 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
-/// Pass that reads further output of [`Resolve`] besides the colours.
+/// Later pass that reads more of [`Resolve`]'s output than the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResolveTarget {
-    /// None.
+    /// No such pass.
     Nothing,
     /// [`Detect`](super::Detect), which compares the resolved colours.
     Detect,
-    /// [`Grow`](super::Grow), for which neighbours that contrast are marked.
+    /// [`Grow`](super::Grow), for which `resolve` marks neighbours that contrast.
     Grow,
 }
 
 /// Averages the visibility samples of each cell.
 pub struct Resolve {
-    /// Pass that blends layers before; `None` if there are none.
+    /// Pass that blends layers before this pass; `None` without layers.
     composite: Option<Composite>,
     kernels: Vec<(TileList, Arc<Pipeline>)>,
-    /// Image of the host whose colours samples take that see no triangle; without it they take the background.
+    /// Host's image with the colours of samples that see no triangle; `None` for the background.
     behind: Option<Arc<HostImage>>,
 }
 
 impl Resolve {
     /// Makes a pipeline for each tile list of `sample`.
     ///
-    /// `target` is the later pass that needs further output, and `output` holds the colour constants of
+    /// `target` is the later pass that reads more than the colours, and `output` holds the colour constants of
     /// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
-    /// the background without an image. Layers are composited over the background alone, so `behind` is `None` for
+    /// the background if it is `None`. Layers are composited only over the background, so `behind` must be `None` for
     /// scenes that may have layers.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl Resolve {
         })
     }
 
-    /// Makes the pipeline for visibility samples of `multisample`, which have one header for each cell.
+    /// Makes the pipeline for the visibility samples of `multisample`, where each cell has a single header.
     ///
     /// # Errors
     /// If the driver refuses it.

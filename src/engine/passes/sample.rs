@@ -23,7 +23,7 @@ pub enum TileList {
 }
 
 impl TileList {
-    /// Whether its tiles have lists of candidates, none of which is translucent.
+    /// Whether the list's tiles have lists of candidates without translucent triangles.
     fn is_opaque(self) -> bool {
         matches!(self, Self::Plain | Self::Masked)
     }
@@ -40,44 +40,44 @@ impl TileList {
 pub struct SampleOptions {
     /// Kind of the cells.
     pub cells: Cells,
-    /// Number of samples of a cell; for points, the largest number.
+    /// Number of samples of a cell; for cells of points, the largest number of points.
     pub samples: u32,
-    /// Whether samples lie on lines, in cells that `sample_lines` can process.
+    /// Whether the samples of cells that `sample_lines` can process lie on lines.
     pub lines: bool,
     /// Rate of visibility samples.
     pub records: RecordRate,
     /// Whether triangles that nothing occludes get the exact area of their part of a cell.
     pub exact_areas: bool,
-    /// Whether a few samples may suffice for a cell, so that a first run with few samples is worthwhile if there are
-    /// many.
+    /// Whether a few samples may suffice for a cell. If so, cells with many samples get a first run with few samples.
     pub can_settle: bool,
-    /// How cells of long lists of candidates are sampled.
+    /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
-    /// Whether tiles without a list are sampled, of which `scatter` found what their samples see.
-    /// Otherwise they are skipped and counted.
+    /// Whether tiles without a list are sampled, with `scatter`. Otherwise they are skipped and counted.
     pub unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
     pub has_blend: bool,
-    /// Whether all cells show a BLEND triangle, so that only lists with these are sampled.
+    /// Whether all cells show a BLEND triangle; then only lists with BLEND triangles are sampled.
     pub always_blends: bool,
 }
 
-/// How cells are sampled whose lists of candidates are long, so that loops over them end in time.
+/// Sampling of cells with long lists of candidates. Loops over these must stay within the number of iterations that
+/// drivers allow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LongLists {
-    /// As others: a subgroup samples blocks of several cells.
+    /// Like other cells: a subgroup samples blocks of several cells.
     #[default]
     Together,
-    /// A subgroup samples a block of one cell.
+    /// A subgroup samples a block of a single cell.
     Apart,
-    /// A subgroup samples a block of one cell, and tiles have no list if loops over it might not end in time.
+    /// A subgroup samples a block of a single cell, and tiles have no list if loops over it might exceed the
+    /// number of iterations.
     Scattered,
 }
 
 impl LongLists {
-    /// What to do where loops over lists did not end in time.
+    /// Next option to try if loops over lists exceeded the number of iterations.
     pub(crate) fn shorter(self) -> Self {
         match self {
             Self::Together => Self::Apart,
@@ -89,8 +89,8 @@ impl LongLists {
         self != Self::Together
     }
 
-    /// Largest numbers of candidates of a tile of opaque and alpha-tested triangles, and of one with BLEND triangles. Tiles with
-    /// more have no list.
+    /// Largest numbers of candidates in the list of a tile: of a tile without BLEND triangles, and of one with them.
+    /// Tiles with more candidates have no list.
     pub(crate) fn longest(self) -> [u32; 2] {
         match self {
             Self::Together | Self::Apart => [spirv::LONGEST_LIST; 2],
@@ -99,18 +99,19 @@ impl LongLists {
     }
 }
 
-/// Number of visibility samples that the samples of a block make if they see the same triangle.
+/// Number of visibility samples that represent the samples of a block that see the same triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordRate {
     /// One visibility sample.
     Triangle,
-    /// One for each sixteenth of a cell's samples, which is at least 8 samples and at most a block.
+    /// One visibility sample for each part of a cell. A part has 1 sample in cells of fewer than 32 samples, and 2 or 4 in
+    /// larger ones.
     Part,
     /// One for each sample.
     Sample,
 }
 
-/// Samples that a kernel processes, in the order of `RUN` in `shaders/sample.comp`.
+/// Samples of a cell that a kernel processes, in the order of `RUN` in `shaders/sample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 enum Run {
@@ -119,13 +120,13 @@ enum Run {
     Rest = spirv::RUN_REST,
 }
 
-/// Kernels: one for each kind of tile that the scene can have, followed by those of a second run over cells that the
-/// first run left.
+/// Kernels of sampling: one for each kind of tile that the scene can have, followed by those of a second run, over
+/// cells that the first run left.
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
     arguments_of_rest: Arguments,
-    /// Pass before the kernel for tiles without a list; `None` if they are skipped.
+    /// Pass before the kernel for tiles without a list; `None` if such tiles are skipped.
     scatter: Option<Scatter>,
     options: SampleOptions,
     block: u32,
@@ -142,7 +143,7 @@ const KERNELS: Kernels = [
     (8, spirv::SAMPLE_8),
     (16, spirv::SAMPLE_16),
 ];
-/// Kernels that store the samples of a cell as a mask, by the largest number of samples.
+/// Kernels that store the samples of a cell as a mask, each with the largest number of samples that it supports.
 const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
@@ -179,7 +180,8 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-/// Constants of the kernels with masks, from those of the general kernel. Loops over samples may be `rolled`.
+/// Constants of the kernels with masks, from those of the general kernel. `rolled` says whether loops over samples stay
+/// loops.
 fn of_masks(shader: &spirv::Sample, rolled: bool) -> spirv::SampleMasks {
     spirv::SampleMasks {
         local_size: shader.local_size,
@@ -196,7 +198,7 @@ fn of_masks(shader: &spirv::Sample, rolled: bool) -> spirv::SampleMasks {
     }
 }
 
-/// Constants of the kernel with lines, from those of the general kernel: a header stands for `header` samples, and a
+/// Constants of the kernel with lines, from those of the general kernel. A header represents `header` samples, and a
 /// cell has `lines` lines.
 fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLines {
     spirv::SampleLines {
@@ -218,7 +220,7 @@ fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLin
 impl Sample {
     /// Number of samples of the first of two runs; their offsets follow those of the cell.
     pub const PROBES: u32 = spirv::PROBE_SAMPLES;
-    /// Preferred number of samples of a block; it is larger only where this would leave invocations idle.
+    /// Preferred number of samples of a block. A block is larger only if invocations would be idle otherwise.
     const BLOCK: u32 = 64;
 
     /// Makes the kernels.
@@ -257,7 +259,8 @@ impl Sample {
             } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let (_, code) = if options.samples <= few.0 { few } else { many };
-                // Compilers of GPU drivers spill registers if the loops are unrolled; CPU drivers are slower if they are not.
+                // Compilers of GPU drivers spill registers if these loops are unrolled; CPU drivers are slower if they
+                // are not.
                 let rolled = layout.gpu.limits().device_type != vk::PhysicalDeviceType::CPU;
                 layout.compute_variant(code, &of_masks(&shader, rolled), layout.subgroup())?
             } else {
@@ -348,18 +351,19 @@ impl Sample {
         &self.options
     }
 
-    /// Number of samples of a block, for which a header stands.
+    /// Number of samples of a block, which has one header.
     #[must_use]
     pub fn block(&self) -> u32 {
         self.block
     }
 
-    /// Number of subgroups for an entry of a list: in the first run, for all samples, and of tiles without a list.
+    /// Numbers of subgroups for an entry of a list: in the first run, in a run with all samples, and for tiles without
+    /// a list.
     pub(crate) fn subgroups(&self) -> [u32; 3] {
         self.subgroups
     }
 
-    /// Largest number of visibility samples of a triangle in a block, if a cell has all its samples.
+    /// Largest number of visibility samples of a triangle in a block, if all samples of the cell are processed.
     #[must_use]
     pub fn parts(&self) -> u32 {
         match self.options.records {
@@ -368,13 +372,13 @@ impl Sample {
         }
     }
 
-    /// Lists that are sampled.
+    /// Lists of tiles that are sampled.
     pub fn lists(&self) -> impl Iterator<Item = TileList> + '_ {
         self.kernels.iter().map(|(list, _)| *list)
     }
 
-    /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), none must
-    /// be marked before the first round.
+    /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), the marks
+    /// must be cleared before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Sample::INTERFACE, || {
             for (list, pipeline) in &self.kernels {
@@ -389,7 +393,7 @@ impl Sample {
                 let argument = Argument::PlainLeft as u32 + *list as u32;
                 recorder.dispatch_indirect(pipeline, arguments, argument);
             }
-            // The memory of lists is used again.
+            // Tiles without a list come last, because `scatter` overwrites the memory of lists.
             let unlisted = self
                 .kernels
                 .iter()
@@ -403,8 +407,8 @@ impl Sample {
 }
 
 impl SampleOptions {
-    /// Whether a run measures areas: only if it processes all samples of a cell at once. Cells that the kernels with
-    /// masks leave have more triangles than areas are stored for.
+    /// Whether a run measures areas. This requires a run that processes all samples of a cell at once. Cells that the
+    /// kernels with masks leave have more triangles than areas can be stored for.
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
             Run::Whole => self.samples <= Sample::PROBES,
@@ -414,31 +418,32 @@ impl SampleOptions {
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
     }
 
-    /// Whether a run shades by parts: not if a part is at least a block. The first run leaves cells that have to be
-    /// shaded by parts to the second.
+    /// Whether a run shades by parts, which makes no difference if a part is at least a block. The first run leaves
+    /// cells that need shading by parts to the second run.
     fn by_part(&self, run: Run, block: u32) -> bool {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether special kernels process cells of opaque and alpha-tested triangles, and may leave some of them.
+    /// Whether special kernels, with masks or lines, process cells of opaque and alpha-tested triangles. They may leave
+    /// some cells.
     fn by_cell(&self) -> bool {
         !self.cells.are_points() && !self.always_blends && self.records != RecordRate::Sample
     }
 
-    /// Whether these kernels store the samples of a pixel as a mask.
+    /// Whether the special kernels store the samples of a pixel as a mask.
     fn by_masks(&self) -> bool {
         let few = (2..=64).contains(&self.samples);
         let apart = self.long_lists.is_apart();
         self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !apart && few
     }
 
-    /// Whether these kernels have samples on lines.
+    /// Whether the special kernels have samples on lines.
     fn by_lines(&self) -> bool {
         self.by_cell() && self.lines && self.samples >= 16
     }
 
-    /// Number of lines of 64 samples of a cell, for subgroups with `lanes` invocations: an invocation processes at
-    /// least half a line.
+    /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes
+    /// at least half a line.
     fn lines_of_cell(&self, lanes: u32) -> u32 {
         match self.samples {
             ..=64 if lanes < 32 => 8,
@@ -447,12 +452,12 @@ impl SampleOptions {
         }
     }
 
-    /// Whether a cell has a single header if it is not left to a second run.
+    /// Whether each cell has a single header, except cells that are left to a second run.
     pub(super) fn has_one_header(&self) -> bool {
         self.probes() || self.by_lines()
     }
 
-    /// Largest number of visibility samples of a cell beyond its number of samples.
+    /// Largest number by which a cell's visibility samples may exceed its samples.
     pub(super) fn more_records(&self) -> u32 {
         if self.by_lines() {
             spirv::MORE_RECORDS
@@ -461,7 +466,7 @@ impl SampleOptions {
         }
     }
 
-    /// Whether a first run leaves cells to a second one, and marks them.
+    /// Whether a first run marks cells and leaves them to a second run.
     #[must_use]
     pub fn leaves_cells(&self) -> bool {
         self.probes() || self.by_masks() || self.by_lines()

@@ -1,4 +1,4 @@
-//! scatter: finds what the samples of tiles without a list of candidates see.
+//! scatter: finds the visible triangles of samples in tiles without a list of candidates.
 
 use super::arguments::{After, Arguments};
 use super::{SampleOptions, spirv};
@@ -8,7 +8,7 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Shows triangles to samples one by one, so that a tile may have any number of them.
+/// Tests the triangles of a tile one by one, so that their number is not limited.
 pub struct Scatter {
     layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
@@ -42,7 +42,7 @@ impl Scatter {
         })
     }
 
-    /// Records the pass over the tiles of the round that have no list. Lists of candidates are lost.
+    /// Records the pass over the tiles of the round that have no list. The pass overwrites the lists of candidates.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         let step = |step, every, argument: Argument| {
             recorder.push(self.layout, &spirv::ScatterPush { step, every });

@@ -1,4 +1,4 @@
-//! tally, schedule, enlist: choose the tiles of a round, and place their lists.
+//! tally, schedule, enlist: choose the tiles of a round, and allocate their lists.
 
 use super::{RecordRate, Sample, SampleOptions, spirv};
 use crate::engine::data::{Argument, ResourceSizes};
@@ -7,7 +7,7 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Takes as many tiles into a round as fit.
+/// Adds tiles to a round as long as they fit.
 pub struct Schedule {
     layout: vk::PipelineLayout,
     tally: Arc<Pipeline>,
@@ -20,12 +20,12 @@ pub struct Schedule {
     pushed: spirv::SchedulePush,
 }
 
-/// Of this number of pixels, usually at most one is a superpixel that needs all the room that it may get.
+/// Number of pixels of which usually at most one is a superpixel that needs its largest possible room.
 const USUAL_PIXELS: u64 = 8;
 
 impl Schedule {
-    /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers a list
-    /// and twice as many lists a block, or more if these are shaded by parts.
+    /// Makes the pipelines for the output of `sample`. Tiles are admitted with room for `layers` BLEND layers in a list
+    /// and for twice as many lists in a block, or for more lists if blocks are shaded by parts.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -79,8 +79,9 @@ impl Schedule {
         })
     }
 
-    /// Numbers of rounds to record for a scene with at most `triangles` triangles: of the cells that are found first, and of each
-    /// growth, which are fewer. With a `factor`, it is that many times what images usually need, and otherwise what any image may need.
+    /// Numbers of rounds to record for a scene with at most `triangles` triangles: for the cells that are found first,
+    /// and for each growth. Without a `factor`, these are the numbers that any image may need. Otherwise, these are
+    /// `factor` times the numbers that images usually need; a growth usually needs a quarter of the first rounds.
     pub fn rounds(&self, sizes: &ResourceSizes, triangles: u32, factor: Option<u32>) -> [u32; 2] {
         let most = self.most_rounds(sizes, triangles);
         let Some(factor) = factor else {
@@ -99,9 +100,9 @@ impl Schedule {
         })
     }
 
-    /// Number of rounds that suffice for all tiles of any image of a scene with at most `triangles` triangles. It
-    /// assumes that every pixel is a cell, or that all of a list's locations lie in one tile, and that each cell needs
-    /// all the room that it may get.
+    /// Number of rounds that suffice for any image of a scene with at most `triangles` triangles. The worst case is
+    /// that every pixel is a cell, or all locations of a list lie in one tile, and that each cell needs its largest
+    /// possible room.
     #[must_use]
     pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
         let tiles = u64::from(sizes.tiles());
@@ -148,8 +149,8 @@ impl Schedule {
         (1 + ended).min(tiles).max(1) as u32
     }
 
-    /// Needs of tiles without a list: of all of them, the room, and of one. `cells` and `cells_of_tile` are the largest
-    /// numbers of cells, of all tiles and of one.
+    /// Needs of tiles without a list, each as the need of all such tiles, the room of a round, and the need of one
+    /// tile. `cells` and `cells_of_tile` are the largest numbers of cells, of all tiles and of one.
     fn unlisted_needs(
         &self,
         sizes: &ResourceSizes,
@@ -165,7 +166,7 @@ impl Schedule {
             true => [self.pushed.longest_layered, self.pushed.layers / 2],
             false => [self.pushed.longest_list, 1],
         };
-        // Where memory may grow, a recording whose pairs outgrow it may leave tiles.
+        // If memory may grow, a recording need not process the tiles that have no list because pairs lacked room.
         let dense = pairs / (1 + u64::from(longest).min(candidates));
         let dense = if pairs < self.most_pairs {
             dense.min(tiles)
@@ -189,7 +190,7 @@ impl Schedule {
         ]
     }
 
-    /// Largest number of visibility samples with which blocks of `headers` headers and `samples` samples are admitted.
+    /// Largest number of visibility samples for which tiles with `headers` headers and `samples` samples are admitted.
     fn most_records(&self, headers: u64, samples: u64) -> u64 {
         if !self.options.has_blend {
             return samples;
@@ -223,12 +224,12 @@ impl Schedule {
     }
 }
 
-/// Largest number of rounds that end because the next tile does not fit. All tiles together need `all`, and none more
-/// than `most`.
+/// Largest number of rounds that end because the next tile does not fit. All tiles together need `all`, and no tile
+/// needs more than `most`.
 fn rounds_ended(all: u64, room: u64, most: u64) -> u64 {
-    // A round and the tile after it need more than the room, and each tile is counted at most twice.
+    // Together, a round and the tile after it need more than the room, and each tile is counted at most twice.
     let of_pairs = 2 * all / room.max(1);
-    // If each tile fits, the room that a round leaves is less than the need of one tile.
+    // If each tile fits, the room that a round leaves unused is smaller than the need of one tile.
     let filled = (room + 1).saturating_sub(most);
     of_pairs.min(all.checked_div(filled).unwrap_or(of_pairs))
 }

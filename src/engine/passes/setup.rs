@@ -6,7 +6,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Fills the lists of candidates that `enlist` has placed.
+/// Fills the lists of candidates that `enlist` has allocated.
 pub struct Setup {
     pipeline: Arc<Pipeline>,
 }

@@ -22,7 +22,7 @@ struct Passes {
 }
 
 impl Sort {
-    /// Invocations of a workgroup, which may be several subgroups.
+    /// Number of invocations of a workgroup, which may have several subgroups.
     const WORKGROUP: u32 = 64;
 
     /// Makes the pipelines.

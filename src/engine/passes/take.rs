@@ -1,4 +1,4 @@
-//! take: reads a host's image, in which superpixels will be replaced.
+//! take: reads a host's colour image, in which superpixels will be replaced.
 
 use super::host_image::HostImage;
 use super::spirv;
@@ -34,7 +34,7 @@ impl Take {
         })
     }
 
-    /// Records the pass for a frame of `pixels` pixels. The frame's set is bound, and remains so.
+    /// Records the pass for a frame of `pixels` pixels. The frame's set is bound before and afterwards.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
         self.image.bind(recorder);
         recorder.dispatch_each(&self.pipeline, u64::from(pixels));

@@ -8,19 +8,20 @@ use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Marks pixels, which `detect` makes superpixels.
+/// Marks pixels that `detect` turns into superpixels.
 pub struct Thin {
     layout: vk::PipelineLayout,
     select: Arc<Pipeline>,
     arguments: Arguments,
     walk: Arc<Pipeline>,
-    /// Factor and constant that lead from the drawn depth to that of triangles, which is larger where they are nearer.
+    /// Factor and offset that convert values of the depth image to reversed depth, in which larger values are nearer.
     depth_of_image: [f32; 2],
 }
 
 impl Thin {
-    /// Makes the pipelines. `blend_ids` looks for BLEND triangles among the nearest ones; `depth_of_image` holds the factor and the
-    /// constant that lead from the drawn depth to that of triangles.
+    /// Makes the pipelines. `blend_ids` says whether BLEND triangles are looked up in the IDs of the nearest BLEND
+    /// triangles. `depth_of_image` holds the factor and the offset that convert values of the depth image to reversed
+    /// depth.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -47,7 +48,7 @@ impl Thin {
         })
     }
 
-    /// Records the pass for a scene with `index_count` indices of triangles; `marks` is cleared first.
+    /// Records the pass for a scene with `indices` triangle slots. `marks` is cleared first.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

@@ -8,10 +8,11 @@ use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Offset of a vertex attribute in the host's buffer, in words of 4 bytes, and number of positions.
+/// Push constants: the range of positions, the number of draws, and the first word and stride, in words of 4 bytes, of
+/// a vertex attribute in the host's buffer.
 pub(crate) use spirv::TransformPush as VertexCounts;
 
-/// Reads vertices, and multiplies them by the matrices of their draws.
+/// Kernel that reads vertices, and multiplies them by the matrices of their draws.
 pub(crate) struct Transform(LentKernel<spirv::Transform, VertexCounts>);
 
 impl Transform {
@@ -23,8 +24,8 @@ impl Transform {
         Ok(Self(LentKernel::new(gpu, &transform_set::ALL)?))
     }
 
-    /// Makes the pipeline: for three floats in object space if the draws have matrices, otherwise for four in clip
-    /// space.
+    /// Makes the pipeline. If the draws have matrices, a position has three floats in object space; otherwise, four
+    /// floats in clip space.
     ///
     /// # Errors
     /// If the driver refuses it.

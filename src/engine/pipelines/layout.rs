@@ -9,8 +9,8 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Largest number of distinct textures of a material. With one for the environment, this is the number of samplers
-/// that every Vulkan device supports.
+/// Largest number of distinct textures of a material. Together with the environment map, these need 16 samplers, as
+/// many as every Vulkan device supports.
 pub(crate) const SLOTS: usize = spirv::shade_set::TEXTURES.count as usize;
 
 /// Number of bytes of push constants: a matrix and four words, for `raster`.

@@ -94,7 +94,8 @@ impl PipelineLayout {
         Self::with_ranges(gpu, sets, if push_bytes > 0 { &push[..] } else { &[] })
     }
 
-    /// With a set beside the frame's, which stays bound where pipelines of this layout and of the frame's are bound by turns.
+    /// Makes a layout with the frame's set and a further set. Both stay bound when pipelines of this layout and of the
+    /// frame's layout alternate.
     pub fn beside_frame(frame: &FrameLayout, set: &SetLayout) -> Result<Self, VulkanError> {
         let sets = [frame.frame_set, set.raw];
         Self::with_ranges(&frame.gpu, &sets, &[FrameLayout::PUSH_RANGE])

@@ -15,7 +15,7 @@ impl Settings {
         self.reference == Reference::Display && self.tonemapped_detection
     }
 
-    /// Constants of `shaders/include/color.glsl` that turn a scene's radiance into colours.
+    /// Constants of `shaders/include/color.glsl` for the scene and these settings.
     pub(crate) fn color_constants(&self, scene: &dyn Content) -> ColorConstants {
         ColorConstants {
             tonemap: self.tonemaps(),
@@ -35,8 +35,8 @@ pub(crate) fn display_code(color: [f32; 4]) -> u32 {
 }
 
 impl Settings {
-    /// Code of an output colour that detection compares, like `display_code` of the shaders. Scene-referred colours
-    /// are tone-mapped for it.
+    /// Display code of an output colour, which detection compares; equal to `display_code` of the shaders.
+    /// Scene-referred colours are tone-mapped first.
     pub(crate) fn output_code(&self, color: [f32; 4]) -> u32 {
         if self.reference == Reference::Display || !self.tonemapped_detection {
             return display_code(color);

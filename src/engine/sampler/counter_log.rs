@@ -5,7 +5,7 @@ use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::slice::ChunksExact;
 
-/// Copies of the passes' counters: a slot for each time that they are copied in a recording.
+/// Copies of the passes' counters, in slots; each copy in a recording has its own slot.
 pub(crate) struct CounterLog {
     /// Buffer of the copies; `None` without slots.
     buffer: Option<Buffer>,
@@ -39,8 +39,8 @@ impl CounterLog {
         }
     }
 
-    /// Counters of the last recording, once its commands have run. For each run they hold the counters of
-    /// `slots_of_run` slots.
+    /// Counters of the last recording, available once its commands have run. Each item holds the counters of one run:
+    /// those of `slots_of_run` slots.
     ///
     /// # Errors
     /// If the counters can't be read.

@@ -1,4 +1,4 @@
-//! What can go wrong in the engine.
+//! Errors of the engine.
 
 use super::PixelRect;
 use crate::sampling::PatternError;

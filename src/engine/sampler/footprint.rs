@@ -2,17 +2,17 @@
 
 use super::{Footprint, Method, Settings};
 
-/// Side of the square over which alpha is filtered before its test, in distances between samples. Testing filtered
-/// alpha differs from filtering the results of tests, so that a small square is best: leaves keep their holes and
-/// tips.
+/// Side of the square over which alpha is filtered before its test, in distances between samples. Small squares are
+/// best, because testing filtered alpha is not the same as filtering the results of tests. With a small square, leaves
+/// keep their holes and tips.
 const ALPHA_SIDE: f32 = 0.125;
 
 /// Sides of the squares over which textures are filtered.
 pub(crate) struct Footprints {
     /// Side at the centre of a pixel, in pixels of the region.
     pub centre: f32,
-    /// Side at the place of a visibility sample, in pixels of the region. For [`Footprint::Sample`], the side divided
-    /// by the root of the sample's share of a cell.
+    /// Side at the place of a visibility sample, in pixels of the region. With [`Footprint::Sample`], the value is the
+    /// side divided by the root of the sample's share of a cell.
     pub place: f32,
     /// Side at a sample that tests alpha, in pixels of the region.
     pub sample: f32,

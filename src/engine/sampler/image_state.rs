@@ -31,7 +31,7 @@ impl ImageState {
         ),
     };
 
-    /// Records the change from this state to another.
+    /// Records the barrier that changes the image from this state to another.
     pub(crate) fn change(
         self,
         recorder: &Recorder<'_>,

@@ -10,23 +10,23 @@ use crate::engine::sampler::plan::{
 use crate::engine::sampler::{EngineError, Settings};
 use crate::vulkan::Texels;
 
-/// Kind of the cells of a list, and the results that they need.
+/// Kind of the cells of a list, and the results that are computed for them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ListCells {
     pub cells: Cells,
-    /// Whether locations that are sampled once have attributes.
+    /// Whether attributes are written, for locations that are sampled once.
     pub attributes: bool,
-    /// Number of words for each place that say which lights reach it.
+    /// Number of shadow words of each place; their bits say which lights reach it.
     pub shadow_words: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
 }
 
 impl ListCells {
-    /// Offsets of a cell's samples, and the number of samples.
+    /// Offsets of a cell's samples, including those of the first run, and the number of samples.
     ///
     /// # Errors
-    /// If the pattern can't have this number.
+    /// If the pattern can't have this number of samples.
     pub fn offsets(
         &self,
         layout: &FrameLayout,
@@ -50,7 +50,7 @@ impl ListCells {
         )
     }
 
-    /// Sizes of the memory for `locations` locations in a region of `pixels` pixels, in whole tiles.
+    /// Sizes of the memory for `locations` locations in a region of `region` pixels, whose sides are whole tiles.
     pub fn sizes(
         &self,
         layout: &FrameLayout,
@@ -77,7 +77,7 @@ impl ListCells {
             lent: self.lent,
             ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
         };
-        // All points fit in the memory of candidates, in case that they lie in tiles without a list.
+        // The memory of candidates has room for all points, because all of them may lie in tiles without a list.
         let points = if self.cells.are_points() {
             u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS
         } else {
@@ -89,7 +89,8 @@ impl ListCells {
             points
         });
         let at_most = |room: u64, most: u64| (room * u64::from(capacity.lists)).min(most) as u32;
-        // A location has room for its samples with all layers, and some receivers of light have.
+        // If the device turned out to need more layers, each location has room for all layers of its samples; for
+        // occluders, a sixteenth of the locations has.
         let of_location = match self.cells {
             Cells::Points => 1,
             Cells::Occluders => most.div_ceil(16),

@@ -1,4 +1,4 @@
-//! How edges are antialiased.
+//! Methods of antialiasing.
 
 use super::EngineError;
 use crate::sampling::Pattern;
@@ -6,7 +6,7 @@ use crate::vulkan::Limits;
 use ash::vk;
 use std::fmt;
 
-/// How edges are antialiased, and with how many samples.
+/// Method of antialiasing, with its options.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
@@ -41,8 +41,8 @@ pub enum MethodKind {
 }
 
 impl MethodKind {
-    /// The method with so many samples a pixel, and otherwise the default options. [`Method::None`] has one sample, whatever is
-    /// given.
+    /// Method with `samples` samples a pixel, and otherwise the default options. [`Method::None`] has one sample, and
+    /// ignores `samples`.
     #[must_use]
     pub fn with_samples(self, samples: u32) -> Method {
         match self {
@@ -65,73 +65,74 @@ impl fmt::Display for MethodKind {
     }
 }
 
-/// What makes a pixel a superpixel.
+/// Rule by which a pixel becomes a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Detection {
-    /// A contrasting colour beside it, of another triangle or of the same one; also that which a superpixel beside it
-    /// was found to show.
+    /// A neighbour with a contrasting colour, on the same or another triangle. With growth, the resolved colour of a
+    /// neighbouring superpixel is compared as well.
     Contrast,
-    /// Another triangle in a contrasting colour beside it: the rule of the sources.
+    /// A neighbour with another triangle and a contrasting colour: the rule of the papers on which the method is based.
     Edges,
-    /// Another triangle beside it.
+    /// A neighbour with another triangle.
     Exact,
-    /// Every pixel is one; to measure with.
+    /// No condition: every pixel is a superpixel. For measurements.
     Every,
 }
 
-/// How the coverage of a triangle in a superpixel is found.
+/// Measure of a triangle's coverage of a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Exactly where the triangle is seen whole, and by samples elsewhere. Superpixels that 64 samples settle take no
-    /// more; where most triangles may be shaded in several parts of a pixel, which takes all samples, areas are measured
-    /// up to 64 samples only.
+    /// Exact area where nothing occludes the triangle, and samples elsewhere. A superpixel that 64 samples settle takes
+    /// no further samples. If most triangles may be shaded in several parts of a pixel, which takes all samples, areas
+    /// are exact only up to 64 samples.
     Area,
-    /// By counting samples.
+    /// Number of samples that the triangle covers.
     Samples,
 }
 
-/// How often the inside of a superpixel is shaded.
+/// Rate of shading within a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
+    /// One shading for each visible triangle and block of 64 samples, at the centroid of the samples that see the
+    /// triangle.
     Triangle,
-    /// Once a visible triangle, but where the colours around it vary in up to 32 parts of the pixel, at 256 samples in up
-    /// to 128, at 1,024 in up to 256.
+    /// One shading for each visible triangle, or several in different parts of the pixel if the colours around the
+    /// pixel vary: up to 32 parts, up to 128 at 256 samples, and up to 256 at 1,024 samples.
     Part,
-    /// Once a sub-sample.
+    /// One shading for each sample.
     Sample,
 }
 
-/// How superpixels are found and sampled.
+/// Options of detecting and sampling superpixels.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SuperpixelOptions {
-    /// Samples of a superpixel: 1 to 1,024.
+    /// Number of samples of a superpixel, 1 to 1,024.
     pub samples: u32,
-    /// Where samples lie in a superpixel.
+    /// Pattern of the sample locations in a superpixel.
     pub pattern: Pattern,
-    /// How they become coverage.
+    /// Measure of a triangle's coverage of a superpixel.
     pub coverage: Coverage,
-    /// How often they are shaded.
+    /// Rate of shading within a superpixel.
     pub shading: Shading,
-    /// What makes a superpixel.
+    /// Rule by which a pixel becomes a superpixel.
     pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is
-    /// [that of the samples](Self::default_contrast).
+    /// Contrast threshold in 8-bit sRGB code values: two colours contrast if any channel differs by more. `None` is
+    /// [the default for the number of samples](Self::default_contrast).
     pub contrast: Option<u8>,
-    /// How often pixels become superpixels because they contrast with a superpixel beside them, where colours are compared; `None` is
-    /// [that of the samples](Self::default_growths).
+    /// Number of growths, with [`Detection::Contrast`]. In each growth, pixels that contrast with a neighbouring
+    /// superpixel become superpixels too. `None` is [the default for the number of samples](Self::default_growths).
     pub growths: Option<u8>,
-    /// Whether triangles, and shadows, too thin for a pixel's centre to see make superpixels too.
+    /// Whether triangles and shadows that are too thin to cover a pixel's centre make the pixel a superpixel.
     pub thin: bool,
 }
 
 impl SuperpixelOptions {
-    /// Most growths: each records as many rounds as the superpixels that are detected.
+    /// Largest number of growths. Each growth records further rounds.
     pub const MOST_GROWTHS: u8 = 8;
 
-    /// The defaults with so many samples of a superpixel.
+    /// Default options with `samples` samples of a superpixel.
     #[must_use]
     pub fn new(samples: u32) -> Self {
         Self {
@@ -146,20 +147,20 @@ impl SuperpixelOptions {
         }
     }
 
-    /// The contrast threshold of so many samples unless another is given, in code values: the more samples, the more of the error
-    /// is left in pixels that are no superpixels.
+    /// Default contrast threshold for `samples` samples, in code values. With more samples, pixels that are not
+    /// superpixels have a larger part in the error, so the threshold is lower.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
         if samples < 128 { 6 } else { 1 }
     }
 
-    /// How often superpixels of so many samples grow unless another number is given.
+    /// Default number of growths for `samples` samples.
     #[must_use]
     pub fn default_growths(samples: u32) -> u8 {
         if samples < 128 { 1 } else { 2 }
     }
 
-    /// How often superpixels grow.
+    /// Number of growths; 0 unless [`Self::detection`] is [`Detection::Contrast`].
     #[must_use]
     pub fn growth_count(&self) -> u32 {
         match self.detection {
@@ -171,7 +172,7 @@ impl SuperpixelOptions {
         }
     }
 
-    /// Differences above this, in code values, are a contrast.
+    /// Contrast threshold in code values: two colours contrast if any channel differs by more.
     #[must_use]
     pub fn threshold(&self) -> u8 {
         self.contrast
@@ -210,7 +211,7 @@ impl Method {
         }
     }
 
-    /// Samples of a pixel that is sampled more than once; 1 where none is.
+    /// Number of samples of a pixel that is sampled more than once; 1 if the method has no such pixels.
     #[must_use]
     pub fn samples(&self) -> u32 {
         match self {

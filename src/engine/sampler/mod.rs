@@ -1,8 +1,9 @@
-//! The sampler: from cells to their colours, in rounds.
+//! Sampler: finds the colours of cells, in rounds.
 //!
-//! Cells come from one of three sources: the pixels of an image that [`Detect`] marks ([`PixelCells`]), a list of the caller's sample
-//! locations, or a list of places that a light may reach ([`ListCells`] both). All else is the same for them: which triangles may show in
-//! a tile, how many tiles a round takes, and what becomes of the visibility samples.
+//! Cells come from one of three sources: the pixels of an image that [`Detect`] marks ([`PixelCells`]), a list of the
+//! caller's sample locations, or a list of places that a light may reach (both [`ListCells`]). The sampler treats all
+//! cells alike: it finds the triangles that may be visible in a tile, chooses the tiles of each round, and turns
+//! visibility samples into results.
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 
@@ -45,21 +46,21 @@ use statistics::Shortfall;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 
-/// Client of a [`Sampler`], which owns the surfaces that it finds and shades them. Set 0 is bound before each of these
-/// calls, and is bound again after it.
+/// Client of a [`Sampler`]. The client owns the surfaces that samples see, and shades them. Set 0 is bound before each
+/// of these calls, and again after each.
 pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
     /// written to its place in the buffer of shaded records.
     fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
 
-    /// Records marks for pixels that show more than their centres, in addition to those of [`Thin`].
+    /// Records marking of pixels that show more than their centres, in addition to the marks of [`Thin`].
     fn record_marks(&self, _recorder: &Recorder<'_>) {}
 
     /// Records passes that read a round's visibility samples after they were shaded.
     fn record_round_end(&self, _recorder: &Recorder<'_>) {}
 }
 
-/// Everything that a [`Sampler`] is made from.
+/// Arguments for making a [`Sampler`].
 #[derive(Clone, Copy)]
 pub(crate) struct SamplerContext<'a> {
     pub layout: &'a Arc<FrameLayout>,
@@ -76,8 +77,8 @@ pub(crate) struct SamplerContext<'a> {
 }
 
 impl SamplerContext<'_> {
-    /// Options of `sample` for cells of `samples` samples; for cells that are sampled once, `samples` is the largest
-    /// number of locations.
+    /// Options of `sample` for cells of `samples` samples. For locations that are sampled once, `samples` is the
+    /// largest number of locations in a cell.
     fn sample_options(&self, cells: Cells, samples: u32) -> SampleOptions {
         let (settings, scene, points) = (self.settings, self.scene, cells.are_points());
         let superpixels = settings.superpixels();
@@ -91,7 +92,8 @@ impl SamplerContext<'_> {
                 record_rate(settings, scene)
             },
             exact_areas: superpixels.coverage == Coverage::Area && samples > 1 && !points,
-            // High-frequency triangles are shaded in many places, so that a few samples never suffice.
+            // High-frequency triangles are shaded in many places, so the few samples of a first run would never
+            // suffice.
             can_settle: superpixels.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             long_lists: self.capacity.long_lists,
             unlisted: self.capacity.unlisted,
@@ -102,8 +104,8 @@ impl SamplerContext<'_> {
     }
 }
 
-/// Passes that sample cells of one kind, the capacity that they were made with, and their counters. They know
-/// triangles and shading keys, but no materials.
+/// Passes that sample cells of one kind, with their capacity and their counters. The passes know triangles and shading
+/// keys, but no materials.
 pub(crate) struct Sampler {
     source: Source,
     cull: Cull,
@@ -118,10 +120,10 @@ pub(crate) struct Sampler {
     /// Pass that makes colours; `None` if no colours are needed.
     finish: Option<Finish>,
     capacity: Capacity,
-    /// Numbers of recorded rounds: of the cells that are found first, and of each growth.
+    /// Numbers of recorded rounds: for the cells that are found first, and for each growth.
     rounds: [u32; 2],
     counters: CounterLog,
-    /// Number of triangles for which [`Cull`] has room, and of pairs for which [`Bin`] has.
+    /// Largest numbers of triangles for [`Cull`], and of pairs for [`Bin`].
     capacities: [u32; 2],
 }
 
@@ -142,14 +144,14 @@ enum Finish {
     Resolve(Resolve),
 }
 
-/// A run of a sampler over a region of an image or over a list. [`Resources::record_begin`] was recorded with its set
-/// and uniform block.
+/// Run of a sampler over a region of an image or over a list. Before the run, [`Resources::record_begin`] was recorded
+/// with its set and uniform block.
 #[derive(Clone, Copy)]
 pub(crate) struct SamplerRun<'a> {
     pub resources: &'a Resources,
     pub set: &'a SampleSet,
     pub uniform: &'a FrameUniform,
-    /// Number of locations of a list, or its upper bound, and where the number is stored; ignored for pixels.
+    /// Number of locations of a list, or an upper bound of it, and the source of the exact number; ignored for pixels.
     pub list: (u32, ListLength<'a>),
     /// Index of this run in the recording, from 0.
     pub index: usize,
@@ -171,7 +173,7 @@ impl Sampler {
         } = *context;
         let is_shaded = options.cells != Cells::Occluders || scene.has_blend();
         let sort = || Sort::new(layout, scene, scene.bin_count() == 1);
-        // The kernels of `sample` take drivers longest to compile, so that they get a thread of their own.
+        // Drivers take longest to compile the kernels of `sample`, so these have their own thread.
         let (sample, others) = std::thread::scope(|scope| {
             let sample = scope.spawn(|| Sample::new(layout, scene, options));
             let others = (|| {
@@ -208,7 +210,7 @@ impl Sampler {
         })
     }
 
-    /// Limits the number of recorded rounds: of the detected superpixels, and of each growth.
+    /// Limits the number of recorded rounds to `most`, for the detected superpixels and for each growth.
     pub fn limit_rounds(&mut self, most: u32) {
         self.rounds = self.rounds.map(|rounds| rounds.min(most));
     }
@@ -218,7 +220,7 @@ impl Sampler {
         self.capacity
     }
 
-    /// Number of samples of a cell; for locations that are sampled once, their number in a cell.
+    /// Number of samples of a cell; for locations that are sampled once, the number of locations in a cell.
     pub fn samples(&self) -> u32 {
         self.sample.options().samples
     }
@@ -270,7 +272,7 @@ impl Sampler {
         self.record_rounds(recorder, resources, first_rounds, shading);
         self.counters.record(recorder, resources, first_slot);
         let mut of_growth = *uniform;
-        // Where centres have similar colours, they may miss what the superpixels beside them show.
+        // A grown superpixel may contain colours that no centre saw, so similar centres must not reduce its shadings.
         of_growth.alike = 0;
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
@@ -314,7 +316,8 @@ impl Sampler {
         });
     }
 
-    /// Adds the work that the last recording could not finish. `tiles` holds the number of tiles of each of its runs.
+    /// Adds the work that the last recording could not finish. `tiles` holds the number of tiles of each run of the
+    /// recording.
     ///
     /// # Errors
     /// If the counters can't be read.
@@ -334,7 +337,7 @@ impl Sampler {
         Ok(())
     }
 
-    /// Adds the statistics of the last recording. `tiles` holds the number of tiles of each of its runs.
+    /// Adds the statistics of the last recording. `tiles` holds the number of tiles of each run of the recording.
     ///
     /// # Errors
     /// If the counters can't be read.
@@ -356,7 +359,7 @@ impl Sampler {
         Ok(())
     }
 
-    /// Number of locations in the lists of the last recording that lay outside of their region.
+    /// Number of locations in the last recording's lists that were left out, because they lay outside of their region.
     ///
     /// # Errors
     /// If the counters can't be read.
@@ -365,7 +368,7 @@ impl Sampler {
         Ok(counters.map(|counters| Counter::LeftOut.of(counters)).sum())
     }
 
-    /// For each run of the last recording: the counters of the detected superpixels, and of each growth.
+    /// Counters of each run of the last recording: of the detected superpixels, followed by those of each growth.
     fn counted(&self) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
         self.counters.read(1 + self.growths())
     }

@@ -14,7 +14,7 @@ pub(crate) struct PixelCells {
     pub mode: DetectMode,
     /// Whether pixels that a thin triangle crosses without covering a centre become cells too.
     pub thin: bool,
-    /// Factor and constant that lead from the drawn depth to that of triangles, which is larger where they are nearer.
+    /// Factor and offset that convert values of the depth image to reversed depth, in which larger values are nearer.
     pub depth_of_image: [f32; 2],
     /// Whether IDs of the nearest BLEND triangles exist.
     pub blend_ids: bool,
@@ -24,14 +24,14 @@ pub(crate) struct PixelCells {
     pub samples: u32,
     /// Number of times that superpixels grow.
     pub growths: u32,
-    /// Whether `detect` of another sampler compares the resolved colours.
+    /// Whether a later `detect`, of another sampler, compares the resolved colours.
     pub detected: bool,
-    /// What shows where no triangle is; without it, the settings' background.
+    /// Image of the host with the colours behind the triangles; `None` for the settings' background.
     pub behind: Option<Arc<HostImage>>,
 }
 
 impl DetectMode {
-    /// What a detection compares.
+    /// Rule of `detect` for a setting.
     pub(crate) fn of(detection: Detection) -> Self {
         match detection {
             Detection::Contrast => Self::Contrast,
@@ -43,7 +43,7 @@ impl DetectMode {
 }
 
 impl PixelCells {
-    /// The superpixels of the settings.
+    /// Superpixels according to the settings.
     pub fn superpixels(settings: &Settings) -> Self {
         let options = settings.superpixels();
         Self {

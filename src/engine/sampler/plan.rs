@@ -7,7 +7,7 @@ use crate::engine::passes::LongLists;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
-/// Part of an image, in output pixels. If only a part of the image is wanted, a region is still placed and drawn as
+/// Part of an image, in output pixels. If only a part of the image is wanted, the region is still placed and drawn as
 /// for the whole image, because devices round vertices to a fraction of a pixel after the viewport transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Region {
@@ -19,9 +19,9 @@ pub(crate) struct Region {
     pub wanted_low: [u32; 2],
     /// Lower right pixel that is wanted, exclusive.
     wanted_high: [u32; 2],
-    /// Number of pixels around the region that detection compares with: left, top, right, bottom. Detection needs
-    /// [`NEIGHBOURS`]; on the left and at the top it is a whole tile, so that tiles, and the rounding of edge
-    /// functions, are those of the undivided image.
+    /// Width of the border around the region with which detection compares: left, top, right, bottom, in pixels.
+    /// Detection needs [`NEIGHBOURS`] pixels. On the left and at the top, the border is a whole tile, so that tiles and
+    /// the rounding of edge functions are the same as in the undivided image.
     halo: [u32; 4],
 }
 
@@ -38,7 +38,7 @@ impl Region {
         [0, 1].map(|axis| self.wanted_high[axis] - self.wanted_low[axis])
     }
 
-    /// Width and height in memory: the whole region with its halo.
+    /// Width and height in memory: those of the region with its border.
     pub fn outer(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.high[axis] - self.low[axis] + self.halo[axis] + self.halo[axis + 2])
     }
@@ -54,8 +54,8 @@ impl Region {
         [0, 1].map(|axis| self.wanted_low[axis] - corner[axis])
     }
 
-    /// Positions in memory, from the first to beyond the last, that have to be drawn: the wanted pixels, and the
-    /// neighbours with which detection compares them.
+    /// Range of positions in memory that have to be drawn, the end exclusive: the wanted pixels, and the neighbours
+    /// with which detection compares them.
     pub fn drawn(&self) -> [[u32; 2]; 2] {
         let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
         [
@@ -70,22 +70,23 @@ impl Region {
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// Capacity for which it was planned.
+    /// Capacity for which the regions were planned.
     pub capacity: Capacity,
-    /// Whether the device has room for longer lists.
+    /// Whether the device's limits allow longer lists.
     pub lists_can_grow: bool,
 }
 
-/// Capacity of a frame, which is raised where a frame turned out to need more.
+/// Capacity of a frame. It is raised if a frame turns out to need more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Capacity {
-    /// Number of BLEND layers of a list, and half of the number of lists in a block, for which tiles are admitted.
+    /// Number of BLEND layers of a list for which tiles are admitted; half of the number of lists in a block.
     pub layers: u32,
-    /// Factor for the room for candidates.
+    /// Factor for the room for candidates and pairs.
     pub lists: u32,
-    /// Factor for the number of recorded rounds that images usually need; `None` to record all that any image may need.
+    /// Factor on the number of recorded rounds that images usually need; `None` to record all rounds that any image may
+    /// need.
     pub rounds: Option<u32>,
-    /// How cells of long lists of candidates are sampled.
+    /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
     /// Whether tiles without a list of candidates are sampled.
     pub unlisted: bool,
@@ -114,8 +115,8 @@ impl Capacity {
         }
     }
 
-    /// This capacity with only the kernels that most frames need: compiling those for tiles without a list may take longer
-    /// than a frame.
+    /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may
+    /// take longer than a frame.
     pub fn without_unlisted(self) -> Self {
         Self {
             unlisted: false,
@@ -123,15 +124,16 @@ impl Capacity {
         }
     }
 
-    /// Capacity with several times as much of what a frame lacked, or as much as the frame is known to need. Tiles without a list
-    /// are sampled only where more room for lists did not help: to try every triangle takes long.
+    /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
+    /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
+    /// because testing every triangle takes long.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
         let unshadowed = shortfall.unshadowed > 0;
-        // What lights lack is not known: rounds first, as long as there are few.
+        // The counters don't say what passes of lights lacked. Rounds are raised first, as long as there are few.
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0;
-        // After that longer lists, and then more layers.
+        // Lists are lengthened next, and layers are raised last.
         let deeper = of_lights && self.long_lists == LongLists::Scattered;
         let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
         let rounds = factor(shortfall.waiting > 0, 2)
@@ -153,8 +155,8 @@ impl Capacity {
         }
     }
 
-    /// Number of visibility samples of `samples` samples with as many layers each, if the frame is known to need more
-    /// than is usual.
+    /// Number of visibility samples for `samples` samples with all layers; 0 if the frame is not known to need more
+    /// layers than usual.
     pub fn layered(&self, samples: u64) -> u64 {
         match self.layers {
             Self::LAYERS => 0,
@@ -176,33 +178,33 @@ impl Default for Capacity {
 }
 
 /// Distance in pixels within which pixels affect each other: a pixel is compared with its neighbours, which may have
-/// become superpixels because of theirs, and so on.
+/// become superpixels because of their own neighbours, and so on.
 const NEIGHBOURS: u32 = 3;
-/// Largest number of rendered pixels in a region. Larger images have several regions; each is a separate submission if
-/// the renderer has a device of its own.
+/// Largest number of rendered pixels in a region. A larger image has several regions, each of them a separate
+/// submission if the renderer has its own device.
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
-/// Factor for the number of rounds from which on a shortage is not for want of rounds.
+/// Factor for the number of rounds from which on more rounds no longer help.
 const MANY_ROUNDS: u32 = 8;
-/// Number of points that take at least as long as the lines of a superpixel.
+/// Number of point samples that take as long as the lines of a superpixel.
 const LINES_AS_POINTS: u32 = 64;
-/// Number of samples by which a sample is multiplied with shadows: it is projected once for each light, on up to six
-/// planes.
+/// Factor for the cost of a sample with shadows: the sample is projected once for each light, on up to six planes.
 const SHADOWED: u64 = 8;
 /// Largest number of visibility samples and of candidates in a round.
 pub(crate) const MOST_RECORDS: u64 = 6 << 20;
 pub(crate) const MOST_CANDIDATES: u64 = 2 << 20;
-/// Number of visibility samples in a round, for each 64 samples of a superpixel, above which the room is reduced to a
-/// third. This makes more rounds, which cost little.
+/// Limit for the visibility samples of a round, for each 64 samples of a superpixel. Room above this limit is reduced
+/// to a third, which makes more rounds; these cost little.
 const LARGE_RECORDS: u64 = 1 << 20;
 /// Largest number of pairs of a triangle and a tile, over all rounds, for which a frame is first planned.
 pub(crate) const MOST_PAIRS: u64 = 8 << 20;
-/// Largest number of pairs for each tile if there are instances, whose triangles are many, so that memory grows with
-/// the image rather than the scene. Fewer candidates in a round make more rounds, which cost little.
+/// Largest number of pairs for each tile if the scene has instances. Instanced scenes have many triangles, so this
+/// limit makes memory depend on the image instead of the scene. Fewer candidates in a round make more rounds, which
+/// cost little.
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
-/// Smallest number of candidates: in their memory are the samples of a tile without a list.
+/// Smallest number of candidates. Their memory also holds the samples of a tile without a list.
 const FEWEST_CANDIDATES: u32 = 32 * 1024 / ResourceSizes::CANDIDATE_TEXELS as u32;
 
 /// Largest number of visibility samples in the buffers of a device.
@@ -223,9 +225,9 @@ pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) ->
 }
 
 impl Plan {
-    /// Plans an image whose pixels take `encoded_bytes` bytes in a buffer for a host's image, 0 where there is none, and whose places
-    /// have `shadow_words` words of shadows; `taken` says how many bytes of what the settings allow others
-    /// take beside memory of some sizes.
+    /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer for a host's image (0 without one), and
+    /// its places have `shadow_words` shadow words. `taken` returns, for memory of some sizes, the bytes that others
+    /// use of the memory that the settings allow.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if not even a region of 8 x 8 pixels fits.
@@ -273,7 +275,7 @@ impl Plan {
                     allowed: allowed.unwrap_or(0),
                 });
             }
-            // A side is a whole number of tiles, so that a region's tiles are those of the image.
+            // Sides are whole numbers of tiles, so that the regions have the same tiles as the undivided image.
             region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
         }
     }
@@ -281,7 +283,7 @@ impl Plan {
     /// Plans an image in one region, whatever its size.
     ///
     /// # Errors
-    /// [`EngineError::Memory`] if it does not fit in what is allowed or in the device's buffers.
+    /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
     pub fn whole(
         settings: &Settings,
         scene: &dyn Content,
@@ -298,8 +300,8 @@ impl Plan {
         }
     }
 
-    /// Reduces the room for visibility samples, which makes more rounds, until the plan and other owners fit into the
-    /// allowed memory, if possible. Returns the number of bytes.
+    /// Reduces the room for visibility samples, which makes more rounds, until the plan and all other users fit into
+    /// the allowed memory, if possible. Returns the number of bytes.
     fn shrink(
         &mut self,
         scene: &dyn Content,
@@ -376,7 +378,7 @@ impl Plan {
         } else {
             records
         };
-        // A tile has room for its samples with all layers.
+        // A tile has room for all layers of its samples.
         let of_tile = capacity.layered(pixels.min(32) * samples);
         let records = records.max(of_tile.min(most_records(limits)));
         let samples_cells = detects || scene.has_blend();
@@ -404,7 +406,7 @@ impl Plan {
             region: outer,
             lanes: limits.lanes,
             locations: None,
-            // A surviving triangle is in at least one pair.
+            // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
                 .min(scene.index_count()),
             pair_capacity: at_most(pairs, most_listed),
@@ -439,8 +441,8 @@ mod tests {
     use super::*;
     use crate::engine::data::Counter;
 
-    /// A frame that dropped triangles reports their number, so that it is not repeated with lists that are still too
-    /// short.
+    /// A frame that dropped triangles reports how many. The next frame then has lists that are long enough, instead of
+    /// repeatedly too short ones.
     #[test]
     fn lists_grow_to_what_they_are_known_to_need() {
         const ROOM: u32 = 1 << 14;
@@ -454,7 +456,7 @@ mod tests {
         let mut shortfall = Shortfall::default();
         shortfall.add(&counters, (1, 1, ROOM), false);
         assert_eq!(Capacity::default().more(shortfall).lists, 8);
-        // A shortage of unknown size multiplies what was short, and nothing else.
+        // A shortage of unknown size multiplies only the capacity that was short.
         let crowded = Shortfall {
             crowded: 1,
             ..Shortfall::default()
@@ -469,7 +471,7 @@ mod tests {
             Capacity::default().without_unlisted().more(unlisted),
             Capacity::default()
         );
-        // Where pairs found no room, tiles may have lists when they do.
+        // If pairs lacked room, tiles without a list may get one once there is room.
         let outgrown = Shortfall {
             unlisted: 1,
             rooms: 2,
@@ -478,7 +480,7 @@ mod tests {
         let more = Capacity::default().without_unlisted().more(outgrown);
         assert_eq!((more.lists, more.unlisted), (2, false));
         assert!(more.more(outgrown).unlisted);
-        // What lights lack may be rounds.
+        // Lights may lack rounds.
         let unshadowed = Shortfall {
             unshadowed: 1,
             ..Shortfall::default()

@@ -1,28 +1,28 @@
-//! How a frame's samples are divided into rounds.
+//! Policy for dividing a frame's samples into rounds.
 
 use super::plan::MOST_RECORDS;
 use crate::vulkan::Limits;
 use ash::vk;
 
-/// Division of a frame's samples into rounds, by the kind of the device.
+/// Policy for dividing a frame's samples into rounds, which depends on the kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RoundPolicy {
-    /// Small rounds, whose memory stays in the caches of a CPU. All rounds are recorded that any image may need: a CPU skips an idle one
-    /// in microseconds.
+    /// Small rounds, whose memory stays in the caches of a CPU. The recording has all rounds that any image may need,
+    /// because a CPU skips a round without work in microseconds.
     Small,
-    /// Large rounds in plenty of memory. As many are recorded as images usually need, because a GPU is idle during each barrier; a frame
-    /// that needs more says so, and is made again.
+    /// Large rounds, for devices with plenty of memory. The recording has the rounds that images usually need, because
+    /// a GPU is idle during each barrier. A frame that needs more rounds reports it, and is made again.
     Large {
         /// Largest number of visibility samples in a round.
         records: u64,
     },
 }
 
-/// Bytes of local memory from which on a device has plenty.
+/// Number of bytes of local memory from which on a device has plenty.
 const PLENTY: u64 = 2 << 30;
-/// Part of the local memory that a round's visibility samples may take.
+/// Divisor of the local memory: a round's visibility samples may take this part of it.
 const PART: u64 = 32;
-/// Bytes that a visibility sample takes in all buffers of a round.
+/// Number of bytes of a visibility sample in all buffers of a round.
 const RECORD_BYTES: u64 = 44;
 
 impl RoundPolicy {

@@ -123,26 +123,29 @@ impl Statistics {
     }
 }
 
-/// Work that the sampling passes could not finish, by what they lacked.
+/// Work that the sampling passes could not finish, by the lacking resource.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shortfall {
     /// Number of tiles that no round processed.
     pub waiting: u64,
-    /// Factor by which the number of rounds would have to grow for these, if they need as much as others.
+    /// Factor by which the number of rounds would have to grow for the waiting tiles, if these need as much as others.
     pub rounds: u32,
     /// Number of cells whose visibility samples did not fit into their round.
     pub crowded: u64,
     /// Number of cells with more candidates than a loop may process.
     pub stalled: u64,
-    /// Number of tiles without a list, if no kernel was made for them.
+    /// Number of tiles without a list that were skipped, because the frame has no kernel for them.
     pub unlisted: u64,
-    /// Number of triangles that did not fit into the list of those that may touch a cell, or of thin ones.
+    /// Number of triangles that did not fit into the list of triangles that may touch a cell, or into the list of thin
+    /// triangles.
     pub dropped: u64,
     /// Number of tiles, triangles and cells of lights' views that were not processed.
     pub unshadowed: u64,
-    /// Factor by which the room would have to grow for the dropped triangles, and for all pairs of a triangle and a tile.
+    /// Factor by which the room would have to grow to hold the dropped triangles and all pairs of a triangle and a
+    /// tile.
     pub rooms: u32,
-    /// Whether the device ran kernels with another subgroup size than they were made for; no capacity helps then.
+    /// Whether the device ran kernels with another subgroup size than they were made for; more capacity does not help
+    /// then.
     pub other_subgroups: bool,
 }
 
@@ -186,7 +189,7 @@ impl Shortfall {
         self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped + of_lights
     }
 
-    /// Fails if kernels that need subgroups of `lanes` invocations ran in others.
+    /// Returns an error if kernels that need subgroups of `lanes` invocations ran in others.
     pub fn check_subgroups(&self, lanes: u32) -> Result<(), VulkanError> {
         if self.other_subgroups {
             return Err(VulkanError::Subgroups { lanes });
@@ -194,7 +197,7 @@ impl Shortfall {
         Ok(())
     }
 
-    /// Fails if any work was not finished.
+    /// Returns an error if any work was not finished.
     pub fn check(&self, lanes: u32) -> Result<(), EngineError> {
         self.check_subgroups(lanes)?;
         match self.left() {

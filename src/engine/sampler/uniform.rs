@@ -1,11 +1,11 @@
-//! Uniform block of the sampling passes; all of their clients make it here.
+//! Uniform block of the sampling passes, which all of their clients make here.
 
 use super::Settings;
 use super::footprint::Footprints;
 use crate::engine::data::{FrameUniform, ResourceSizes};
 
-/// Part of the uniform block about the scene: triangles, materials and viewpoint. Clients whose passes read none of it
-/// leave the default.
+/// Part of the uniform block about the scene: triangles, materials and viewpoint. Clients whose passes don't read it
+/// use the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SceneBlock {
     /// Position of the eye in the coordinates of the geometry; the last component is 1.
@@ -16,7 +16,7 @@ pub(crate) struct SceneBlock {
     pub irradiance: [[f32; 4]; 9],
     /// The axes of the environment map.
     pub environment: [[f32; 4]; 3],
-    /// Number of triangles, or of indices that triangles may have.
+    /// Number of triangles, or of triangle slots.
     pub triangle_count: u32,
     /// Index of the first alpha-tested triangle.
     pub first_mask: u32,
@@ -35,22 +35,22 @@ pub(crate) struct SceneBlock {
 pub(crate) struct PlaneBlock {
     /// Matrix, by columns, from positions to pixels of the plane.
     pub transform: [f32; 16],
-    /// Upper left corner of the rectangle in pixels, relative to the place to which clip-space positions are relative.
+    /// Upper left corner of the rectangle in pixels, relative to the origin of clip-space positions.
     pub corner: [f64; 2],
     /// Width and height of the rectangle in pixels.
     pub size: [u32; 2],
-    /// Pixels that may become cells: the first one, and the one after the last.
+    /// Range of the pixels that may become cells: the first one, and the one after the last.
     pub interior: [[u32; 2]; 2],
-    /// Difference of depth between surfaces whose distances differ by a pixel's width: a factor on the depth, and a
-    /// constant.
+    /// Depth difference of two surfaces that are a pixel's width apart along the line of sight: a factor on the depth,
+    /// and a constant.
     pub gap: [f32; 2],
-    /// Difference of code values above which colours vary enough for a pixel to be shaded in several parts.
+    /// Largest difference, in code values, of colours around a pixel for which a triangle is still shaded once.
     pub alike: u32,
-    /// Number of pixels along a side of an output pixel's grid.
+    /// Number of pixels of the plane along a side of an output pixel.
     pub side: u32,
-    /// Pixel of a host's images of IDs and depth at which the rectangle begins.
+    /// Upper left pixel of the rectangle in a host's images of IDs and depth.
     pub seen_corner: [u32; 2],
-    /// Pixel of a host's colour image at which the rectangle begins.
+    /// Upper left pixel of the rectangle in a host's colour image.
     pub color_corner: [u32; 2],
 }
 
@@ -113,7 +113,7 @@ pub(crate) fn frame_uniform(
         place_footprint: footprints.place,
         sample_footprint: footprints.sample,
         side: plane.side,
-        // For a list, `distribute` computes it.
+        // `distribute` computes the reach of a list's samples.
         reach: 0.5,
         group_count: sizes.locations.map_or(0, |locations| locations.groups),
         seen_corner: plane.seen_corner,

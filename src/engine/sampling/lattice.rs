@@ -2,9 +2,9 @@
 
 use super::{Location, locate};
 
-/// A `side` x `side` grid, turned by one part in `side`, so that its projections on either axis are spread evenly over
-/// side^2 places, while each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at x =
-/// -1/2 + (i + 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
+/// A k x k grid, where k is `side`, turned by 1/k. Its projections on either axis are spread evenly over k^2 places,
+/// while each row stays straight and evenly spaced. The sample in column i and row j, from 0, is at x = -1/2 + (i +
+/// 1/2)/k + (j - (k - 1)/2)/k^2, y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2 from the centre.
 ///
 /// The signs of the two tilts must differ: equal signs shear the lattice along a diagonal of the pixel, which leaves
 /// two corners empty, and the error falls as N^-0.55 only.
@@ -30,9 +30,9 @@ pub(super) fn korobov(count: u32) -> Vec<Location> {
 /// The generator, coprime to `count`, with the smallest worst-case error over smooth periodic functions (I. H. Sloan
 /// and S. Joe, "Lattice Methods for Multiple Integration", 1994, section 4.3). For edges it is among the best as well.
 ///
-/// The error grows with the sum over i of B(i/n) B({g i/n}), where B(x) = x^2 - x + 1/6. The code computes 6 n^2 times
-/// B, so that the sums are exact. Of a lattice and its mirror images, which have the same error, the one with the
-/// largest generator is taken.
+/// The error grows with the sum over i of B(i/n) B({g i/n}), where B(x) = x^2 - x + 1/6. The code computes with 6 n^2
+/// B, so that the sums are exact. A lattice and its mirror images have the same error; of these, the lattice with the
+/// largest generator is chosen.
 fn generator(count: u32) -> u32 {
     let n = i64::from(count);
     let kernel: Vec<i64> = (0..n).map(|i| 6 * i * i - 6 * i * n + n * n).collect();

@@ -28,7 +28,8 @@ const UNITS: f64 = 65536.0;
 
 /// Location nearest to a fraction (0 to 1) of the pixel's width and height; halves round up.
 fn locate(x: f64, y: f64) -> Location {
-    // A cast from floating point saturates, so that values which round up to the far side stay inside the pixel.
+    // A cast from floating point saturates, so a value that rounds up to the right or lower border stays inside the
+    // pixel.
     [x, y].map(|fraction| (fraction * UNITS + 0.5).floor() as u16)
 }
 

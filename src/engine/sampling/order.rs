@@ -2,7 +2,7 @@
 
 use super::Location;
 
-/// Sizes of the blocks of which halves consist.
+/// Possible sizes of the blocks of samples in a half, in descending order.
 const BLOCKS: [usize; 5] = [256, 64, 16, 4, 1];
 
 /// Sorts distinct locations into the order that the [module](super#order) describes.
@@ -10,9 +10,9 @@ pub(super) fn sort(locations: &mut [Location]) {
     halve(locations, [1.0, 1.0]);
 }
 
-/// Sorts the locations of a part of the pixel whose sides are `width` and `height`. These are the sides of an even
-/// spread of samples rather than of the samples' bounding box, so that the order does not depend on the places of a
-/// few samples.
+/// Sorts the locations of a part of the pixel. `width` and `height` are the sides of this part for evenly spread
+/// samples, instead of those of the samples' bounding box, so that the order does not depend on the places of a few
+/// samples.
 fn halve(locations: &mut [Location], [width, height]: [f64; 2]) {
     let count = locations.len();
     let Some(block) = BLOCKS.into_iter().find(|&block| block < count) else {

@@ -14,11 +14,11 @@ pub const MAX_SAMPLES: u32 = 1024;
 /// Pattern of the samples in a superpixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
-    /// Samples on straight lines: rows or columns, whichever are crossed more often by the edges in the superpixel,
-    /// with 64 samples each. A count up to 64 has 8 lines (16 in subgroups of 32), a larger one 32; the count also limits the number of places
-    /// in which the superpixel is shaded. Any count. In lists of locations, lines follow the columns of the Jacobian.
-    /// [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND triangles are visible, and
-    /// for counts below 16.
+    /// Samples on straight lines of 64 samples each: rows or columns, whichever the edges in the superpixel cross more
+    /// often. Any count. A count up to 64 has 8 lines (16 on devices with subgroups of 32 invocations), a larger one 32;
+    /// the count also limits the number of places in which the superpixel is shaded. In lists of locations, lines follow
+    /// the columns of the Jacobian. [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND
+    /// triangles are visible, and for counts below 16.
     Lines,
     /// First points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2. Any count. Its error on straight
     /// edges depends least on their orientation.
@@ -28,25 +28,25 @@ pub enum Pattern {
     /// `y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2` for column i and row j from 0, rounded to 2^-16. Any count; for a
     /// count that is no square, the [Korobov](Pattern::Korobov) lattice.
     Lattice,
-    /// Rank-1 lattice (i, g i mod N) with the best generator g. Any count. On average over straight edges its error is
-    /// as small as the grid's, without the grid's weakness along the axes; at its own worst orientations it errs more
-    /// than Sobol points.
+    /// Rank-1 lattice (i, g i mod N) with the best generator g. Any count. On average over straight edges, the error is
+    /// as small as the grid's, without the grid's weakness along the axes. At its worst orientations, the error is
+    /// larger than that of Sobol points.
     Korobov,
-    /// Centres of a k x k grid. Square counts only. It is the worst pattern for edges along an axis, which meet k
-    /// samples at once.
+    /// Centres of a k x k grid. Square counts only. For edges along an axis, this pattern has the largest error of all,
+    /// because such edges meet k samples at once.
     Grid,
     /// Standard sample locations of graphics APIs (Vulkan 1.3, section 25.3): 1, 2, 4, 8 or 16 samples. The mean of
     /// the last set is 1/32 pixel from the pixel's centre.
     Rotated,
-    /// Offsets of the caller's own in pixels from the pixel's centre, x to the right, y down, each in [-0.5, 0.5).
-    /// They are rounded to multiples of 2^-16 and sorted into the common order.
+    /// Offsets of the caller from the pixel's centre, in pixels, x to the right, y down, each in [-0.5, 0.5). They are
+    /// rounded to multiples of 2^-16 and sorted into the common order.
     List(Vec<[f32; 2]>),
 }
 
-/// Error: a pattern that does not exist.
+/// Error of a pattern, its number of samples, or a list of offsets.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PatternError {
-    /// Name of no pattern.
+    /// Name that no pattern has.
     #[error(
         "no sample pattern is called `{0}`; there are lines, sobol, lattice, korobov, grid and rotated"
     )]
@@ -155,7 +155,7 @@ impl FromStr for Pattern {
     }
 }
 
-/// Locations of a caller's list, checked.
+/// Checks a caller's list, and converts it to locations.
 fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternError> {
     if list.len() != count as usize {
         return Err(PatternError::ListLength {

@@ -1,4 +1,4 @@
-//! Barriers between commands, where one depends on another.
+//! Barriers between commands that depend on each other.
 
 use ash::vk;
 
@@ -10,7 +10,7 @@ pub(super) struct Accesses {
 }
 
 impl Accesses {
-    /// The accesses of a copy.
+    /// Accesses of a copy.
     pub fn copy(from: vk::Buffer, to: vk::Buffer) -> Self {
         Self {
             reads: vec![from],
@@ -26,7 +26,7 @@ impl Accesses {
         add(&mut self.writes, buffer);
     }
 
-    /// Whether later commands have to wait for these ones.
+    /// Whether `later` accesses have to wait for these.
     fn order(&self, later: &Self) -> bool {
         let writes_what = |read: &vk::Buffer| self.writes.contains(read);
         let uses_what =
@@ -61,8 +61,8 @@ pub(super) enum Ordered {
 }
 
 impl Ordered {
-    /// Barrier that makes the writes of such earlier commands visible to later ones. If the device can skip commands,
-    /// the writes are also visible to the test whether commands are skipped.
+    /// Barrier that makes the writes of earlier commands visible to later ones, for commands of this kind. With
+    /// `can_skip`, the writes are also visible to the test of conditional rendering.
     pub fn barrier(self, can_skip: bool) -> vk::MemoryBarrier2<'static> {
         use vk::{AccessFlags2 as A, PipelineStageFlags2 as S};
         let (stages, writes, reads) = match self {
@@ -89,7 +89,7 @@ impl Ordered {
     }
 }
 
-/// What was recorded since the last barriers, as far as later commands may depend on it.
+/// Accesses that were recorded since the last barriers, with which later commands are compared.
 #[derive(Debug)]
 pub(super) struct Barriers {
     /// Accesses of dispatches, copies and fills since the last barrier.
@@ -113,7 +113,7 @@ impl Barriers {
         }
     }
 
-    /// Barrier that has to be recorded before a dispatch, a copy or a fill with these accesses, if any.
+    /// Barrier that must be recorded before a dispatch, a copy or a fill with these accesses, if any.
     pub fn before(&mut self, accesses: &Accesses) -> Option<Ordered> {
         let barrier = if self.unknown {
             self.all_ordered();
@@ -132,7 +132,7 @@ impl Barriers {
         barrier
     }
 
-    /// Barrier that has to be recorded before commands of which nothing is known, if any.
+    /// Barrier that must be recorded before commands with unknown accesses, if any.
     pub fn before_unknown(&mut self) -> Option<Ordered> {
         let barrier = self.recorded.then_some(Ordered::All);
         self.all_ordered();
@@ -141,16 +141,16 @@ impl Barriers {
         barrier
     }
 
-    /// Takes note of a barrier for all commands.
+    /// Notes that a barrier for all commands was recorded.
     pub fn all_ordered(&mut self) {
         self.pending.clear();
         self.unknown = false;
         self.recorded = false;
     }
 
-    /// Begins a group of commands that do not depend on each other, unless it is a part of another group.
+    /// Begins a group of commands that do not depend on each other, unless a group has already begun.
     ///
-    /// Returns whether it began.
+    /// Returns whether a group began.
     pub fn begin_group(&mut self) -> bool {
         let begins = self.group.is_none();
         self.group.get_or_insert_default();
@@ -170,15 +170,15 @@ mod tests {
     use super::*;
     use ash::vk::Handle;
 
-    /// A command in a recording: whether it reads and writes each of two buffers, or that nothing is known of it.
+    /// Command of a test: whether it reads and writes each of two buffers, or has unknown accesses.
     #[derive(Clone, Copy, Debug, PartialEq)]
     enum Command {
         Known { reads: [bool; 2], writes: [bool; 2] },
         Unknown,
     }
 
-    /// A read; a write; both, of the other buffer; a copy; a read of both buffers; a command without data; one of which nothing is
-    /// known.
+    /// In order: a read; a write; a read and write of the other buffer; a copy; a read of both buffers; a command
+    /// without accesses; a command with unknown accesses.
     const COMMANDS: [Command; 7] = {
         const fn known(reads: [bool; 2], writes: [bool; 2]) -> Command {
             Command::Known { reads, writes }
@@ -209,7 +209,7 @@ mod tests {
             Some(accesses)
         }
 
-        /// Barriers that suffice between this command and a later one, if they need one.
+        /// Kinds of barriers that suffice between this command and a later one; `None` if they need no barrier.
         fn needs(self, later: Self) -> Option<&'static [Ordered]> {
             let (
                 Self::Known { reads, writes },
@@ -233,7 +233,8 @@ mod tests {
         }
     }
 
-    /// Tests all sequences of five commands after unknown ones: those that depend on each other are ordered, and no barrier is in vain.
+    /// Tests all sequences of five commands after unknown ones. Commands that depend on each other must be ordered, and
+    /// each barrier must be necessary.
     #[test]
     fn commands_that_depend_on_each_other_are_ordered() {
         const LENGTH: u32 = 5;

@@ -1,12 +1,12 @@
-//! Whether the device has executed the last recording.
+//! Check of whether the device has executed the last recording.
 
 use super::{Gpu, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Tells whether the device has executed a recording that is made repeatedly. The device resets an event where the
-/// commands begin and sets it where they end; unlike memory that the device writes, the CPU may query an event at any
-/// time.
+/// Event that tells whether the device has executed a recording. The device resets the event where the commands begin,
+/// and sets it where they end. An event suits because the CPU may query it at any time, unlike memory that the device
+/// writes.
 pub(crate) struct Completion {
     gpu: Arc<Gpu>,
     event: vk::Event,
@@ -14,7 +14,7 @@ pub(crate) struct Completion {
 }
 
 impl Completion {
-    /// Makes an event, for which nothing has been recorded.
+    /// Makes the event. Nothing has been recorded yet.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the event can't be made.
@@ -32,9 +32,9 @@ impl Completion {
         })
     }
 
-    /// Begins a recording. The commands of the previous one have run, or will never be executed.
+    /// Begins a recording. The commands of the previous recording have run, or will never be executed.
     ///
-    /// Returns whether they have run.
+    /// Returns whether the previous commands have run.
     pub fn begin(&mut self, recorder: &Recorder<'_>) -> bool {
         let was_done = self.check().is_ok();
         self.is_recorded = true;
@@ -52,16 +52,16 @@ impl Completion {
         was_done
     }
 
-    /// Forgets the last recording, whose commands are done or will never be executed.
+    /// Forgets the last recording, whose commands have run, or will never be executed.
     ///
-    /// Whether they were executed.
+    /// Returns whether the commands have run.
     pub fn forget(&mut self) -> bool {
         let was_done = self.check().is_ok();
         self.is_recorded = false;
         was_done
     }
 
-    /// Ends a recording, whose results the CPU may read once it is done.
+    /// Ends a recording. The CPU may read its results once the commands have run.
     pub fn end(&self, recorder: &Recorder<'_>) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
         let to_cpu = [vk::MemoryBarrier2::default()
@@ -82,7 +82,7 @@ impl Completion {
         }
     }
 
-    /// Checks that the device has executed the last recording. This does not wait.
+    /// Checks that the device has executed the last recording, without waiting.
     ///
     /// # Errors
     /// [`VulkanError::NotRecorded`] if nothing was recorded, [`VulkanError::NotDone`] if the commands have not run, or
@@ -102,7 +102,7 @@ impl Completion {
 
 impl Drop for Completion {
     fn drop(&mut self) {
-        // SAFETY: owners drop it only after the commands that use it have run.
+        // SAFETY: owners drop the event only after the commands that use it have run.
         unsafe { self.gpu.device.destroy_event(self.event, None) };
     }
 }

@@ -1,17 +1,17 @@
-//! Which word dispatches depend on: where blocks of conditional rendering begin and end.
+//! Blocks of conditional rendering: their beginnings and ends in a recording, and the words on which they depend.
 
 use ash::vk;
 
-/// What is recorded before a command, so that it depends on the right word.
+/// Commands to record before another command, so that it depends on the right word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Change {
-    /// The present block ends.
+    /// Whether the present block ends.
     pub ends: bool,
-    /// Then a block begins that depends on the first word of a buffer.
+    /// Buffer on whose first word a new block depends; `None` if no block begins.
     pub begins: Option<vk::Buffer>,
 }
 
-/// The word that dispatches depend on, and the block that was begun.
+/// State of conditional rendering: the word on which dispatches shall depend, and the block that has begun.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Conditions {
     wanted: Option<vk::Buffer>,
@@ -19,31 +19,31 @@ pub(super) struct Conditions {
 }
 
 impl Conditions {
-    /// The buffer whose first word dispatches depend on, if they depend on any.
+    /// Buffer on whose first word dispatches depend; `None` if they depend on none.
     pub fn word(&self) -> Option<vk::Buffer> {
         self.wanted
     }
 
-    /// Has dispatches depend on another word from here on. Returns what [`Self::leave`] takes.
+    /// Makes dispatches depend on another word from here on. Returns the previous buffer, for [`Self::leave`].
     pub fn enter(&mut self, word: vk::Buffer) -> Option<vk::Buffer> {
         self.wanted.replace(word)
     }
 
-    /// Has dispatches depend on the word that they depended on before [`Self::enter`].
+    /// Makes dispatches depend on the word before [`Self::enter`] again, which was returned as `before`.
     ///
-    /// The block ends, although the next one may depend on the same word: the word may be written in between, and drivers may read it
-    /// where a block begins.
+    /// The block ends even if the next one depends on the same word, because the word may be written in between, and
+    /// drivers may read it only where a block begins.
     pub fn leave(&mut self, before: Option<vk::Buffer>) -> Change {
         self.wanted = before;
         self.go_to(None)
     }
 
-    /// What is recorded before a dispatch.
+    /// Change to record before a dispatch.
     pub fn before_dispatch(&mut self) -> Change {
         self.go_to(self.wanted)
     }
 
-    /// What is recorded before commands that depend on no word.
+    /// Change to record before commands that depend on no word.
     pub fn before_others(&mut self) -> Change {
         self.go_to(None)
     }
@@ -78,7 +78,7 @@ mod tests {
         }
     }
 
-    /// The word is written between two rounds.
+    /// A word is written between two rounds, so each round must begin a new block.
     #[test]
     fn each_round_reads_its_word_anew() {
         let word = vk::Buffer::from_raw(1);

@@ -1,4 +1,4 @@
-//! Descriptor sets, and what they show.
+//! Descriptor sets, and records of the buffers in them.
 
 use super::{Binding, Buffer, Gpu};
 use ash::vk;
@@ -50,23 +50,23 @@ impl From<&Buffer> for Shown {
     }
 }
 
-/// A binding, and what it shows.
+/// Binding with the buffer or texels that it shows.
 pub(crate) type ShownBinding = (Binding, Shown);
 
-/// A descriptor set that remembers which buffers it shows, so that a [`Recorder`](super::Recorder) knows what a dispatch reads and
-/// writes.
+/// Descriptor set that records which buffers it shows, so that a [`Recorder`](super::Recorder) knows what a dispatch
+/// reads and writes.
 pub(crate) struct DescriptorSet {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::DescriptorSet,
     buffers: ShownBuffers,
 }
 
-/// Buffers that a set shows, by the number of their binding; null for none.
+/// Buffers of a set by binding number; null for bindings without a buffer.
 #[derive(Clone, Default)]
 pub(super) struct ShownBuffers(Arc<Vec<vk::Buffer>>);
 
 impl ShownBuffers {
-    /// The buffer of a binding, if it shows one.
+    /// Buffer of a binding, if the binding shows one.
     pub fn get(&self, binding: u32) -> Option<vk::Buffer> {
         let buffer = self.0.get(binding as usize).copied();
         buffer.filter(|buffer| *buffer != vk::Buffer::null())
@@ -74,7 +74,7 @@ impl ShownBuffers {
 }
 
 impl DescriptorSet {
-    /// A set that was just allocated and shows nothing.
+    /// Wraps a set that was just allocated and shows nothing.
     pub(crate) fn new(gpu: &Arc<Gpu>, raw: vk::DescriptorSet) -> Self {
         Self {
             gpu: gpu.clone(),
@@ -90,7 +90,8 @@ impl DescriptorSet {
     /// Writes buffers to the set.
     ///
     /// # Safety
-    /// No pending commands use the set, the bindings have the kinds of what they show, and the buffers outlive its use.
+    /// No pending commands use the set, the descriptor types of the bindings match, and the buffers outlive the use of
+    /// the set.
     pub unsafe fn write(&mut self, shown: &[ShownBinding]) {
         let writes: Vec<_> = shown
             .iter()
@@ -111,10 +112,11 @@ impl DescriptorSet {
         }
     }
 
-    /// Writes the images of a binding to the set. Their states are the caller's business.
+    /// Writes the images of a binding to the set. The caller is responsible for the images' layouts and barriers.
     ///
     /// # Safety
-    /// No pending commands use the set, the binding has the kind of the images, and they outlive its use.
+    /// No pending commands use the set, the descriptor type of the binding matches, and the images outlive the use of
+    /// the set.
     pub unsafe fn write_images(&self, binding: Binding, images: &[vk::DescriptorImageInfo]) {
         let writes = [self.at(&binding).image_info(images)];
         // SAFETY: guaranteed by the caller.
@@ -129,7 +131,7 @@ impl DescriptorSet {
     }
 }
 
-/// An image in the layout `SHADER_READ_ONLY_OPTIMAL`, for a descriptor.
+/// Descriptor of an image in the layout `SHADER_READ_ONLY_OPTIMAL`.
 pub(crate) fn read_image(view: vk::ImageView) -> vk::DescriptorImageInfo {
     vk::DescriptorImageInfo::default()
         .image_view(view)

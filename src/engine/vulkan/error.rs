@@ -15,7 +15,7 @@ pub enum VulkanError {
     NoDevice {
         /// Part of a device's name that was asked for.
         asked: Option<String>,
-        /// Every device that was found, and what it lacks.
+        /// List of the devices that were found, with the requirements that each lacks.
         found: String,
     },
     /// Device that lacks requirements.
@@ -117,7 +117,7 @@ impl VulkanError {
         matches!(self, Self::DeviceLost | Self::OutOfMemory { .. })
     }
 
-    /// Checks that no more is needed than the device can address.
+    /// Checks that `needed` does not exceed the device's limit `limit`.
     ///
     /// # Errors
     /// [`VulkanError::TooLarge`] if `needed` is above `limit`.

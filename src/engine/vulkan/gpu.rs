@@ -24,9 +24,8 @@ pub struct Host {
     pub memory: MemorySource,
     /// Pipeline cache for making pipelines, or null. It was not created with `EXTERNALLY_SYNCHRONIZED`.
     pub pipeline_cache: vk::PipelineCache,
-    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`,
-    /// which [`Requirements::has_conditional_rendering`] checks. Without it, rounds of a frame that have nothing to do
-    /// take some time.
+    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, which
+    /// [`Requirements::has_conditional_rendering`] checks. Without the feature, rounds without work take some time.
     pub conditional_rendering: bool,
     /// Whether the instance was created with `VK_EXT_debug_utils`. If so, buffers, images and pipelines get names that
     /// begin with `gpc`, and dispatches get labels.
@@ -141,9 +140,8 @@ pub struct Limits {
     pub max_storage_bytes: u64,
     /// Nanoseconds per timestamp step; 0 if the queue has no timestamps.
     pub timestamp_period: f32,
-    /// Largest number of samples, counted as if every pixel were a superpixel, in one submission if the renderer has a
-    /// device of its own: operating systems reset a GPU that works on a submission for seconds. CPU drivers have no
-    /// limit.
+    /// Largest number of samples in one submission, for a renderer that has its own device; every pixel counts as a
+    /// superpixel. Operating systems reset a GPU that works on a submission for seconds. CPU drivers have no limit.
     pub max_submitted_samples: u64,
     /// Supported numbers of samples for multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,
@@ -194,7 +192,7 @@ impl Gpu {
     }
 
     /// # Safety
-    /// As [`Gpu::new`]; with an `owner`, the device is ours to destroy.
+    /// As [`Gpu::new`]. With an `owner`, the returned value destroys the device when it is dropped.
     pub(super) unsafe fn owning(
         host: Host,
         owner: Option<Arc<Instance>>,
@@ -329,17 +327,18 @@ impl Drop for Gpu {
         // The allocator frees its blocks while the device is still alive.
         self.memory = None;
         if self.owner.is_some() {
-            // SAFETY: the library created the device, and everything made from it held an `Arc` of this and is gone.
+            // SAFETY: the library created the device, and everything made from it held an `Arc` of this value and is
+            // gone.
             unsafe { self.device.destroy_device(None) };
         }
     }
 }
 
-/// Number of invocations that kernels use, and number of invocations of a subgroup. Subgroups usually have `usual`
-/// invocations, and at least `least` and at most `most`.
+/// Number of invocations that kernels use, and number of invocations of a subgroup. A subgroup has usually `usual`
+/// invocations, at least `least` and at most `most`.
 fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
     if can_require {
-        // Where the size can be chosen, the smallest leaves each invocation the most registers.
+        // If the size can be chosen, the smallest one leaves each invocation the most registers.
         let size = least.max(4).min(most);
         (size.min(32), size)
     } else {

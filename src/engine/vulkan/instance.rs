@@ -33,7 +33,7 @@ pub struct Instance {
     messages: Arc<Messages>,
 }
 
-/// Description of a device, and what it lacks.
+/// Description of a device, with the requirements that it lacks.
 #[derive(Clone, Debug)]
 pub struct DeviceInfo {
     /// Name of the device.

@@ -19,9 +19,9 @@ pub enum MemoryUse {
 
 /// Allocator that counts the bytes of everything made through it, and refuses to exceed a limit.
 ///
-/// The functions trust that sizes, formats and usage are valid for the device, and that buffers and images are
-/// dropped, read and written by the CPU only while no commands use them. Therefore none can be made outside of the
-/// crate; see `crate::testing`.
+/// The functions trust that sizes, formats and usage are valid for the device, and that buffers and images are dropped,
+/// read and written by the CPU only while no commands use them. Therefore no `Memory` can be made outside of the crate;
+/// see `crate::testing`.
 #[derive(Clone)]
 pub struct Memory {
     gpu: Arc<Gpu>,
@@ -33,7 +33,7 @@ struct Account {
     limit: u64,
 }
 
-/// Memory of a buffer or image, which is freed and no longer counted once this is dropped.
+/// Memory of a buffer or image. When this is dropped, the memory is freed and no longer counted.
 struct Block {
     gpu: Arc<Gpu>,
     account: Arc<Account>,
@@ -69,7 +69,7 @@ impl Memory {
         &self.gpu
     }
 
-    /// Bytes that are allocated at present.
+    /// Number of bytes that are allocated at present.
     #[must_use]
     pub fn used(&self) -> u64 {
         self.account.used.load(Ordering::Relaxed)
@@ -222,7 +222,7 @@ impl Memory {
         Ok(BufferView { buffer, view })
     }
 
-    /// Makes an image with a view of all its levels and layers; a cube if the image is compatible with that.
+    /// Makes an image with a view of all its levels and layers; the view is a cube if the image is cube-compatible.
     ///
     /// # Errors
     /// As [`Memory::buffer`].

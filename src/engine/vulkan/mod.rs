@@ -1,4 +1,4 @@
-//! Thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
+//! Thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. This layer knows nothing of rendering.
 //!
 //! Only devices are visible to hosts. Memory, pipelines and commands are internal to the crate, because their
 //! functions trust their arguments.

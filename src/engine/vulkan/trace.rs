@@ -22,7 +22,7 @@ pub(crate) struct Dispatch {
     pub size: Dispatched,
 }
 
-/// What was recorded on a device while a trace was requested.
+/// Commands that were recorded on a device while a trace was requested.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Traced {
     /// Dispatches and draws; of consecutive rounds, only those of the first.
@@ -33,7 +33,7 @@ pub(crate) struct Traced {
     pub barrier_count: u64,
 }
 
-/// A request for a trace, and what was recorded so far.
+/// Trace that was requested, with the commands recorded so far.
 #[derive(Default)]
 pub(crate) struct Trace {
     is_asked: AtomicBool,
@@ -52,7 +52,7 @@ impl Trace {
 }
 
 impl Gpu {
-    /// Calls `record`, and returns what was recorded on the device in the meantime, by any thread.
+    /// Calls `record`, and returns the commands that any thread recorded on the device in the meantime.
     pub(crate) fn traced<T>(&self, record: impl FnOnce() -> T) -> (T, Traced) {
         self.trace.is_asked.store(true, Ordering::Relaxed);
         let made = record();
@@ -60,7 +60,7 @@ impl Gpu {
         (made, std::mem::take(&mut *self.trace.traced()))
     }
 
-    /// Takes note of a dispatch or draw, and lists it unless it repeats a listed one.
+    /// Adds a dispatch or draw to the trace, and lists it unless it repeats a listed one.
     pub(super) fn trace(&self, pipeline: &Pipeline, size: Dispatched, is_listed: bool) {
         let mut traced = self.trace.traced();
         let is_drawn = size == Dispatched::Drawn;
@@ -73,14 +73,14 @@ impl Gpu {
         }
     }
 
-    /// Takes note of a barrier.
+    /// Adds a barrier to the trace.
     pub(super) fn trace_barrier(&self) {
         self.trace.traced().barrier_count += 1;
     }
 }
 
 impl Interface {
-    /// Name of the pass whose main shader it belongs to.
+    /// Name of the pass to which the shader belongs.
     pub(crate) fn pass(&self) -> &'static str {
         let stages = ["_vertex", "_fragment"].into_iter();
         let pass = stages
@@ -89,8 +89,8 @@ impl Interface {
         pass.unwrap_or(self.name)
     }
 
-    /// Names of the data with this access, in the order of bindings. Data with two bindings, a texel buffer for
-    /// reading and a storage buffer for writing, has one name.
+    /// Names of the data that the shader accesses in this way, in the order of bindings. Data with two bindings, a
+    /// texel buffer for reading and a storage buffer for writing, has one name.
     pub(crate) fn data(&self, access: Access) -> Vec<&'static str> {
         let wanted = self
             .uses

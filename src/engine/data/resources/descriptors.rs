@@ -23,8 +23,8 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes all but the images of triangle IDs and depth of a set that was just allocated; `texels` and `lights` belong to a
-    /// scene or to what a frame sees of it.
+    /// Writes a set that was just allocated, except its images of triangle IDs and depth. `texels` and `lights` belong
+    /// to the scene, or to the frame's view of the scene.
     pub(super) fn write_set(
         &self,
         set: &mut SampleSet,
@@ -84,13 +84,14 @@ impl Resources {
         }
     }
 
-    /// Has a set show images of triangle IDs and depth.
+    /// Sets the images of triangle IDs and depth that a descriptor set shows.
     ///
     /// # Safety
     /// No commands that use the set are pending, and the views outlive those that are recorded with it from now on.
     pub(crate) unsafe fn show_ids(&self, set: &SampleSet, shown: &IdViews) {
-        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
-        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
+        // Pipelines read either the single-sampled or the multisampled IDs. With multisampled IDs, the bindings of
+        // single-sampled IDs hold a placeholder, which no pipeline reads. Without BLEND IDs, their bindings hold the
+        // opaque IDs, which no pipeline reads there either.
         let IdViews { ids, .. } = *shown;
         let blend_ids = shown.blend_ids.unwrap_or(ids);
         let images = match (shown.placeholder, shown.depth) {

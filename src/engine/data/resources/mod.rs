@@ -19,7 +19,8 @@ use ash::vk;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// What passes hand to each other in a frame: scratch memory, which other frames may use too, and what is the frame's alone.
+/// Memory in which the passes of a frame keep their results: scratch memory, which frames may share, and the frame's
+/// own buffers.
 pub struct Resources {
     sizes: ResourceSizes,
     /// A word for each [`Counter`].
@@ -45,8 +46,8 @@ impl Deref for Resources {
 }
 
 impl Resources {
-    /// Allocates a frame's memory, and a descriptor set for each list of sample offsets. `texels_of_others` are the
-    /// texel buffers with other owners; the lights have another owner too.
+    /// Allocates a frame's memory, and a descriptor set for each list of sample offsets. `texels_of_others` and
+    /// `lights` are buffers with other owners.
     ///
     /// # Errors
     /// If memory runs out or a buffer exceeds a limit of the device.
@@ -77,7 +78,8 @@ impl Resources {
         Ok(resources)
     }
 
-    /// The same in memory that [suffices](Scratch::suffices) for these sizes. [`Self::show_ids`] says which images the sets show.
+    /// Makes a frame's resources in scratch memory that [suffices](Scratch::suffices) for `sizes`. [`Self::show_ids`]
+    /// sets the images of the descriptor sets later.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -115,18 +117,18 @@ impl Resources {
         Ok(resources)
     }
 
-    /// The scratch memory, where no other frame uses it.
+    /// Scratch memory; `None` if another frame uses it too.
     pub(crate) fn own_scratch(&mut self) -> Option<&mut Scratch> {
         Arc::get_mut(&mut self.scratch)
     }
 
-    /// What was asked for.
+    /// Sizes with which the resources were made.
     #[must_use]
     pub fn sizes(&self) -> &ResourceSizes {
         &self.sizes
     }
 
-    /// Set of the list of sample offsets with this index.
+    /// Set of the list of sample offsets with the index `index`.
     #[must_use]
     pub fn set(&self, index: usize) -> Option<&SampleSet> {
         self.sets.get(index)

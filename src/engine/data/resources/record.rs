@@ -67,7 +67,7 @@ impl Resources {
             .size(4);
         // SAFETY: the counter lies in its buffer; both buffers were created for copies and live as long as the frame.
         unsafe { recorder.copy_raw(self.counters.raw, another_round.raw, &[waiting]) };
-        // Dispatches of a host are not skipped. In a skipped round they must find nothing to do.
+        // Dispatches of a host are not skipped. Their cleared sizes make them do nothing in a skipped round.
         recorder.clear(&self.arguments);
         recorder.unless_zero(another_round, || record(recorder));
     }
@@ -78,7 +78,7 @@ impl Resources {
         recorder.copy(&self.counters, bytes, to, slot * bytes);
     }
 
-    /// Records a copy of the first bytes of the colours to a host's buffer, from `first_byte` of that on.
+    /// Records a copy of the first `bytes` bytes of the colours to a host's buffer, at the offset `first_byte`.
     ///
     /// # Safety
     /// The buffer outlives the execution of the commands, was created for copies, and has room for the colours.
@@ -102,8 +102,8 @@ impl Resources {
         recorder.copy(from, 16 * u64::from(pixels), to, 0);
     }
 
-    /// Records filling the first `pixels` pixels or locations with the background: its colour, premultiplied as in the
-    /// output, its display code and, for locations with attributes, these.
+    /// Records filling the first `pixels` pixels or locations with the background: its premultiplied colour, its
+    /// display code and, for locations with attributes, the attributes of an empty location.
     pub(crate) fn record_background(
         &self,
         recorder: &Recorder<'_>,
@@ -120,10 +120,11 @@ impl Resources {
     }
 }
 
-/// Records filling the first `count` elements of a buffer, which was created for copies and has that many.
+/// Records filling the first `count` elements of a buffer that was created for copies and has at least as many
+/// elements.
 fn fill<T: bytemuck::NoUninit>(recorder: &Recorder<'_>, buffer: &Buffer, value: T, count: u32) {
-    /// Number of bytes that are written inline, the largest possible. The rest is copied from them, doubling each
-    /// time.
+    /// Number of bytes that are written inline: the most that Vulkan allows. Copies then double the filled range until
+    /// the buffer is full.
     const SEED: u64 = 65_536;
     if bytemuck::bytes_of(&value).iter().all(|byte| *byte == 0) {
         recorder.clear(buffer);

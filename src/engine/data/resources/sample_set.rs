@@ -10,7 +10,7 @@ use ash::vk;
 /// Sample offsets from the pixel's centre, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offsets<'a> {
-    /// Offsets of a cell's samples, followed by those of the first run of a few samples, if there is one.
+    /// Offsets of a cell's samples, followed by the offsets of the first run with few samples, if there is one.
     pub all: &'a [[f32; 2]],
     /// Number of samples of a cell.
     pub count: u32,
@@ -77,8 +77,9 @@ const MASK: usize = 64;
 /// Number of consecutive samples whose sums are tabulated.
 const RUN: usize = 4;
 
-/// Table of sums: for each four consecutive samples of the first 64, and for one entry behind them, the sums of the
-/// offsets that the bits of a number from 0 to 15 select.
+/// Table of sums of sample offsets, with 16 entries for each run of four consecutive samples. Entry n of a run is the
+/// sum of the offsets whose bits are set in n. The table has 16 runs for the first 64 samples, and one run of zeros
+/// after them.
 fn sums_of_runs(all: &[[f32; 2]], count: u32) -> Vec<[f32; 2]> {
     let known = &all[..all.len().min(count as usize).min(MASK)];
     let numbers =

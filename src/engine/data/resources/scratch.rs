@@ -1,4 +1,4 @@
-//! Memory that no pass reads before another one of the same recording has written it.
+//! Scratch memory: in each recording, passes write it before others read it.
 
 use super::{ResourceSizes, STORAGE};
 use crate::engine::data::Argument;
@@ -7,7 +7,8 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 
-/// Buffers that passes hand to each other. Frames whose commands run one after the other may share them.
+/// Buffers with the results that passes read from earlier passes. Frames whose commands run one after the other may
+/// share them.
 pub struct Scratch {
     sizes: ResourceSizes,
     bin_count: u32,
@@ -31,12 +32,12 @@ pub struct Scratch {
     pub(crate) bins: Buffer,
     /// Four words for each [`Argument`].
     pub arguments: Buffer,
-    /// A word that says whether there is another round, where the device can skip those that there are not.
+    /// Word for conditional rendering: not 0 if another round has work. `None` if the device can't skip commands.
     pub(super) another_round: Option<Buffer>,
     pub(super) filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
-    /// What lists of locations need.
+    /// Buffers of lists of locations.
     pub locations: LocationBuffers,
 }
 
@@ -47,10 +48,10 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Scratch {
-    /// Allocates memory of these sizes, for so many material bins.
+    /// Allocates memory of these sizes, for `bin_count` material bins.
     ///
     /// # Errors
-    /// If memory runs out or a buffer passes the device's limits.
+    /// If memory runs out or a buffer exceeds a limit of the device.
     pub(crate) fn new(
         layout: &FrameLayout,
         memory: &Memory,
@@ -71,7 +72,7 @@ impl Scratch {
         let texels = |name: &str, elements: u64, format| {
             texels_in(name, elements, format, MemoryUse::Device)
         };
-        // The host reads what its own locations see, run by run.
+        // The host reads the colours of its own locations after each run.
         let output = match sizes.locations {
             Some(LocationSizes { lent: false, .. }) => MemoryUse::Readback,
             _ => MemoryUse::Device,
@@ -134,7 +135,8 @@ impl Scratch {
         })
     }
 
-    /// Whether it has room for a frame of pixels of these sizes, and for so many material bins. Lists of locations share with nobody.
+    /// Whether the memory has room for a frame of pixels with these sizes and `bin_count` material bins. Always false
+    /// for lists of locations, which share no memory.
     pub(crate) fn suffices(&self, sizes: &ResourceSizes, bin_count: u32) -> bool {
         self.sizes.suffice(sizes) && self.bin_count >= bin_count
     }

@@ -12,22 +12,22 @@ pub struct ResourceSizes {
     pub lanes: u32,
     /// Sizes for locations, if cells are locations instead of pixels.
     pub locations: Option<LocationSizes>,
-    /// Number of triangles that may touch a cell, or are thin, for which there is room.
+    /// Largest number of triangles that may touch a cell, or that are thin.
     pub survivor_capacity: u32,
-    /// Number of pairs of a triangle and a tile, over all rounds.
+    /// Largest number of pairs of a triangle and a tile, over all rounds.
     pub pair_capacity: u32,
-    /// Number of candidates in all lists of a round.
+    /// Largest number of candidates in all lists of a round.
     pub list_capacity: u32,
-    /// Number of visibility samples of a round; 0 if no cell is ever sampled.
+    /// Largest number of visibility samples of a round; 0 if no cell is ever sampled.
     pub record_capacity: u32,
     /// Number of pixels of a region after the box filter; 0 without the filter.
     pub filtered: u32,
-    /// Number of words for each shaded place that say which lights reach it; 0 without shadows. See
+    /// Number of shadow words of each shaded place; their bits say which lights reach it. 0 without shadows. See
     /// `shaders/include/shadows.glsl`.
     pub shadow_words: u32,
     /// Whether attributes are written.
     pub attributes: bool,
-    /// Number of bytes of a region that is encoded for a host's image; 0 without one.
+    /// Number of bytes of a region that is encoded for a host's image; 0 without such an image.
     pub encoded: u64,
 }
 
@@ -54,7 +54,7 @@ impl ResourceSizes {
         (limits.max_storage_bytes / Self::CANDIDATE_BYTES).min(texels)
     }
 
-    /// Whether memory of these sizes has room for a region of pixels of others.
+    /// Whether memory of these sizes suffices for a region of pixels with the sizes `others`.
     pub(crate) fn suffice(&self, others: &Self) -> bool {
         let of = |sizes: &Self| {
             let [records, lists, pairs, survivors] = [
@@ -82,7 +82,7 @@ impl ResourceSizes {
         is_of_pixels && self.lanes == others.lanes && pairs.all(|(room, needed)| room >= needed)
     }
 
-    /// Bytes of the largest storage buffer.
+    /// Number of bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
         let colors = self.colors() * 16;
@@ -106,7 +106,7 @@ impl ResourceSizes {
         self.region[0] * self.region[1]
     }
 
-    /// Number of colours of a region: of pixels or locations.
+    /// Number of colours of a region: one for each pixel or location.
     #[must_use]
     pub fn colors(&self) -> u64 {
         self.locations
