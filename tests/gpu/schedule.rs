@@ -27,9 +27,9 @@ struct Case {
     blends: bool,
     candidates: u32,
     records: u32,
-    /// One of this number of tiles has superpixels.
+    /// Reciprocal of the share of tiles that have superpixels.
     sparseness: u64,
-    /// One of this number of such tiles has more candidates than fit, and another one has pairs that were dropped.
+    /// Reciprocal of the share of these tiles that have more candidates than fit. An equal share has dropped pairs.
     rarity: u64,
     /// Whether tiles without a list are sampled.
     unlisted: bool,
@@ -485,7 +485,8 @@ fn as_many_rounds_are_recorded_as_tiles_may_take() {
             let taken = passes.twin.of(&twins_of(&content)).len();
             let recorded = passes.recorded(60 * 40 * tile[0]);
             assert!(taken > 5, "{name}: {taken}");
-            // Of dense tiles it is not known that they have no lists.
+            // More rounds are recorded for dense tiles, because it is not known beforehand that these tiles have no
+            // lists.
             let most = if case.unlisted { recorded } else { 2 * taken };
             assert!(
                 (taken..=most).contains(&recorded),

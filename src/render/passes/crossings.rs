@@ -8,7 +8,7 @@ use crate::render::beside_frame::BesideFrame;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
-/// What a location shows, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
+/// Surfaces at a location, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SeenLocation {
@@ -26,7 +26,7 @@ pub struct SeenLocation {
 /// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
 pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 
-/// Marks cells, which `detect` makes superpixels.
+/// Marks crossed cells for `detect`, which makes them superpixels.
 pub struct Crossings {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,

@@ -127,8 +127,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 }
                 let differ = pairs().filter(|(a, b)| a != b).count();
                 if pattern == P::Lines {
-                    // Frames know more exactly which triangles touch a pixel. What touches it first decides between rows and
-                    // columns.
+                    // Frames know more exactly which triangles touch a pixel, and the first of these triangles decides
+                    // between rows and columns.
                     assert!(
                         differ * 50 < image.colors.len(),
                         "{name}, {samples} samples: {differ}"

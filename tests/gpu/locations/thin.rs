@@ -35,7 +35,8 @@ fn energy(rendered: &Rendered) -> f64 {
     rendered.colors.iter().map(|c| f64::from(c[0])).sum()
 }
 
-/// Share of the energy of superpixels everywhere that is found: with and without the search for thin triangles.
+/// Energy of the image, with and without the search for thin triangles, as a share of its energy with superpixels
+/// everywhere.
 fn shares(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation]) -> [f64; 2] {
     let all = energy(&seen(
         gpu,

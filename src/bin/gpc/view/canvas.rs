@@ -66,7 +66,7 @@ pub struct Canvas {
     pub engine: Arc<Engine>,
 }
 
-/// What the next image of the window shows.
+/// Contents of the next image of the window.
 pub struct ShownPicture<'a> {
     pub camera: Option<&'a Camera>,
     pub moment: Option<&'a Arc<Moment>>,

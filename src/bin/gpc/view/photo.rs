@@ -190,8 +190,8 @@ impl PhotoView {
         photograph.resample(self.window.size, |place| self.look(place))
     }
 
-    /// `code` of a pixel with what lies over it: black outside of the photograph, a tint, or the frame of the loupe.
-    /// `place` is the pixel's centre.
+    /// Colour of a pixel whose own colour is `code`, with overlays: black outside of the photograph, a tint, or the
+    /// frame of the loupe. `place` is the pixel's centre.
     pub fn covered(&self, code: [u8; 4], place: DVec2) -> [u8; 4] {
         let plane = self.window.location(place);
         if let Some(distance) = self.outside_loupe(place)

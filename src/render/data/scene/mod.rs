@@ -58,7 +58,7 @@ pub struct GpuScene {
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
     memory: Memory,
-    /// Whether the copies that fill it have been executed.
+    /// Whether the copies that fill the device memory have been executed.
     uploaded: AtomicBool,
 }
 

@@ -79,8 +79,8 @@ fn sampler_of<'i>(
     Ok((sampler, format!("{place}/samplers/{index}")))
 }
 
-/// Reads a channel. Returns none if the channel has no node, or animates something that no node has (both are valid),
-/// and several if its pointer leads to something that several nodes share.
+/// Reads a channel. Returns no channel if the target has no node or a property that no node has (both are valid), and
+/// several channels if the pointer leads to data that several nodes share.
 fn read_channel(
     target: &animation::Target,
     target_place: &str,
@@ -211,7 +211,7 @@ impl ChannelReader<'_, '_> {
         let model = self.context.model;
         let wrong = |fault: Fault| Fault::new(place, format!("{pointer} keeps its value: {fault}"));
         let descriptions = &self.descriptions;
-        // Warnings about values are reported when they are drawn.
+        // Warnings are dropped here: they are reported when the moment is drawn.
         let mut unheard = self.context.warnings.of_the_same_file();
         let mut read = |changes: &[Change<'_>]| -> Result<Option<AnimatedProperty>, Fault> {
             Ok(match described {

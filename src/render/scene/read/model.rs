@@ -318,7 +318,7 @@ impl Lists<'_, '_> {
         Ok(list)
     }
 
-    /// Removes broken members from an element that it can do without.
+    /// Removes broken members from an element, as far as the element can do without them.
     fn mend<T: Element>(
         &mut self,
         mut value: Value,

@@ -171,8 +171,8 @@ impl Strokes {
         }
     }
 
-    /// Removes vertices that are not used: returns the indices of the used ones, and renumbers the strokes so that
-    /// they refer to that list, which the corners follow.
+    /// Removes vertices that are not used. Returns the indices of the used vertices, followed by one for each corner,
+    /// and renumbers the strokes to positions in this list.
     pub fn compact(&mut self, vertex_count: usize) -> Vec<u32> {
         let named = |corner: &Corner| [corner.at, corner.other, corner.beyond];
         let mut named: Vec<[u32; 3]> = self.corners.iter().map(named).collect();

@@ -93,7 +93,7 @@ pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32
 }
 
 impl Summary {
-    /// A phrase that says which scenes the summary is of.
+    /// Phrase for the summarised scenes: their number, and whether they are textured.
     pub fn about(&self) -> String {
         let kind = if self.textured {
             "textured"

@@ -1,5 +1,5 @@
-//! Motion of a scene, and the matrices, weights, materials and lights of its moments, which are all that a device
-//! needs to show them.
+//! Motion of a scene. Each of its moments holds matrices, weights, materials and lights, which are all that a device
+//! needs to show the moment.
 
 mod bounds;
 
