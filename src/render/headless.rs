@@ -267,8 +267,8 @@ impl Headless {
             .prepare_with(scene, settings, None, capacity, reserved)
     }
 
-    /// Renders a frame and waits for it. If the frame's lists outgrow their memory, it is prepared again with more, so
-    /// that the image does not depend on the first estimate.
+    /// Renders a frame and waits for it. If the frame's lists outgrow their memory, the frame is prepared again with
+    /// more memory, so that the image does not depend on the first estimate.
     ///
     /// # Errors
     /// [`RenderError::OtherDevice`] for a frame of another device; otherwise if the device is lost, or the lists do

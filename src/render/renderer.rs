@@ -229,8 +229,8 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, self.first_capacity(), 0)
     }
 
-    /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with more of what it lacked: memory for
-    /// candidates and layers, rounds, or subgroups.
+    /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with
+    /// more memory for candidates and layers, more rounds or more subgroups, whichever that frame lacked.
     ///
     /// # Errors
     /// As [`Self::prepare`].

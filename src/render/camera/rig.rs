@@ -10,7 +10,7 @@
 //!            └────────┘
 //! ```
 //!
-//! Every direction belongs to exactly one pinhole, the one whose axis it is nearest to; of equally near ones the first.
+//! Every direction belongs to exactly one pinhole: the first of those whose axes are nearest to the direction.
 
 use super::set::{Sample, SamplingSet, SetError};
 use super::{Pinhole, PinholeError};

@@ -12,7 +12,7 @@ use glam::DMat4;
 
 impl Recording<'_> {
     /// Uniform block of a region whose superpixels have `samples` samples. With `owned`, only the wanted pixels of the
-    /// region become superpixels, and no pixels of its halo.
+    /// region can become superpixels; the pixels of its halo can't.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
         let side = self.settings.side();

@@ -18,7 +18,7 @@ pub struct SeenLocation {
     pub id: u32,
     /// ID of the nearest BLEND triangle in front of it; 0 for none.
     pub blend_id: u32,
-    /// Index of its cell of the output, row by row.
+    /// Index of the location's cell in the output, row by row.
     pub output: u32,
 }
 

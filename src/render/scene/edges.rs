@@ -199,7 +199,8 @@ impl<'p> MergedPrimitives<'p> {
         self.primitive(edges, &sources, material)
     }
 
-    /// Normals of a face and of its neighbour `beyond` a side; zero for a face without area.
+    /// Normals of a side's face and of the neighbouring face, whose third vertex is `beyond`; zero for a face without
+    /// area.
     fn normals(&self, side: &HalfEdge, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;

@@ -1,4 +1,4 @@
-//! The scene: what a file holds, and its triangles in the pose of one moment.
+//! Scenes: the contents of a file, and their triangles in the pose of one moment.
 //!
 //! This module does not use Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] turns one of its scenes into
 //! [`Geometry`], which a renderer uploads. Positions are in world space, except in large meshes that are drawn many

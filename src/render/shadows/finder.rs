@@ -80,7 +80,7 @@ impl RecordShading for Occlusion<'_> {
     }
 }
 
-/// List by which casters are sampled.
+/// Kind of the lists with which casters are sampled.
 const OCCLUDERS: ListCells = ListCells {
     cells: Cells::Occluders,
     attributes: false,
@@ -215,7 +215,7 @@ impl ShadowFinder {
         self.targets.record_unused(recorder);
     }
 
-    /// Views of lights onto what is visible.
+    /// Views of the lights onto the visible part of the scene.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
         views(&self.lit, sight)
     }

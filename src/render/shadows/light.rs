@@ -1,4 +1,4 @@
-//! The pinholes of a light, and their planes around what is seen.
+//! Pinholes of lights, and the windows of their image planes in which the visible part of the scene lies.
 //!
 //! ```text
 //!   directional: parallel rays, w = 0      spot: one perspective plane       point, wide spot: six planes, a cube

@@ -15,7 +15,7 @@ fn part<T: Copy>(picture: &[T], corner: [u32; 2], size: [u32; 2]) -> Vec<T> {
     rows.flat_map(|row| row[columns.clone()].to_vec()).collect()
 }
 
-/// A frame that is a part of the viewport's image shows what that image shows there.
+/// A frame that covers a part of the viewport shows that part of the viewport's picture.
 #[test]
 fn a_part_of_a_viewport_is_that_part_of_the_picture() {
     on_gpu(|gpu| {
@@ -58,7 +58,7 @@ fn a_part_of_a_viewport_is_that_part_of_the_picture() {
     });
 }
 
-/// A viewport that is larger than the frame's part of the images does what a matrix does.
+/// A viewport that is larger than the frame has the effect of a matrix that scales and moves clip space.
 #[test]
 fn a_viewport_scales_and_moves_clip_space() {
     on_gpu(|gpu| {

@@ -10,7 +10,7 @@ use gpc::resample::{Photograph, Zoomed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Half side of the square in which the image is unzoomed / height of the window.
+/// Half side of the square in which the image is unzoomed, as a share of the window's height.
 const LOUPE: f64 = 0.25;
 /// Largest enlargement of a photograph, in pixels of the window for one pixel of the photograph.
 const MOST: f64 = 64.0;

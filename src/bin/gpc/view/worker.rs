@@ -162,7 +162,7 @@ pub struct PictureWorker {
 }
 
 impl PictureWorker {
-    /// Starts the thread. It opens a device for the first order of a scene, and passes results to `deliver`.
+    /// Starts the thread. The thread opens a device for the first order of a scene, and passes results to `deliver`.
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
         let thread = std::thread::spawn(move || {

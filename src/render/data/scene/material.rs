@@ -28,7 +28,7 @@ pub(super) struct GpuMaterial {
 /// Data of a material's row in the table that the material itself does not hold.
 pub(super) struct MaterialRow {
     pub(super) slots: Slots,
-    /// Place of its alpha texture in the alpha atlas.
+    /// Place of the material's alpha texture in the alpha atlas.
     pub(super) alpha: [u32; 4],
 }
 

@@ -87,7 +87,8 @@ impl SceneUploads {
 }
 
 impl GpuScene {
-    /// Allocates everything and fills what the host can write; the other copies wait for [`SceneUploads::record`].
+    /// Allocates all buffers and images, and fills those that the host can write. [`SceneUploads::record`] copies the
+    /// other contents.
     ///
     /// # Errors
     /// If memory runs out or the scene exceeds a limit of the device.

@@ -89,7 +89,7 @@ fn place(d: DVec3) -> (u32, [f64; 2]) {
     }
 }
 
-/// Solid angle of a texel at a place of a face / that of a texel in the middle.
+/// Ratio of a texel's solid angle at a place of a face to that of a texel in the middle of the face.
 pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
     let square = 1.0 + a * a + b * b;
     1.0 / (square * square.sqrt())

@@ -150,7 +150,7 @@ pub(super) fn environment_of(
     document.environments.get(scene)?.clone()
 }
 
-/// Collects what a scene contains at a moment.
+/// Collects the contents of a scene at a moment.
 fn show<'d>(
     scene: &'d Scene,
     request: &PoseRequest,

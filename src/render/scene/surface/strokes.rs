@@ -20,7 +20,7 @@ pub struct Corner {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
     pub triangles: Vec<[u32; 3]>,
-    /// Corners. Their vertices are the last ones, in the same order.
+    /// Corners. The last vertices of the primitive belong to them, in the same order.
     pub corners: Vec<Corner>,
 }
 

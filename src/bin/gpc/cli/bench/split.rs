@@ -15,7 +15,7 @@ pub(super) struct Splitter {
     looks: PixelTriangles,
     /// The scene stripped to its paint and stripped to its light, each with its reference.
     halves: [(PreparedScene, DecodedImage); 2],
-    /// Samples of the superpixels by which the images of other methods are split.
+    /// Number of samples of the superpixels by which the errors of methods without superpixels are split.
     shown: u32,
 }
 
