@@ -344,8 +344,8 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     expected.len()
 }
 
-/// Rounds over many stretches and over parts of one, cut between tiles and between stretches, and tiles that fit
-/// nowhere.
+/// Rounds over many stretches of tiles and over parts of one, rounds that end within a stretch and at its end, and
+/// tiles that fit into no round.
 #[test]
 fn rounds_are_the_twins() {
     on_gpu(|gpu| {

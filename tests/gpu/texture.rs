@@ -129,7 +129,7 @@ fn compare(
         b.uvs = [uvs[0], uvs[2], uvs[3]];
         maps.push(map);
     }
-    // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
+    // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
     let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
     let settings = once(SIZE).method(uniform.thin(false));
     let rendered = stage.render(gpu, &settings);
@@ -138,7 +138,7 @@ fn compare(
         let map = &maps[(y / PATCH * (SIZE[0] / PATCH) + x / PATCH) as usize];
         let at = map.at([x % PATCH, y % PATCH].map(f64::from));
         let found = probes([image.width, image.height], at, map.sides);
-        // Rounding may choose otherwise there.
+        // Where the margin is small, rounding may choose other places or another level.
         if found.margin < 1e-3 {
             continue;
         }

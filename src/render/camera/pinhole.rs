@@ -26,8 +26,8 @@ pub struct Pinhole {
     b: DVec3,
     near: f64,
     far: Option<f64>,
-    /// Inverse of the projection. It maps world vectors relative to C to (u w, v w, w), w being the distance from C
-    /// along the normal. For parallel rays, it maps vectors relative to O to (u, v, distance along a ray).
+    /// Inverse of the projection. The inverse maps world vectors relative to C to (u w, v w, w), w being the distance
+    /// from C along the normal. For parallel rays, vectors relative to O are mapped to (u, v, distance along a ray).
     inverse: DMat3,
     /// Unit normal of the plane that points away from C.
     normal: DVec3,
@@ -97,7 +97,8 @@ const FLAT: f64 = 1e-12;
 impl Pinhole {
     /// Makes a pinhole from world-space vectors: `centre` C, homogeneous with w = 1 or 0; `origin` O, the upper left
     /// corner of the image; `a` and `b`, the steps to the next pixel of a row and to the next row. Depths from `near`
-    /// to `far` are visible. They are distances along the plane's normal, from C, or from the plane for parallel rays.
+    /// to `far` are visible. Depths are distances along the plane's normal: from C, or for parallel rays from the
+    /// plane.
     ///
     /// # Errors
     /// [`PinholeError`] if a number is not finite, C is neither point nor direction or lies in the plane, a and b span

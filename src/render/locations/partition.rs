@@ -157,8 +157,8 @@ impl<'a> Partition<'a> {
         });
     }
 
-    /// Rectangle of the plane that holds all locations, and the largest distance of their samples from them, in
-    /// pixels.
+    /// Rectangle of the plane that holds all locations, and the largest distance of a sample from its location along
+    /// either axis, in pixels.
     pub fn reach(&self) -> (Rectangle, f64) {
         type Reach = (Rectangle, f64);
         let around = |location: &SampleLocation| {

@@ -52,8 +52,8 @@ pub struct Receivers {
 }
 
 impl Receivers {
-    /// Makes the pipelines for cells of a scene. They write the receivers' locations to `locations`, two vectors each,
-    /// and initialise the shadow words of the resources.
+    /// Makes the pipelines for cells of a scene. The pass writes the receivers' locations to `locations`, two vectors
+    /// each, and initialises the shadow words of the resources.
     ///
     /// # Errors
     /// If the driver refuses one.

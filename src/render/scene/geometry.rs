@@ -523,7 +523,7 @@ impl Geometry {
     fn place(&self, used: RangeInclusive<usize>, instance: &Instance, flat: &mut Self) -> u32 {
         let first = flat.positions.len() as u32;
         let place = instance.transform;
-        // This is the inverse transpose up to a positive factor. It exists even if the inverse does not.
+        // The inverse transpose, up to a positive factor, exists even if the inverse does not.
         let m = place.matrix3;
         let sign = if instance.mirrored() { -1.0 } else { 1.0 };
         let turn = |[x, y, z]: [f32; 3]| {

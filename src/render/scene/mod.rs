@@ -153,8 +153,8 @@ impl Scene {
         }
     }
 
-    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move with
-    /// the meshes, but creases are determined with the meshes at rest.
+    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. The lines move
+    /// with the meshes, but creases are determined with the meshes at rest.
     pub fn add_edges(&mut self, edges: &Edges) {
         edges::add(self, edges);
     }

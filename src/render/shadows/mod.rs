@@ -36,7 +36,8 @@ use std::sync::Arc;
 const MOST_LIGHTS: usize = 32;
 
 impl Renderer {
-    /// Prepares the casters if shadows are asked for, within the memory that the scene leaves of the limit.
+    /// Prepares the casters, if the request asks for shadows. The memory limit is the request's, less the memory of the
+    /// scene.
     pub(super) fn prepare_casters(
         &self,
         prepared: &mut PreparedScene,

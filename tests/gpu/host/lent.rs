@@ -131,7 +131,7 @@ fn a_part_of_the_images_is_the_same_picture() {
             let expected = way.framed(&whole.colors, SIZE, AROUND);
             assert!(bits(&part.colors) == bits(&expected));
         }
-        // The library writes the colours of all pixels of the picture, and nobody those around them.
+        // The library writes the colours of all pixels of the picture, and leaves the pixels around them unchanged.
         let whole = machine.see(&PLACED, Base::Ids(&drawn));
         let part = machine.see(&way, Base::Ids(&drawn));
         let width = way.around(SIZE)[0] as usize;

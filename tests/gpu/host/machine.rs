@@ -219,7 +219,7 @@ pub struct Machine<'a> {
     pipelines: [vk::Pipeline; 2],
     /// Whether the host first makes recordings that it never submits.
     pub discards: bool,
-    /// Whether its shading is skipped in rounds that have nothing to do, if the device supports that.
+    /// Whether the host's shading is skipped in rounds that have nothing to do, if the device supports that.
     pub skips: bool,
 }
 

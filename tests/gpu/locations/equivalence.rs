@@ -88,8 +88,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
         for (name, stage) in stages() {
             let prepared = stage.upload(gpu);
             use {Coverage as C, Pattern as P, Shading as S};
-            // The cases are the defaults, with and without first trying few samples; some settings must differ for the
-            // results to be equal.
+            // The first cases have the default options, as far as these give equal results: with numbers of samples for
+            // which few samples are tried first, and with others.
             let mut cases = vec![
                 (P::Sobol, C::Area, S::Part, 256),
                 (P::Sobol, C::Samples, S::Triangle, 17),
@@ -144,7 +144,7 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
     });
 }
 
-/// Result of a call with the smallest memory limit that it accepts, which divides its locations into runs.
+/// Result of a call with the smallest memory limit that the call accepts. The limit divides the locations into runs.
 fn least<T: std::fmt::Debug>(
     prepared: &PreparedScene,
     settings: &Settings,

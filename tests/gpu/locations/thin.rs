@@ -298,7 +298,8 @@ fn amid(ids: &[u32], cell: u32, id: u32) -> bool {
     here != 0 && here != id && (beside || above)
 }
 
-/// An output with more cells than a band holds, which repeats the same picture; the band ends in the middle of one.
+/// An output with more cells than a band holds. The output repeats the same picture, and the band ends in the middle of
+/// one.
 #[test]
 fn bands_of_an_output_find_what_the_whole_does() {
     on_gpu(|gpu| {

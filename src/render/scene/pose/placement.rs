@@ -37,7 +37,7 @@ enum VertexMotion {
 #[derive(Clone, Copy, Debug)]
 pub struct VertexTransform {
     affine: DAffine3,
-    /// Inverse transpose up to a positive factor. It exists even if the inverse does not.
+    /// Inverse transpose up to a positive factor, which exists even if the inverse does not.
     normals: DMat3,
     sign: f64,
 }

@@ -205,7 +205,7 @@ impl ChannelReader<'_, '_> {
         channel: &Channel,
         place: &str,
     ) -> Result<(), Fault> {
-        /// Largest number of keyframes that are examined for a channel; the next is for all channels.
+        /// Largest numbers of keyframes that are examined: for one channel, and for all channels together.
         const MOST: usize = 64;
         const MOST_OF_ALL: usize = 1 << 14;
         let model = self.context.model;
