@@ -289,7 +289,7 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     // Idle rounds follow, which find nothing.
     const IDLE: usize = 2;
     let expected = passes.twin.of(&twins);
-    // Some pairs were dropped, so that there was no room for more.
+    // Pairs are dropped only if they have filled all the room that the device allows.
     let most_pairs = ResourceSizes::most_pairs(passes.gpu.gpu().limits());
     let recorded = passes.recorded(most_pairs as u32);
     assert!(

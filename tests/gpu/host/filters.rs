@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 16;
 const PLACES: usize = 256;
-/// Places along a side of the means that the CPU computes.
+/// Number of places along a side of a parallelogram at which the CPU computes means.
 const DENSE: u32 = 96;
 
 type Vec2 = [f64; 2];

@@ -93,7 +93,7 @@ fn indices_out_of_range_are_the_last_vertex() {
         for way in &WAYS {
             let mut lent = world.lent(way);
             let size = if way.short_indices { 2 } else { 4 };
-            // This is the second corner of the first triangle.
+            // Place of the second corner of the first triangle.
             let place = way.indices_offset as usize + size;
             lent.indices[place..place + size].fill(0xf0);
             let corners = |draw: usize, vertex: usize| {

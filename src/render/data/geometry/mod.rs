@@ -33,7 +33,7 @@ pub(in crate::render) struct Run {
     pub(in crate::render) class: DrawClass,
     pub(in crate::render) first_index: u32,
     pub(in crate::render) triangle_count: u32,
-    /// Index of the place at which they are drawn.
+    /// Index of the place at which the triangles are drawn.
     pub(in crate::render) place: u32,
 }
 

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Summary of the scenes with textures, or of those without.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Whether these are the scenes with textures.
+    /// Whether the summarised scenes have textures.
     pub textured: bool,
     /// Number of scenes.
     pub scenes: usize,
