@@ -1,4 +1,4 @@
-//! Kernels with 64 invocations that bind a descriptor set of their own beside the frame's.
+//! Compute kernels, of 64 invocations a workgroup, that bind a descriptor set of their own in addition to the frame's.
 
 use crate::engine::data::SampleSet;
 use crate::engine::pipelines::FrameLayout;
@@ -7,7 +7,8 @@ use crate::vulkan::{Binding, Compiled, Pipeline, Recorder, ShownBinding, VulkanE
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// A set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is the type of the push constants.
+/// Descriptor set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is the type of the push
+/// constants.
 pub(super) struct BesideFrame<C> {
     layout: PipelineLayout,
     own: OwnSet,
@@ -16,7 +17,7 @@ pub(super) struct BesideFrame<C> {
 }
 
 impl<C: bytemuck::NoUninit> BesideFrame<C> {
-    /// Makes the layouts, and a set of these bindings for `buffers`.
+    /// Makes the layouts, and a descriptor set in which `bindings` refer to `buffers`.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -55,8 +56,8 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
         self.layout.compute(layout, shader)
     }
 
-    /// Binds a frame's set and this one. Other passes must bind the frame's set again afterwards, because their
-    /// layouts differ.
+    /// Binds a frame's descriptor set and this object's. Other passes must bind the frame's set again afterwards,
+    /// because their layouts differ.
     pub fn bind(&self, recorder: &Recorder<'_>, frame: &SampleSet, pushed: &C) {
         let sets = [&frame.set, &self.own.set];
         self.layout.bind(recorder, &sets, pushed);

@@ -1,4 +1,4 @@
-//! What can go wrong with the rendering of a scene.
+//! Errors of rendering a scene.
 
 use super::locations::LocationError;
 use crate::engine::sampler::{EngineError, MethodKind};
@@ -12,13 +12,13 @@ pub enum RenderError {
     /// The settings are impossible, memory runs out, or the device refuses something.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// The method can't sample any locations as it samples the pixels of an image.
+    /// Method that can't sample locations as superpixels.
     #[error("{method} can't sample locations as superpixels; superpixel and ssaa can")]
     LocationMethod {
-        /// What was asked for.
+        /// Method of the request.
         method: MethodKind,
     },
-    /// Only the pixels of an image have regions.
+    /// Region in a request for locations: only the pixels of an image have regions.
     #[error(
         "a region is a part of an image's pixels; of locations, hand over those that are wanted"
     )]
@@ -40,7 +40,7 @@ pub enum RenderError {
     /// A scene is not on the device yet.
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,
-    /// `Headless::stop_when` said so.
+    /// Result that the function of `Headless::stop_when` no longer wants.
     #[error("what was being made is no longer wanted")]
     Stopped,
     /// A camera makes no pinhole.
@@ -49,10 +49,10 @@ pub enum RenderError {
     /// The scene was prepared without shadows.
     #[error("the scene was prepared without shadows: ask for them in its SceneRequest")]
     NoCasters,
-    /// A point has 32 bits for lights.
+    /// More than 32 lights for exact shadows: each shaded point has 32 bits for lights.
     #[error("{found} lights can't all cast shadows; 32 can")]
     ShadowLights {
-        /// How many there are.
+        /// Number of lights.
         found: usize,
     },
 }
@@ -70,7 +70,7 @@ impl From<PatternError> for RenderError {
 }
 
 impl RenderError {
-    /// Whether what was asked for can't be had from this method at all.
+    /// Whether the request was impossible, so that other settings or inputs are needed.
     #[must_use]
     pub fn is_usage(&self) -> bool {
         match self {

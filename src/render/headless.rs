@@ -111,7 +111,8 @@ impl ReadBack {
     }
 }
 
-/// What the centre of a pixel shows besides its colour. The layout is that of `shaders/attributes.comp`.
+/// Attributes of a pixel besides its colour. Depth, ID and normal are those at the pixel's centre. The layout is that
+/// of `shaders/attributes.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PixelAttributes {
@@ -205,9 +206,9 @@ impl Headless {
         &self.gpu
     }
 
-    /// Sets a function that is asked before each submission whether the result is still wanted. If it is not, the call
-    /// ends with [`RenderError::Stopped`]. Locations are sampled in shorter runs then. The function may answer
-    /// differently at any time, from another thread.
+    /// Sets a function that is asked before each submission whether the result is no longer wanted. If the function
+    /// returns true, the call ends with [`RenderError::Stopped`]. Once the function is set, superpixels at locations
+    /// are sampled in shorter runs. The function may change its answer at any time, from another thread.
     pub fn stop_when(&mut self, is_unwanted: impl Fn() -> bool + Send + Sync + 'static) {
         self.is_unwanted = Some(Box::new(is_unwanted));
     }
@@ -266,8 +267,8 @@ impl Headless {
             .prepare_with(scene, settings, None, capacity, reserved)
     }
 
-    /// Renders a frame and waits for it. If the frame's lists outgrow their memory, it is prepared again with more, so
-    /// that the image does not depend on the first estimate.
+    /// Renders a frame and waits for it. If the frame's lists outgrow their memory, the frame is prepared again with
+    /// more memory, so that the image does not depend on the first estimate.
     ///
     /// # Errors
     /// [`RenderError::OtherDevice`] for a frame of another device; otherwise if the device is lost, or the lists do
@@ -281,7 +282,8 @@ impl Headless {
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
-                    // The image is complete: where pairs were not kept, every triangle was tried, which is slow.
+                    // The image is complete: in tiles whose list of candidates outgrew its memory, every triangle was
+                    // tried, which is slow.
                     let rooms = frame.shortfall()?.rooms;
                     if rooms > 1 && frame.lists_can_grow() {
                         self.prepare_again(frame, frame.capacity().with_lists(rooms))?;

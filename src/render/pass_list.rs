@@ -58,7 +58,7 @@ impl FramePass {
     }
 }
 
-/// What `raster`, the only pass of a frame that draws, draws into, by the names by which other shaders read it.
+/// Attachments of `raster`, the only pass of a frame that draws, by the names that other shaders use for them.
 const ATTACHMENTS: [&str; 3] = ["ids", "blend_ids", "raster_depth"];
 
 /// Name of an indirect dispatch.
@@ -85,7 +85,7 @@ impl Headless {
         Ok(passes)
     }
 
-    /// Lists the passes of all that is recorded meanwhile on the device.
+    /// Calls `record`. Returns its result, and a list of the passes that were recorded on the device meanwhile.
     pub fn passes_of<T>(&mut self, record: impl FnOnce(&mut Self) -> T) -> (T, RecordedPasses) {
         let gpu = self.gpu().clone();
         let (made, traced) = gpu.traced(|| record(self));

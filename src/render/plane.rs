@@ -15,7 +15,7 @@ pub(super) const TILE: [i64; 2] = [8, 4];
 /// Part of a plane in which sampling locations lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaneWindow {
-    /// Column and row of its upper left pixel.
+    /// Column and row of the window's upper left pixel.
     pub low: [i64; 2],
     /// Width and height in tiles.
     pub tiles: [u32; 2],

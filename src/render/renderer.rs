@@ -108,8 +108,8 @@ impl PreparedScene {
     }
 
     /// Records the copies of the scene and of its casters to the device, to be executed before the first frame that
-    /// shows it. It can be called again if the commands were discarded; after [`Self::discard_uploads`] it records
-    /// nothing.
+    /// shows it. The copies can be recorded again if the commands were discarded; after [`Self::discard_uploads`]
+    /// nothing is recorded.
     ///
     /// # Safety
     /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
@@ -229,8 +229,8 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, self.first_capacity(), 0)
     }
 
-    /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with more of what it lacked: memory for
-    /// candidates and layers, rounds, or subgroups.
+    /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with
+    /// more memory for candidates and layers, more rounds or more subgroups, whichever that frame lacked.
     ///
     /// # Errors
     /// As [`Self::prepare`].

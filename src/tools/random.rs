@@ -3,7 +3,7 @@
 use crate::random::Random;
 
 impl Random {
-    /// At least `low`, below `high`.
+    /// Random number from `low`, included, to `high`, excluded.
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }

@@ -140,8 +140,8 @@ fn distance(first: &Rendered, second: &Rendered) -> f32 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// Visibility samples that samples share have the colours that each sample would have: exactly for unlit surfaces, and
-/// nearly for lit ones.
+/// A visibility sample that several samples share has the colour that each of them would have: exactly for unlit
+/// surfaces, and nearly for lit ones.
 #[test]
 fn shared_layers_are_those_of_each_sample() {
     on_gpu(|gpu| {

@@ -15,8 +15,8 @@ use crate::visibility::soup;
 /// Size of the image in whole tiles, so that an image and its locations have the same middle.
 const SIZE: [u32; 2] = [64, 64];
 
-/// The stage with 19,000 more triangles in a tile beside the image's middle: more than a list has room for on a device with few
-/// texel elements, on which all pairs fit. They are so small that they lie between
+/// The stage with 19,000 more triangles in a tile beside the image's middle. On a device with few texel elements, a
+/// list has no room for so many, although all pairs fit into memory. The triangles are so small that they lie between
 /// nearly all samples.
 fn with_specks(mut stage: Stage) -> Stage {
     let mut random = Random::new(9);
@@ -50,7 +50,7 @@ fn assert_same(found: &[[f32; 4]], expected: &[[f32; 4]], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
 }
 
-/// Samples of tiles without a list see what lists show them, to the bit.
+/// Samples in tiles without a list see the same as those in tiles with a list, to the bit.
 #[test]
 fn tiles_see_the_same_without_a_list() {
     let test = |gpu: &mut Headless, small: &mut Headless| {
@@ -75,7 +75,7 @@ fn tiles_see_the_same_without_a_list() {
     on_gpu(|gpu| within(few_texel_elements, |small| test(gpu, small)));
 }
 
-/// The same for lists of locations.
+/// Locations in tiles without a list see the same as those in tiles with a list.
 #[test]
 fn locations_see_the_same_in_dense_tiles() {
     let test = |gpu: &mut Headless, small: &mut Headless| {
@@ -100,7 +100,7 @@ fn locations_see_the_same_in_dense_tiles() {
     on_gpu(|gpu| within(few_texel_elements, |small| test(gpu, small)));
 }
 
-/// Panes before each other are composited in order, however many there are and however they come.
+/// Panes before each other are composited in order, however many there are and in whatever order they are drawn.
 #[test]
 fn layers_may_be_any_number() {
     on_gpu(|gpu| {

@@ -205,7 +205,7 @@ fn black_contrasts_with_a_transparent_background() {
         assert!(exact.contains(&true));
         let edges = found(gpu, &stage, &once(size), Detection::Edges);
         assert!(edges == exact);
-        // This finds superpixels that grew too.
+        // Detection by contrast also finds superpixels that grew.
         let contrast = found(gpu, &stage, &once(size), Detection::Contrast);
         let mut pairs = contrast.iter().zip(&exact);
         assert!(pairs.all(|(&contrast, &exact)| contrast || !exact));

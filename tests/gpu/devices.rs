@@ -111,9 +111,9 @@ fn long_work_is_submitted_in_parts() {
 fn other_subgroups_are_an_error() {
     let stage = ball_over_checker();
     let lowered: [fn(&mut Limits); 2] = [
-        // This affects all kernels but those that list spans.
+        // This limit affects all kernels except those that list spans.
         |limits| limits.lanes *= 2,
-        // This affects the kernels that list spans.
+        // This limit affects the kernels that list spans.
         |limits| limits.subgroup_size *= 2,
     ];
     for (lower, method) in lowered

@@ -1,4 +1,4 @@
-//! Edges of meshes, compared with the polygons of the visible ones.
+//! Edges of meshes, compared with polygons of the visible edges.
 
 use glam::{DQuat, DVec3, EulerRot};
 use gpc::camera::{Camera, Projection};

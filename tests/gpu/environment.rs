@@ -218,7 +218,7 @@ fn the_sky_turns() {
         };
         for turn in [0.0_f64, 30.0, 200.0] {
             let sky = sky(colors).turned(turn.to_radians());
-            // This is the direction in the map of a direction in the world.
+            // Direction in the map for a direction in the world.
             let (sin, cos) = turn.to_radians().sin_cos();
             let in_map = |d: DVec3| DVec3::new(d.x * cos - d.z * sin, d.y, d.x * sin + d.z * cos);
             for degrees in [0.0_f64, 35.0] {

@@ -35,7 +35,8 @@ fn scene() -> (Scene, Pose) {
         },
         Sampler::default(),
     ));
-    // The mesh has more triangles than share a look-up of their instance, and not a multiple of that number.
+    // The number of the mesh's triangles is above the size of a block, in which triangles share a look-up of their
+    // instance, and no multiple of that size.
     let at = |ring: u32, side: u32| {
         let [up, around] = [f64::from(ring) / 5.0, f64::from(side) / 9.0];
         let (sin, cos) = (up * std::f64::consts::PI).sin_cos();

@@ -30,7 +30,7 @@ fn cubes(color: impl Fn(u32, DVec3) -> DVec3) -> Vec<Cube> {
         .collect()
 }
 
-/// Solid angle of a texel / that of a texel in the middle of a face.
+/// Ratio of a texel's solid angle to that of a texel in the middle of a face.
 fn solid_angle(side: u32, index: u32) -> f64 {
     Cube::direction(side, index).abs().max_element().powi(3)
 }

@@ -27,9 +27,9 @@ struct Case {
     blends: bool,
     candidates: u32,
     records: u32,
-    /// One of this number of tiles has superpixels.
+    /// Reciprocal of the share of tiles that have superpixels.
     sparseness: u64,
-    /// One of this number of such tiles has more candidates than fit, and another one has pairs that were dropped.
+    /// Reciprocal of the share of these tiles that have more candidates than fit. An equal share has dropped pairs.
     rarity: u64,
     /// Whether tiles without a list are sampled.
     unlisted: bool,
@@ -289,7 +289,7 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     // Idle rounds follow, which find nothing.
     const IDLE: usize = 2;
     let expected = passes.twin.of(&twins);
-    // Some pairs were dropped, so that there was no room for more.
+    // Pairs are dropped only if they have filled all the room that the device allows.
     let most_pairs = ResourceSizes::most_pairs(passes.gpu.gpu().limits());
     let recorded = passes.recorded(most_pairs as u32);
     assert!(
@@ -344,8 +344,8 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     expected.len()
 }
 
-/// Rounds over many stretches and over parts of one, cut between tiles and between stretches, and tiles that fit
-/// nowhere.
+/// Rounds over many stretches of tiles and over parts of one, rounds that end within a stretch and at its end, and
+/// tiles that fit into no round.
 #[test]
 fn rounds_are_the_twins() {
     on_gpu(|gpu| {
@@ -485,7 +485,8 @@ fn as_many_rounds_are_recorded_as_tiles_may_take() {
             let taken = passes.twin.of(&twins_of(&content)).len();
             let recorded = passes.recorded(60 * 40 * tile[0]);
             assert!(taken > 5, "{name}: {taken}");
-            // Of dense tiles it is not known that they have no lists.
+            // More rounds are recorded for dense tiles, because it is not known beforehand that these tiles have no
+            // lists.
             let most = if case.unlisted { recorded } else { 2 * taken };
             assert!(
                 (taken..=most).contains(&recorded),

@@ -99,7 +99,7 @@ fn textures_of_other_sizes_keep_their_own_footprint() {
                 sampler: Sampler::default(),
             });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
-            // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
+            // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
             let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
             let settings = once(SIZE).method(uniform.thin(false));
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();

@@ -11,8 +11,8 @@ use gpc::vulkan::Limits;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
 
-/// Idle devices. They are reused, because a new device compiles all its pipelines anew. Each has its own instance, and
-/// therefore its own messages of the validation layer.
+/// Idle devices. Tests reuse them, because a new device compiles all its pipelines anew. Each device has its own
+/// instance, and therefore its own messages of the validation layer.
 static IDLE: Mutex<Vec<Headless>> = Mutex::new(Vec::new());
 
 fn idle() -> MutexGuard<'static, Vec<Headless>> {

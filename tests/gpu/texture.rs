@@ -1,5 +1,5 @@
-//! Where textures are read for a place that is shaded, against the CPU: each mipmap level has noise of its own, so that
-//! another level, or another number of places, gives another colour.
+//! Filtering of textures at shaded places, compared with the CPU. Each mipmap level has noise of its own, so that
+//! reading another level, or another number of places, gives another colour.
 
 use gpc::reference::texture::{MOST_PROBES, Probes, probes};
 use gpc::render::{Headless, Settings, SuperpixelOptions};
@@ -12,7 +12,7 @@ const SIZE: [u32; 2] = [96, 64];
 /// Side of the squares of pixels that have texture coordinates of their own.
 const PATCH: u32 = 4;
 
-/// An image all of whose levels are noise of black and white channels, whatever the level before.
+/// An image in which each mipmap level is independent noise of black and white channels.
 fn noise(size: [u32; 2], random: &mut Random) -> Image {
     let mut image = Image {
         width: size[0],
@@ -51,7 +51,7 @@ fn bilinear(image: &Image, level: u32, at: [f64; 2]) -> [f64; 3] {
     sum
 }
 
-/// What the footprint of a place shows of an image.
+/// Mean colour of an image at the probes of a footprint.
 fn filtered(image: &Image, found: &Probes) -> [f64; 3] {
     let level = found.level.clamp(0, image.full_levels() as i32 - 1) as u32;
     let mut mean = [0.0; 3];
@@ -64,15 +64,16 @@ fn filtered(image: &Image, found: &Probes) -> [f64; 3] {
     mean
 }
 
-/// Texture coordinates as they change over the image: at the first pixel's centre, by a pixel to the right, and by one down.
+/// Map from pixels to texture coordinates: the coordinates at the first pixel's centre, and their changes from a pixel
+/// to the next one on the right and to the next one below.
 struct Map {
     origin: [f64; 2],
     sides: [[f64; 2]; 2],
 }
 
 impl Map {
-    /// From an eighth of a texel to 16 texels a pixel, up to 16 times as many along one axis of the image as along the other,
-    /// turned and skewed.
+    /// Random map, turned and skewed. The geometric mean of its two directions has from an eighth of a texel to 16
+    /// texels a pixel; one direction may have up to 16 times as many as the other.
     fn new(image: &Image, random: &mut Random) -> Self {
         let mut unit = || random.below(1 << 20) as f64 / f64::from(1 << 20);
         let texels = (7.0 * unit() - 3.0).exp2();
@@ -90,7 +91,7 @@ impl Map {
         }
     }
 
-    /// At a place in pixels from the first pixel's centre.
+    /// Texture coordinates at a place in pixels from the first pixel's centre.
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| self.origin[axis] + x * self.sides[0][axis] + y * self.sides[1][axis])
     }
@@ -128,7 +129,7 @@ fn compare(
         b.uvs = [uvs[0], uvs[2], uvs[3]];
         maps.push(map);
     }
-    // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
+    // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
     let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
     let settings = once(SIZE).method(uniform.thin(false));
     let rendered = stage.render(gpu, &settings);
@@ -137,7 +138,7 @@ fn compare(
         let map = &maps[(y / PATCH * (SIZE[0] / PATCH) + x / PATCH) as usize];
         let at = map.at([x % PATCH, y % PATCH].map(f64::from));
         let found = probes([image.width, image.height], at, map.sides);
-        // Rounding may choose otherwise there.
+        // Where the margin is small, rounding may choose other places or another level.
         if found.margin < 1e-3 {
             continue;
         }
@@ -162,7 +163,7 @@ fn textures_are_averaged_over_footprints() {
             let image = noise(size, &mut random);
             compare(gpu, &image, &mut random, &mut seen);
         }
-        // All numbers of places, the first two at the finest levels and at coarse ones.
+        // All numbers of places occur, and one and two places occur at each of the four finest levels.
         let enough = seen.iter().all(|levels| levels.iter().sum::<u32>() > 100)
             && seen[..2]
                 .iter()

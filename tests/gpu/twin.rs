@@ -52,8 +52,8 @@ impl Twin {
     }
 }
 
-/// Range of the columns or rows of pixels within a pixel of a triangle; all of them if a vertex is not in front of the
-/// eye.
+/// Range of the columns or rows of pixels that are at most a pixel away from a triangle; all of them if a vertex is not
+/// in front of the eye.
 fn reach(vertices: [[f32; 4]; 3], axis: usize, pixels: u32) -> std::ops::Range<usize> {
     if vertices.iter().any(|v| v[3] <= 0.0) {
         return 0..pixels as usize;

@@ -1,4 +1,5 @@
-//! Numbers of parts in which superpixels are shaded, compared with the CPU's: each shading is a visibility sample.
+//! Numbers of parts in which superpixels are shaded, compared with the CPU's numbers. Each part is one visibility
+//! sample, and these are counted.
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};

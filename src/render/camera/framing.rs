@@ -1,4 +1,4 @@
-//! Cameras for a viewpoint of the user's: around a whole scene, or anywhere in it.
+//! Cameras from viewpoints that a user chooses: around a whole scene, or anywhere in it.
 
 use super::{Camera, CameraError};
 use glam::DVec3;

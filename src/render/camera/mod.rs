@@ -116,7 +116,8 @@ impl Camera {
         })
     }
 
-    /// Camera of a scene file. An image with another aspect ratio than the camera's keeps the height of its view.
+    /// Camera of a scene file. If the image has another aspect ratio than the file's camera, the height of the view is
+    /// kept.
     #[must_use]
     pub fn from_scene(camera: &SceneCamera) -> Self {
         let projection = match camera.projection {
@@ -172,7 +173,7 @@ impl Camera {
         self.view_from(DVec3::ZERO)
     }
 
-    /// Matrix from positions relative to `origin` to view space. It is computed in double precision, so that large
+    /// Matrix from positions relative to `origin` to view space. The computation is in double precision, so that large
     /// coordinates of `origin` and of the eye cancel before anything is rounded.
     #[must_use]
     pub fn view_from(&self, origin: DVec3) -> DMat4 {

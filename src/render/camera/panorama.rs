@@ -86,7 +86,8 @@ struct CubeFace {
 }
 
 impl CubeFace {
-    /// Direction through a place of the face; the place is 0 to 1 from the face's left and upper side.
+    /// Direction through `place` on the face, as a unit vector: (0, 0) is the face's upper left corner, (1, 1) its
+    /// lower right corner.
     fn toward(&self, place: DVec2) -> DVec3 {
         let way = 2.0 * place - DVec2::ONE;
         (self.forward + way.x * self.right + way.y * self.down).normalize()
@@ -139,8 +140,9 @@ const ROUNDING: f64 = 1e-12;
 const LARGEST_PLANE: f64 = 65_536.0;
 
 impl Panorama {
-    /// Makes a panorama of `size` = [width, height] pixels. `fov` is its field of view in degrees, along the width
-    /// (for a fisheye across the circle; a cubemap takes 360 alone). A cubemap uses the largest cross that fits.
+    /// Makes a panorama of `size` = [width, height] pixels. `fov` is its field of view in degrees: of a fisheye across
+    /// the circle, of other projections along the width; a cubemap takes only 360. A cubemap uses the largest cross
+    /// that fits.
     ///
     /// # Errors
     /// [`PanoramaError`] if the field of view is not above 0 and at most 360, an equirectangular image is higher than
@@ -192,8 +194,8 @@ impl Panorama {
         self.size
     }
 
-    /// Direction in which a place of the image looks, as a unit vector in the camera's axes; `None` where the image is
-    /// empty. The place is in pixels. Beyond the left and right sides the longitude continues.
+    /// Direction of view at `place`, in pixels of the image, as a unit vector in the camera's axes; `None` where the
+    /// image is empty. The longitude continues beyond the left and right sides.
     #[must_use]
     pub fn look(&self, place: DVec2) -> Option<DVec3> {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
@@ -236,7 +238,7 @@ impl Panorama {
         let Projection::Perspective { near, .. } = camera.projection else {
             return Err(PanoramaError::Orthographic);
         };
-        // In their middles the planes have the resolution of the panorama.
+        // The middle of each plane has the resolution of the panorama.
         let side = (2.0 / self.radians_per_pixel()).ceil().min(LARGEST_PLANE);
         let rig = Rig::cube(camera.eye, camera.axes, side as u32, near)?;
         let layout = PanoramaLayout::of(self);
@@ -281,8 +283,8 @@ impl Panorama {
     }
 }
 
-/// Arrangement of the sampled cells. Where the panorama continues at another place of the image, the cells have a
-/// border of one pixel with these neighbours, so that seams are antialiased like everything else.
+/// Arrangement of the sampled cells. At a seam, a pixel's neighbours are at another place of the image; a border of one
+/// pixel repeats them beside the pixel, so that seams are antialiased like everything else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PanoramaLayout {
     /// The image's pixels, without a border.
@@ -340,8 +342,9 @@ pub struct PanoramaLocations {
 }
 
 impl PanoramaLocations {
-    /// Number of sampled columns and rows. It is larger than the image's, and a cubemap has its faces in another
-    /// order, so that every pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image.
+    /// Number of sampled columns and rows. Every pixel is sampled beside its neighbours; the sampled area is therefore
+    /// larger than the image, and a cubemap has its faces in another order. [`PanoramaLocations::crop`] makes the
+    /// image.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size

@@ -26,8 +26,8 @@ pub struct Pinhole {
     b: DVec3,
     near: f64,
     far: Option<f64>,
-    /// Inverse of the projection. It maps world vectors relative to C to (u w, v w, w), w being the distance from C
-    /// along the normal. For parallel rays, it maps vectors relative to O to (u, v, distance along a ray).
+    /// Inverse of the projection. The inverse maps world vectors relative to C to (u w, v w, w), w being the distance
+    /// from C along the normal. For parallel rays, vectors relative to O are mapped to (u, v, distance along a ray).
     inverse: DMat3,
     /// Unit normal of the plane that points away from C.
     normal: DVec3,
@@ -82,7 +82,7 @@ pub enum PinholeError {
         /// Height in pixels.
         height: u32,
     },
-    /// Matrix that is not that of a pinhole; holds the reason.
+    /// Matrix that belongs to no pinhole; holds the reason.
     #[error("the projection matrix is none of a pinhole: {0}")]
     Matrix(&'static str),
     /// Camera that can't exist.
@@ -90,13 +90,15 @@ pub enum PinholeError {
     Camera(#[from] CameraError),
 }
 
-/// Sine of the angle between plane and rays below which they count as parallel: no digit of (u, v) would be right.
+/// Sine of the angle between a plane and a ray, below which the ray counts as parallel to the plane: no digit of (u, v)
+/// would be right.
 const FLAT: f64 = 1e-12;
 
 impl Pinhole {
     /// Makes a pinhole from world-space vectors: `centre` C, homogeneous with w = 1 or 0; `origin` O, the upper left
     /// corner of the image; `a` and `b`, the steps to the next pixel of a row and to the next row. Depths from `near`
-    /// to `far` are visible. They are distances along the plane's normal, from C, or from the plane for parallel rays.
+    /// to `far` are visible. Depths are distances along the plane's normal: from C, or for parallel rays from the
+    /// plane.
     ///
     /// # Errors
     /// [`PinholeError`] if a number is not finite, C is neither point nor direction or lies in the plane, a and b span
@@ -259,7 +261,8 @@ impl Pinhole {
         self.centre.w == 0.0
     }
 
-    /// Point in which the rays meet. For parallel rays it is O; depths are measured from its plane then.
+    /// Point in which the rays meet. Parallel rays do not meet; for these, the point is O, and depths are measured from
+    /// the image plane.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         if self.is_parallel() {
@@ -324,9 +327,9 @@ impl Pinhole {
         (!self.is_parallel() && p.z > 0.0).then(|| p.truncate() / p.z)
     }
 
-    /// Matrix from positions relative to `origin` to (u w, v w, depth w, w). (u, v) are pixels relative to the
-    /// location `window`, depth runs from 1 at the near plane to 0 at the far plane, and w is the distance from C (1
-    /// for parallel rays). It is computed in double precision, so that large coordinates of `origin` and C cancel
+    /// Matrix from positions relative to `origin` to (u w, v w, depth w, w). (u, v) are pixels relative to the location
+    /// `window`, depth runs from 1 at the near plane to 0 at the far plane, and w is the distance from C (1 for
+    /// parallel rays). The computation is in double precision, so that large coordinates of `origin` and C cancel
     /// before anything is rounded.
     #[must_use]
     pub fn pixel_matrix(&self, origin: DVec3, window: DVec2) -> DMat4 {

@@ -10,7 +10,7 @@
 //!            └────────┘
 //! ```
 //!
-//! Every direction belongs to exactly one pinhole, the one whose axis it is nearest to; of equally near ones the first.
+//! Every direction belongs to exactly one pinhole: the first of those whose axes are nearest to the direction.
 
 use super::set::{Sample, SamplingSet, SetError};
 use super::{Pinhole, PinholeError};
@@ -42,8 +42,8 @@ pub enum RigError {
     Set(#[from] SetError),
 }
 
-/// Cosine of the largest angle from its axis at which a pinhole is sampled, about 80 degrees. A pixel there covers 30
-/// times as many pixels of the plane as one on the axis.
+/// Cosine of the largest angle between a sampled ray and the axis of its pinhole, about 80 degrees. A pixel at that
+/// angle covers 30 times as many pixels of the plane as one on the axis.
 const FLATTEST: f64 = 0.17;
 
 /// Step for the numerical differentiation of Jacobians, in pixels.

@@ -1,4 +1,4 @@
-//! What the passes read of scenes of files: geometry, materials, textures and lights, and the cells of an output.
+//! Device data that passes read: geometry, materials, textures and lights of scenes, and the cells of an output.
 
 mod geometry;
 mod output_cells;

@@ -4,7 +4,7 @@ use crate::engine::data::{IdViews, Resources};
 use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// Plane of data about the cells, row by row. A cell has one word, except in marks and colours.
+/// Kind of data about the cells, stored row by row. Each cell has one word, except for marks and colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputPlane {
     /// ID of the nearest opaque or MASK triangle.
@@ -25,7 +25,7 @@ impl OutputPlane {
     /// Number of words for a cell, over all planes.
     const WORDS: u64 = 9;
 
-    /// Begin and length of the plane, in words for each cell.
+    /// Start and length of the plane, in words per cell.
     fn range(self) -> [u64; 2] {
         match self {
             Self::Colors => [5, 4],
@@ -34,7 +34,7 @@ impl OutputPlane {
     }
 }
 
-/// Rows of an output, and images of their triangle IDs.
+/// Contents of the cells of an output, and images of their triangle IDs.
 pub struct OutputCells {
     size: [u32; 2],
     /// Words of all planes, each [`OutputPlane`] after the other.

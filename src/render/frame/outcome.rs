@@ -31,12 +31,13 @@ impl Frame {
         })
     }
 
-    /// Statistics of the last recording, available from the end of its commands until the next recording. This does
-    /// not wait.
+    /// Statistics of the last recording, available from the end of its commands until the next recording. The call does
+    /// not wait for the commands.
     ///
     /// # Errors
-    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if visibility samples did not fit into memory; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the last
-    /// recording has not been executed, or its counters or times can't be read.
+    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if visibility samples did not fit into memory;
+    /// [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the last recording has not been executed, or its
+    /// counters or times can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics {
             regions: self.plan.regions.len() as u64,

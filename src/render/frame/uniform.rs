@@ -12,7 +12,7 @@ use glam::DMat4;
 
 impl Recording<'_> {
     /// Uniform block of a region whose superpixels have `samples` samples. With `owned`, only the wanted pixels of the
-    /// region become superpixels, and no pixels of its halo.
+    /// region can become superpixels; the pixels of its halo can't.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
         let side = self.settings.side();
@@ -54,11 +54,11 @@ pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) ->
     camera.pixel_matrix(scene.origin(), width, height)
 }
 
-/// Difference of depth between surfaces whose distances differ by a pixel's width: a factor on the depth, and a
-/// constant.
+/// Difference in depth of two surfaces whose distances differ by a pixel's width: a factor that is multiplied by the
+/// depth, and a constant that is added.
 fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
     match camera.projection {
-        // Depth is near / distance, so that a relative difference of depth is one of distance.
+        // Depth is near / distance, so that relative differences of depth and of distance are equal.
         Projection::Perspective { fov, .. } => {
             [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
         }

@@ -68,7 +68,8 @@ impl CrossingFinder {
         })
     }
 
-    /// Memory for a run of `count` locations and for what they see, to be written while the device is idle.
+    /// Memory for a run of `count` locations and for the surfaces visible there, to be written while the device is
+    /// idle.
     pub fn listed_mut(
         &mut self,
         count: usize,
@@ -78,10 +79,11 @@ impl CrossingFinder {
         Ok((self.run.listed_mut(count)?, bytemuck::cast_slice_mut(seen)))
     }
 
-    /// Records the search in a run of `count` locations, which have been written, in a window of a pinhole's plane.
+    /// Records the search in a run of `count` locations within a window of the pinhole's plane. The locations must have
+    /// been written before.
     ///
     /// # Safety
-    /// As [`RunMemory::record`]; and what was written as seen names cells of the output.
+    /// As [`RunMemory::record`]. The written [`SeenLocation::output`] indices belong to cells of the output.
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,

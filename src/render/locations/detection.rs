@@ -1,6 +1,6 @@
-//! Superpixels of an image of locations: the cells that alias, and the cells beside these that contrast with the
-//! colours which sampling them revealed. Passes find them, band by band of the output, by the same rules as for pixels
-//! of frames; the host copies data between the bands.
+//! Superpixels of an image that is sampled at locations. They are cells that alias, and cells that contrast with a
+//! superpixel beside them once that superpixel has been sampled. Passes find them in one band of the output after the
+//! other, by the rules that frames use for pixels; the host copies data between bands.
 
 use super::crossings::CrossingFinder;
 use super::image::{OutputImage, chosen};
@@ -31,7 +31,7 @@ const MOST_CELLS: u64 = 1 << 20;
 /// Rows of an output that are searched together.
 struct Band {
     rows: Range<u32>,
-    /// The rows and those around them from which superpixels may grow.
+    /// The rows of the band, and rows around it from which superpixels may grow into it.
     sampled: Range<u32>,
     /// The sampled rows and their neighbours.
     seen: Range<u32>,
@@ -40,7 +40,7 @@ struct Band {
 /// Kind of superpixels to search for.
 #[derive(Clone, Copy)]
 enum Search {
-    /// Cells that alias, judged by what the cells show.
+    /// Cells that alias, judged by the surfaces and colours at their locations.
     Aliasing,
     /// Cells that contrast with a superpixel beside them; holds the number of earlier growths.
     Growth(usize),
@@ -130,8 +130,8 @@ impl Headless {
         self.sample_cells(scene, &chosen, &settings, image)
     }
 
-    /// Marks the cells in which a light reaches other places than the location: something narrower than a cell casts a
-    /// shadow there.
+    /// Marks the cells in which a probe sees the location's triangle but is reached by other lights: the shadow of
+    /// something narrower than a cell falls there.
     fn mark_shadows(
         &mut self,
         scene: &PreparedScene,
@@ -331,7 +331,7 @@ impl BandDetector {
         })
     }
 
-    /// The settings, with the memory that this detector leaves of what they allow.
+    /// The settings, with the memory limit reduced by the memory of this detector.
     fn settings_beside(&self) -> Settings {
         let allowed = self.settings.max_memory;
         Settings {
@@ -347,8 +347,8 @@ impl BandDetector {
         bands(self.settings.size[1], rows, growths)
     }
 
-    /// Writes what the cells of a band show and, if there are any, which of them have shadows narrower than a cell.
-    /// The device must be idle.
+    /// Writes the visible surfaces and colours of a band's cells. Unless `shadowed` is empty, it says which cells have
+    /// shadows narrower than a cell. The device must be idle.
     fn show(&mut self, band: &Band, image: &OutputImage, shadowed: &[bool]) {
         let width = self.settings.size[0];
         let range = band.cells(width);
@@ -389,7 +389,7 @@ impl BandDetector {
         }
     }
 
-    /// Records the upload of what was written.
+    /// Records the upload of the band's cells.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -402,7 +402,7 @@ impl BandDetector {
         self.cells.record(&recorder, &self.resources, band.height());
     }
 
-    /// Records a search for superpixels, and the download of their masks.
+    /// Records a search for superpixels, and the copy of their masks to host memory.
     ///
     /// # Safety
     /// As [`Self::record_begin`], which was recorded before for this band; searches of a band are recorded in their
@@ -470,7 +470,8 @@ impl BandDetector {
     }
 }
 
-/// Sizes for as many rows as suit the device and fit into a quarter of the memory that is left.
+/// Sizes for a band with as many rows as the device allows and as fit into a quarter of `left`, the free memory in
+/// bytes.
 fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> ResourceSizes {
     let [width, height] = settings.size;
     let halo = 2 * (settings.growths() + 1);

@@ -10,7 +10,7 @@ use crate::render::{
 };
 use crate::sampling::Pattern;
 
-/// What each cell of an output shows, row by row.
+/// Surface and colour in each cell of an output, row by row.
 pub(super) struct OutputImage {
     pub colors: Vec<[f32; 4]>,
     pub attributes: Vec<PixelAttributes>,
@@ -28,8 +28,8 @@ impl Headless {
     ///
     /// Every location is sampled once. Locations are then sampled as superpixels if neighbours in the *output* alias,
     /// also across pinholes, or if a triangle narrower than their cell crosses it without covering the location.
-    /// `ssaa` samples every location by a grid and shades each sample. Pixels without a location show the background;
-    /// of several locations for a pixel the last one counts.
+    /// `ssaa` samples every location by a grid and shades each sample. Pixels without a location show the background.
+    /// If several locations belong to a pixel, the last one counts.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
@@ -197,7 +197,7 @@ impl OutputImage {
         attributes.is_some_and(|attributes| attributes.superpixel == 1)
     }
 
-    /// What the location of a cell shows, with cells counted from `first`.
+    /// Surface at the location of a cell. The cell's index in the result is relative to `first`.
     pub fn seen_at(&self, cell: u32, first: u32) -> SeenLocation {
         let at = cell as usize;
         SeenLocation {

@@ -1,7 +1,7 @@
 //! Sampling at any set of locations on a pinhole's image plane.
 //!
 //! A scene is sampled at [`SampleLocation`]s, once each ([`Headless::sample_points`]) or as superpixels
-//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They use the sampler
+//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. The sampler is the one
 //! that antialiases images; no picture is resampled.
 
 mod crossings;
@@ -25,7 +25,7 @@ use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
 use std::ops::Range;
 
-/// What a scene shows at a sampling location.
+/// Colour and nearest surfaces of a scene at a sampling location.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointSample {
     /// Colour in linear light with premultiplied alpha.
@@ -46,20 +46,21 @@ pub struct PointSample {
     pub shadows: u32,
 }
 
-/// Factor for the room for candidates above which no more is allocated for a single location.
+/// Factor on the memory for lists of candidates. Once the memory has grown this much, it is not raised any more for a
+/// single location that does not fit.
 const MOST_LISTS: u32 = 1 << 16;
 
 /// Pinholes, each with the locations on its plane.
 type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
 
-/// What a run of locations shows.
+/// Values at the locations of a run.
 struct RunValues<'a> {
     /// Range of the run in the order of the partition.
     places: Range<usize>,
     seen: LocationValues<'a>,
 }
 
-/// What a scene shows at a list of locations, in the order of the list, and the statistics.
+/// Values at a list of locations, in the order of the list, and statistics of sampling them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sampled<T> {
     /// Values, one for each location.
@@ -70,8 +71,8 @@ pub struct Sampled<T> {
 }
 
 impl Headless {
-    /// Samples a scene once at each location. The settings' size is ignored; of the method counts whether superpixels filter
-    /// textures.
+    /// Samples a scene once at each location. The settings' size is ignored, and their method affects only how textures
+    /// are filtered.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled; with

@@ -124,8 +124,8 @@ impl<'a> Partition<'a> {
         &self.locations[self.index(place)]
     }
 
-    /// Stores the values of a run's locations, the first of the run first, at their positions in the caller's list.
-    /// Runs follow one another.
+    /// Stores the values of a run at the positions of its locations in the caller's list; values start with the run's
+    /// first location. Runs must be stored in order.
     pub fn put<T: Clone + Default + Send>(
         &self,
         run: &Range<usize>,
@@ -157,8 +157,8 @@ impl<'a> Partition<'a> {
         });
     }
 
-    /// Rectangle of the plane that holds all locations, and the largest distance of their samples from them, in
-    /// pixels.
+    /// Rectangle of the plane that holds all locations, and the largest distance of a sample from its location along
+    /// either axis, in pixels.
     pub fn reach(&self) -> (Rectangle, f64) {
         type Reach = (Rectangle, f64);
         let around = |location: &SampleLocation| {

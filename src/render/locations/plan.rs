@@ -14,9 +14,10 @@ use std::ops::Range;
 
 /// Largest number of locations of a run; more would not make sampling faster.
 const MOST_LOCATIONS: usize = 1 << 18;
-/// Largest number of samples of a run that may have to be stopped.
+/// Largest number of samples of a superpixel run if [`Headless::stop_when`](crate::render::Headless::stop_when) is
+/// used.
 const MOST_STOPPABLE: usize = 1 << 20;
-/// Smallest number of locations to which runs are cut where memory is limited.
+/// Number of locations below which runs are not cut further when memory is limited.
 const FEWEST_LOCATIONS: usize = 1 << 10;
 
 /// Runs of a list of locations, and the memory that the largest run needs.
@@ -26,7 +27,7 @@ pub(super) struct LocationPlan {
     pub places: u64,
     pub runs: Vec<Range<usize>>,
     pub sizes: ResourceSizes,
-    /// Capacity for which it was planned.
+    /// Capacity for which the plan was made.
     pub capacity: Capacity,
 }
 

@@ -111,7 +111,8 @@ impl LocationSampler {
         self.run.listed_mut(count)
     }
 
-    /// Records the sampling of a run of `count` locations, which have been written, in a window of the plane.
+    /// Records the sampling of a run of `count` locations in a window of the plane. The locations must have been
+    /// written before.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.

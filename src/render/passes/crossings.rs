@@ -8,7 +8,7 @@ use crate::render::beside_frame::BesideFrame;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
-/// What a location shows, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
+/// Surfaces at a location, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SeenLocation {
@@ -18,7 +18,7 @@ pub struct SeenLocation {
     pub id: u32,
     /// ID of the nearest BLEND triangle in front of it; 0 for none.
     pub blend_id: u32,
-    /// Index of its cell of the output, row by row.
+    /// Index of the location's cell in the output, row by row.
     pub output: u32,
 }
 
@@ -26,7 +26,7 @@ pub struct SeenLocation {
 /// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
 pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 
-/// Marks cells, which `detect` makes superpixels.
+/// Marks crossed cells for `detect`, which makes them superpixels.
 pub struct Crossings {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,

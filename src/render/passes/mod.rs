@@ -1,5 +1,5 @@
-//! Passes that shade and pose scenes of files, and those that make images of what a frame saw. A pass has the name of its shader in
-//! `shaders/`.
+//! Passes that pose and shade scenes of files, and passes that make images of a frame's samples. Each pass has the name
+//! of its shader in `shaders/`.
 
 mod attributes;
 mod box_filter;

@@ -6,7 +6,8 @@ use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Marks cells for [`Grow`](crate::engine::passes::Grow), for superpixels that are locations of lists.
+/// Marks cells for [`Grow`](crate::engine::passes::Grow) in an output whose superpixels are sampled as a list of
+/// locations.
 pub struct Neighbours {
     pipeline: Arc<Pipeline>,
 }

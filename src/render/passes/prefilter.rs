@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 /// Number of levels of the cube, for roughnesses from 0 to 1.
 const LEVELS: u32 = 6;
 /// Number of directions of the first filtered level; each further level has twice as many. Directions into the surface
-/// are left out. Rough levels are small, and need many directions so that the averages they read do not blur them
+/// are left out. Rough levels are small. They need many directions, so that the averages that are read do not blur them
 /// further.
 const DIRECTIONS: u32 = 64;
 
@@ -116,9 +116,10 @@ impl Prefilter {
     }
 }
 
-/// Directions from which a surface of level `level` of `steps` reflects light along its normal, +z. Each has the same
-/// probability under the GGX distribution; the fourth component is the average of a cube of `side` texels whose texels
-/// are as large as the solid angle that the direction stands for.
+/// Directions from which a surface with the roughness of level `level` of `steps` reflects light along its normal, +z.
+/// Each direction has the same probability under the GGX distribution. The fourth component is the index of an average:
+/// the one whose texels are as large as the solid angle for which the direction stands. The finest cube has `side`
+/// texels along a face.
 #[must_use]
 pub fn lobe(level: u32, steps: u32, side: u32) -> Vec<[f32; 4]> {
     let texel = 4.0 * PI / (6.0 * f64::from(side * side));
@@ -134,7 +135,7 @@ pub fn lobe(level: u32, steps: u32, side: u32) -> Vec<[f32; 4]> {
         let bottom = n_h * n_h * (square - 1.0) + 1.0;
         let density = square / (PI * bottom * bottom) / 4.0;
         let stands_for = 1.0 / (f64::from(count) * density);
-        // One average coarser than the solid angle on its own needs, because directions are not evenly spaced.
+        // The average is one level coarser than the solid angle alone needs, because directions are not evenly spaced.
         let wide = (0.5 * (stands_for / texel).log2() + 1.0).round();
         let coarsest = f64::from(side.ilog2());
         let vector = ray.extend(wide.clamp(0.0, coarsest)).as_vec4();

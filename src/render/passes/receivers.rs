@@ -14,7 +14,7 @@ pub use crate::engine::passes::spirv::ReceiversPush as LightPlane;
 impl LightPlane {
     /// Face of a plane that does not belong to a cube.
     pub const SINGLE: u32 = spirv::SINGLE_PLANE;
-    /// Flag in `step`: the pass initialises the words.
+    /// Flag in `step`: the pass initialises the shadow words.
     pub const BEGINS: u32 = 32;
     /// Further places in a pixel that are probed, relative to its centre. `shaders/receivers.comp` explains the
     /// choice.
@@ -24,7 +24,7 @@ impl LightPlane {
         [0.46875, -0.296875],
     ];
 
-    /// The same plane for each probe.
+    /// Copies of this plane, one for each probe.
     pub fn of_probes(self) -> impl Iterator<Item = Self> {
         let light = self.step & (Self::BEGINS - 1);
         let numbers = 1..=Self::PROBES.len() as u32;
@@ -52,8 +52,8 @@ pub struct Receivers {
 }
 
 impl Receivers {
-    /// Makes the pipelines for cells of a scene. They write the receivers' locations to `locations`, two vectors each,
-    /// and initialise the shadow words of the resources.
+    /// Makes the pipelines for cells of a scene. The pass writes the receivers' locations to `locations`, two vectors
+    /// each, and initialises the shadow words of the resources.
     ///
     /// # Errors
     /// If the driver refuses one.

@@ -9,7 +9,7 @@ use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What is done with the occluders between a light and its receivers.
+/// Use of the occluders that were found between a light and its receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShadowTarget {
     /// Sets bits in the shadow words of places.
@@ -24,7 +24,7 @@ pub enum ShadowTarget {
     },
 }
 
-/// Number of words about unfinished work.
+/// Number of words in the counters of unfinished work.
 const LEFT_WORDS: usize = 2;
 
 /// Writes the shadow words of receivers, and counts what the passes before it could not finish.

@@ -1,6 +1,6 @@
-//! Document of a file: the description in `gltf`'s types, and what was decoded from it and checked. Every index is in
-//! range except those of cameras and lights, and every number is finite unless said otherwise.
-//! [`Scene::pose`](super::Scene::pose) needs nothing else.
+//! Document of a file: its description in `gltf`'s types, and the decoded and checked data. Every index is in range
+//! except those of cameras and lights, and every number is finite unless said otherwise.
+//! [`Scene::pose`](super::Scene::pose) reads only this document.
 
 use std::{fmt, sync::Arc};
 
@@ -144,9 +144,9 @@ pub struct Primitive {
     pub targets: Vec<Target>,
     /// Joints and weights of each set `JOINTS_0`, `JOINTS_1`, ...
     pub influences: Vec<Influences>,
-    /// Corners of points and lines. Their vertices are the last ones, in the same order.
+    /// Corners of points and lines. The last vertices of the primitive belong to them, in the same order.
     pub corners: Vec<Corner>,
-    /// Edges of a mesh; their corners are the last vertices.
+    /// Edges of a mesh. The last vertices of the primitive are the corners of these edges.
     pub edges: Vec<Edge>,
 }
 
@@ -196,9 +196,9 @@ pub struct Skin {
 pub enum Animated {
     /// A property of a node.
     Node(usize, Property),
-    /// Index of a node, and that of one of its morph weights.
+    /// Indices of a node and of one of its morph weights.
     Weight(usize, usize),
-    /// Whether a node and what is below it are drawn.
+    /// Whether a node and its descendants are drawn; holds the node's index.
     Visibility(usize),
     /// Number in a description, by a JSON pointer that starts at the description, without the pointer's first slash.
     Description(Described, String),
@@ -215,7 +215,7 @@ impl fmt::Display for Animated {
     }
 }
 
-/// Part of the file, by its index, in whose description animations can change numbers.
+/// Material, light or camera whose description has numbers that animations can change; holds its index in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Described {
     Material(usize),

@@ -49,7 +49,7 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
     scene.document.meshes.par_iter_mut().for_each(|mesh| {
         let mut groups: Vec<Vec<&Primitive>> = Vec::new();
         for primitive in mesh.iter().filter(|primitive| !primitive.is_strokes()) {
-            // Primitives with other joints or targets do not move in the same way.
+            // Primitives whose numbers of joint sets or morph targets differ do not move in the same way.
             let alike = |other: &&Primitive| {
                 other.influences.len() == primitive.influences.len()
                     && other.targets.len() == primitive.targets.len()
@@ -199,7 +199,8 @@ impl<'p> MergedPrimitives<'p> {
         self.primitive(edges, &sources, material)
     }
 
-    /// Normals of a face and of its neighbour `beyond` a side; zero for a face without area.
+    /// Normals of a side's face and of the neighbouring face, whose third vertex is `beyond`; zero for a face without
+    /// area.
     fn normals(&self, side: &HalfEdge, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;

@@ -98,7 +98,7 @@ pub(super) fn length_scale(transform: &DAffine3) -> f64 {
 }
 
 impl Instance {
-    /// Number of which [`Instance::first_index`] is a multiple.
+    /// Divisor of every [`Instance::first_index`].
     pub const ALIGNMENT: u32 = 64;
 
     /// Whether the transform mirrors, which reverses the winding of triangles.
@@ -462,9 +462,9 @@ impl Geometry {
         DVec3::from_array(self.positions[v as usize].map(f64::from))
     }
 
-    /// Geometry with the same triangles and IDs in world space, without instances. Vertices keep their indices; those
-    /// of meshes at other places follow. IDs that belong to no triangle become triangles without area, which points
-    /// and lines also are until a camera gives them a size.
+    /// Geometry with the same triangles and IDs in world space, without instances. Vertices keep their indices; for
+    /// each instance with a transform, transformed copies of its vertices are appended. IDs that belong to no triangle
+    /// get triangles without area. Points and lines have no area either, until a camera gives them a size.
     #[must_use]
     pub fn flat(&self) -> Cow<'_, Self> {
         if self.instances.is_empty() {
@@ -523,7 +523,7 @@ impl Geometry {
     fn place(&self, used: RangeInclusive<usize>, instance: &Instance, flat: &mut Self) -> u32 {
         let first = flat.positions.len() as u32;
         let place = instance.transform;
-        // This is the inverse transpose up to a positive factor. It exists even if the inverse does not.
+        // The inverse transpose, up to a positive factor, exists even if the inverse does not.
         let m = place.matrix3;
         let sign = if instance.mirrored() { -1.0 } else { 1.0 };
         let turn = |[x, y, z]: [f32; 3]| {

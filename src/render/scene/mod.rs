@@ -1,7 +1,8 @@
-//! The scene: what a file holds, and its triangles in the pose of one moment.
+//! Scenes: the contents of a file, and their triangles in the pose of one moment.
 //!
-//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] makes one of its
-//! scenes [`Geometry`] that a renderer uploads: in world space, but for large meshes that are drawn often.
+//! This module does not use Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] turns one of its scenes into
+//! [`Geometry`], which a renderer uploads. Positions are in world space, except in large meshes that are drawn many
+//! times.
 //!
 //! ```no_run
 //! use gpc::scene::{PoseRequest, Scene};
@@ -15,8 +16,8 @@
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
-//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. Those formats
-//! have no unit, no axis that is up and no light; what they have is taken as it is.
+//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. These formats define
+//! no unit, no up axis and no light; positions are taken unchanged.
 //!
 //! Supported extensions: `KHR_animation_pointer` (into materials, lights and cameras, to the transforms, weights and
 //! visibility of nodes and the weights of meshes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
@@ -26,7 +27,7 @@
 //! `KHR_materials_transmission` and `KHR_materials_volume` (a tinted layer, neither refracted nor blurred, with a warning),
 //! `KHR_materials_unlit`, `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
 //! `EXT_lights_image_based`, `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
-//! another one is refused.
+//! another extension is refused.
 
 mod document;
 mod edges;
@@ -152,8 +153,8 @@ impl Scene {
         }
     }
 
-    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move with
-    /// the meshes, but creases are determined with the meshes at rest.
+    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. The lines move
+    /// with the meshes, but creases are determined with the meshes at rest.
     pub fn add_edges(&mut self, edges: &Edges) {
         edges::add(self, edges);
     }

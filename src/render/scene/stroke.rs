@@ -8,7 +8,7 @@ use crate::engine::passes::spirv;
 pub struct Stroke {
     /// Corner of the point or line.
     pub part: StrokePart,
-    /// Index of the vertex to place; until then its position is that of [`at`](Self::at).
+    /// Index of the vertex to place. Until the vertex is placed, it has the position of [`at`](Self::at).
     pub vertex: u32,
     /// Index of the vertex at the point, or at the segment's end, to which the corner belongs.
     pub at: u32,
@@ -16,7 +16,7 @@ pub struct Stroke {
     pub other: u32,
     /// Index of the vertex to which the line continues from `at`; `at` itself at the end of the line.
     pub beyond: u32,
-    /// Whether its normal faces the camera, because it has none of its own.
+    /// Whether the vertex's normal faces the camera, because the vertex has no normal of its own.
     pub faces_camera: bool,
 }
 
@@ -26,10 +26,10 @@ pub struct Edge {
     /// Index of the first of four consecutive vertices to place: the left corner of the first end, the right and left
     /// corners of the second end, and the right corner of the first, as in [`StrokePart`].
     pub first_vertex: u32,
-    /// Indices of the vertices at its ends.
+    /// Indices of the vertices at the edge's ends.
     pub ends: [u32; 2],
-    /// Indices of the third vertices of its two faces: of the face in which the edge runs from the first end to the
-    /// second, and of the other one; an end of the edge stands for a missing face.
+    /// Indices of the third vertices of the edge's two faces. The edge runs from the first end to the second in the
+    /// first face, and back in the second. For a missing face, the index is that of an end of the edge.
     pub opposite: [u32; 2],
     /// Whether the edge is visible only as a silhouette, between a face seen from the front and one seen from behind.
     pub is_smooth: bool,

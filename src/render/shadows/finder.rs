@@ -80,7 +80,7 @@ impl RecordShading for Occlusion<'_> {
     }
 }
 
-/// List by which casters are sampled.
+/// Kind of the lists with which casters are sampled.
 const OCCLUDERS: ListCells = ListCells {
     cells: Cells::Occluders,
     attributes: false,
@@ -215,7 +215,7 @@ impl ShadowFinder {
         self.targets.record_unused(recorder);
     }
 
-    /// Views of lights onto what is visible.
+    /// Views of the lights onto the visible part of the scene.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
         views(&self.lit, sight)
     }
@@ -266,8 +266,8 @@ impl ShadowFinder {
         });
     }
 
-    /// Records marks for pixels of a region in which lights reach other places than the centre; the centre's shadows
-    /// are known. The region's descriptor set is bound before and after.
+    /// Records marks for the pixels of a region in which a probe is reached by other lights than the centre. The
+    /// shadows of the centres must have been found before. The region's descriptor set is bound before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.section("shadows", || {
             let receiving = Receiving::Pixels(shaded.pixels());

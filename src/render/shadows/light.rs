@@ -1,4 +1,4 @@
-//! The pinholes of a light, and their planes around what is seen.
+//! Pinholes of lights, and the windows of their image planes in which the visible part of the scene lies.
 //!
 //! ```text
 //!   directional: parallel rays, w = 0      spot: one perspective plane       point, wide spot: six planes, a cube
@@ -18,12 +18,13 @@ use glam::{DMat3, DVec2, DVec3};
 /// Largest half angle of a cone that one plane covers, in radians: 75 degrees. A pixel on the cone's rim covers 15
 /// times the area of one on its axis.
 const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
-/// Distance of the near plane of point and spot lights / diagonal of the scene; nothing nearer casts a shadow.
+/// Distance of the near plane of point and spot lights, as a share of the scene's diagonal; nothing nearer casts a
+/// shadow.
 const NEAR: f64 = 1e-6;
 /// Smallest and largest number of pixels along a side of a light's plane, which is one region of the sampler.
 const SIDES: [f64; 2] = [64.0, 2_000.0];
-/// Margin around the visible part of a distant light's plane / side of that part. It covers the rounding of positions
-/// to 32 bits.
+/// Margin around the visible part of a distant light's plane, as a share of that part's side. The margin covers the
+/// rounding of positions to 32 bits.
 const RIM: f64 = 1.0 / 256.0;
 
 /// A rectangle of a plane: its upper left and lower right corner in pixels.

@@ -2,7 +2,7 @@
 //!
 //! The places at which surfaces are shaded, including those of every sample of a superpixel, are projected onto the
 //! image plane of each light. There they are a list of sampling locations, which the sampler of all lists samples: it
-//! finds the places that another triangle occludes. No depth map is made, so that there is none that could alias.
+//! finds the places that another triangle occludes. There is no depth map, which could alias.
 //!
 //! A place is in shadow in two cases. First, if another triangle, opaque or passing its alpha test, is nearer to the
 //! light by more than 2^-17 of the distance (of the scene's depth for a distant light). Second, if the visible side of
@@ -36,7 +36,8 @@ use std::sync::Arc;
 const MOST_LIGHTS: usize = 32;
 
 impl Renderer {
-    /// Prepares the casters if shadows are asked for, within the memory that the scene leaves of the limit.
+    /// Prepares the casters, if the request asks for shadows. The memory limit is the request's, less the memory of the
+    /// scene.
     pub(super) fn prepare_casters(
         &self,
         prepared: &mut PreparedScene,

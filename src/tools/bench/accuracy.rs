@@ -19,8 +19,9 @@ pub struct Accuracy {
     pub max: f64,
     /// Mean of the FLIP error map, 0 to 1.
     pub flip: f64,
-    /// Share of the aliasing error that is removed: 1 - MSE / MSE of one sample a pixel, of sRGB-encoded values. It is
-    /// negative for an image worse than one sample a pixel, and 1 if one sample a pixel has no error.
+    /// Share of the aliasing error that is removed: 1 - MSE / MSE1, of sRGB-encoded values, where MSE1 is the error of
+    /// one sample a pixel. The share is negative for an image worse than one sample a pixel, and 1 if one sample a
+    /// pixel has no error.
     pub removed: f64,
     /// Share of the pixels that were changed needlessly: one sample differs from the reference by less than 1/255 in
     /// every channel, and the image differs by more in some channel.

@@ -24,8 +24,8 @@ const SEED: u32 = 2;
 pub enum Cause {
     /// Superpixel: the error comes from the number of its samples and shadings.
     Superpixel,
-    /// Pixel that is no superpixel although its centre or a neighbour's shows another triangle: their colours contrast
-    /// too little.
+    /// Pixel that is no superpixel and holds several triangles, each of which some centre of the 3 x 3 pixels around it
+    /// shows: their colours contrast too little.
     BelowThreshold,
     /// Pixel that is no superpixel and holds a triangle, or a gap between triangles, that no centre of the 3 x 3
     /// pixels around it shows.

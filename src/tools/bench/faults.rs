@@ -86,9 +86,9 @@ impl Suspects<'_> {
     /// `picture` is the whole scene under superpixel antialiasing with `settings`, and `causes` holds the causes of
     /// its errors.
     ///
-    /// This renders the whole scene with every sample of its superpixels shaded, and each stripped scene twice: with
-    /// superpixels everywhere and nowhere. It can't use the whole scene's superpixels because stripped scenes contrast
-    /// in other places.
+    /// The whole scene is rendered with every sample of its superpixels shaded, and each stripped scene twice: with
+    /// superpixels everywhere and nowhere. Stripped scenes can't use the whole scene's superpixels, because they
+    /// contrast in other places.
     ///
     /// # Errors
     /// As [`Headless::render`]; [`CompareError::Size`] if an image does not have the reference's size.

@@ -24,8 +24,8 @@ pub const TRUTH_SIDE: f32 = 1.0 / 64.0;
 /// favour them.
 const SEED: u32 = 1;
 
-/// Renders an image at `samples` samples a pixel. It is the mean of many renderings with 16 x 16 supersampling; in
-/// each, the grid is shifted to another point of an Owen-scrambled Sobol set within the grid's cell. A finer grid
+/// Renders an image at `samples` samples a pixel. The image is the mean of many renderings with 16 x 16 supersampling;
+/// in each, the grid is shifted to another point of an Owen-scrambled Sobol set within the grid's cell. A finer grid
 /// alone would err on edges along an axis, and favour methods whose samples lie in grids.
 ///
 /// The sampling fields of `settings` are replaced, and [`Footprint::Sample`] becomes a square of [`TRUTH_SIDE`]:

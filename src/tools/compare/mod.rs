@@ -1,6 +1,6 @@
 //! Differences between two images.
 //!
-//! Both are compared as a display shows them (see [`DecodedImage`]): sRGB-encoded, over black. Alpha counts as a
+//! The images are compared as a display shows them (see [`DecodedImage`]): sRGB-encoded, over black. Alpha counts as a
 //! fourth channel if either image has a pixel that is not opaque, and is left out otherwise, so that the numbers of
 //! opaque images are those of RGB.
 

@@ -113,7 +113,8 @@ pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     let code = |[r, g, b, a]: &[f32; 4]| {
         let alpha = f64::from(*a);
         let alpha_code = (alpha.clamp(0.0, 1.0) * scale).round() as u16;
-        // An invisible colour would only cost bytes, and dividing by a tiny alpha would make it up.
+        // The colour of a transparent pixel is set to 0: after division by a tiny alpha it would be arbitrary, and cost
+        // bytes.
         let color = |premultiplied: f32| match alpha_code {
             0 => 0,
             _ => (srgb::encode(f64::from(premultiplied) / alpha) * scale).round() as u16,
@@ -123,7 +124,7 @@ pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     picture.pixels().par_iter().map(code).collect()
 }
 
-/// Codes as of [`straight_codes`]; without alpha if every pixel is opaque.
+/// Codes from [`straight_codes`]; without alpha if every pixel is opaque.
 fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
     let codes = straight_codes(picture, top);
     if codes.par_iter().all(|code| code[3] == top) {

@@ -1,6 +1,6 @@
 //! Image files: encoding rendered images, decoding files to compare them, and writing films ([`VideoWriter`]).
 //!
-//! Rendered colours are linear light with premultiplied alpha. What each format makes of them:
+//! Rendered colours are linear light with premultiplied alpha. Each format stores them as follows:
 //!
 //! | name ends in | holds |
 //! |---|---|

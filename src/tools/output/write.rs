@@ -51,7 +51,7 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// Hidden temporary name in the target's folder. It contains the process ID, so that two processes use different
+/// Hidden temporary name in the target's folder. The name contains the process ID, so that two processes use different
 /// names.
 fn temporary_name(target: &Path) -> io::Result<PathBuf> {
     let name = target

@@ -59,8 +59,8 @@ impl Photograph {
     }
 
     /// Colour at the location `uv`, filtered for an output pixel. `jacobian` = [change of the location per output
-    /// column, per output row]. Both are in pixels of the photograph, whose upper left corner is (0, 0). Beyond the
-    /// photograph its border pixels are repeated.
+    /// column, per output row]. Locations are in pixels of the photograph, whose upper left corner is (0, 0). Beyond
+    /// the photograph its border pixels are repeated.
     ///
     /// At the centre of a pixel, and at a scale of one pixel or less per output pixel, the result is the pixel itself.
     /// Footprints more than 64 pixels wide are averaged with gaps.

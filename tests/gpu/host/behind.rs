@@ -91,7 +91,7 @@ fn samples_that_see_no_triangle_show_the_twins_colour() {
     });
 }
 
-/// Mean colour of sides x sides places in each pixel.
+/// Mean colour of `side` x `side` places in each pixel.
 fn brute_force(world: &World, side: u32) -> Vec<[f32; 4]> {
     let surfaces = world.surfaces();
     let pixels = (SIZE[0] * SIZE[1]) as usize;

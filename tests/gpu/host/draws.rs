@@ -12,7 +12,7 @@ const OBJECT: Way = Way {
     ..PLACED
 };
 
-/// Ways that differ in what draws read, and not in what they show.
+/// Ways of lending that differ in the data that draws read, but show the same picture.
 const WAYS: [Way; 7] = [
     Way {
         apart: true,

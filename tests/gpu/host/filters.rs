@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 16;
 const PLACES: usize = 256;
-/// Places along a side of the means that the CPU computes.
+/// Number of places along a side of a parallelogram at which the CPU computes means.
 const DENSE: u32 = 96;
 
 type Vec2 = [f64; 2];
@@ -125,7 +125,7 @@ fn textures_are_averaged_over_what_a_sample_stands_for() {
     });
 }
 
-/// The mean of what parts give is that of the parallelogram; together they cover it.
+/// The parts' results have the mean of the whole parallelogram, because together the parts cover it.
 #[test]
 fn parts_of_a_sample_make_it_up() {
     on_gpu(|gpu| {
@@ -145,9 +145,9 @@ fn parts_of_a_sample_make_it_up() {
     });
 }
 
-/// What the shader computes: four vectors for each place.
+/// Output of the shader: four vectors for each place.
 fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
-    // SAFETY: the commands that use what is made from it are waited for.
+    // SAFETY: the commands that use objects in this memory are waited for.
     let memory = unsafe { memory(gpu, None) };
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let filled = |bytes: &[u8]| {

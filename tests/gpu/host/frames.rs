@@ -22,7 +22,7 @@ fn mirrored(draws: &[Draw]) -> Vec<Draw> {
     mirrored
 }
 
-/// Neither sees what the other one leaves in the memory that both use.
+/// A frame does not see what another frame has left in the memory that both use.
 #[test]
 fn frames_share_memory_and_nothing_else() {
     on_gpu(|gpu| {

@@ -93,7 +93,7 @@ fn indices_out_of_range_are_the_last_vertex() {
         for way in &WAYS {
             let mut lent = world.lent(way);
             let size = if way.short_indices { 2 } else { 4 };
-            // This is the second corner of the first triangle.
+            // Place of the second corner of the first triangle.
             let place = way.indices_offset as usize + size;
             lent.indices[place..place + size].fill(0xf0);
             let corners = |draw: usize, vertex: usize| {
@@ -131,7 +131,7 @@ fn a_part_of_the_images_is_the_same_picture() {
             let expected = way.framed(&whole.colors, SIZE, AROUND);
             assert!(bits(&part.colors) == bits(&expected));
         }
-        // The library writes the colours of all pixels of the picture, and nobody those around them.
+        // The library writes the colours of all pixels of the picture, and leaves the pixels around them unchanged.
         let whole = machine.see(&PLACED, Base::Ids(&drawn));
         let part = machine.see(&way, Base::Ids(&drawn));
         let width = way.around(SIZE)[0] as usize;

@@ -35,8 +35,8 @@ fn farthest(some: &[[f32; 4]], others: &[[f32; 4]]) -> f32 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// A list of all pixels equals a picture of the library in which all pixels are superpixels. Shading in parts is left
-/// out, because it is decided differently.
+/// A list of all pixels equals a picture of the library in which all pixels are superpixels. Shading in parts gives
+/// slightly different colours, because lists choose the number of parts differently.
 #[test]
 fn a_list_of_all_pixels_is_the_picture() {
     on_gpu(|gpu| {

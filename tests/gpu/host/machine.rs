@@ -106,14 +106,14 @@ impl ShadeSamples for Gated<'_> {
     }
 }
 
-/// An image that the library makes all of.
+/// Image of which the library makes every pixel.
 struct Canvas {
     color: Image,
     read_back: Buffer,
     size: [u32; 2],
 }
 
-/// What a frame shows.
+/// Result of a frame on a [`Canvas`].
 pub struct Shown {
     pub colors: Vec<[f32; 4]>,
     pub memory_bytes: u64,
@@ -146,7 +146,7 @@ impl Canvas {
     }
 }
 
-/// Those of a canvas.
+/// Kinds of the images of a canvas.
 const KINDS: ImageKinds = ImageKinds {
     ids: false,
     depth: false,
@@ -154,7 +154,7 @@ const KINDS: ImageKinds = ImageKinds {
     color_encoded: false,
 };
 
-/// Those of a canvas of a size.
+/// Options for a canvas of a size.
 fn of_size([width, height]: [u32; 2]) -> Options {
     Options::new(width, height)
         .background(Some(SKY))
@@ -219,7 +219,7 @@ pub struct Machine<'a> {
     pipelines: [vk::Pipeline; 2],
     /// Whether the host first makes recordings that it never submits.
     pub discards: bool,
-    /// Whether its shading is skipped in rounds that have nothing to do, if the device supports that.
+    /// Whether the host's shading is skipped in rounds that have nothing to do, if the device supports that.
     pub skips: bool,
 }
 
@@ -233,7 +233,8 @@ struct Lending<'a> {
     geometry: Geometry,
 }
 
-/// Elements of a stride behind an offset, without those that `of` says are of another mesh.
+/// Copy of `bytes`, which hold elements of `stride` bytes from `offset` on. Elements that `of` assigns to other meshes
+/// than `mesh` are overwritten.
 fn of_mesh(bytes: &[u8], offset: u64, stride: usize, of: &[usize], mesh: usize) -> Vec<u8> {
     let mut kept = bytes.to_vec();
     for (number, _) in of.iter().enumerate().filter(|(_, of)| **of != mesh) {
@@ -521,15 +522,15 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Pictures of draws that the library makes alone: in frames of their own, whose commands follow each other without a barrier
-    /// of the host's.
+    /// Pictures that the library makes of several lists of draws, each in a frame of its own. The commands of the
+    /// frames follow each other without a barrier of the host's.
     pub fn see_at_once(&self, way: &Way, lent: &Lent, shown: &[&[Draw]]) -> Vec<Shown> {
         let size = SIZE;
         let lending = Lending::new(self, way, lent);
         let (corners, dispatched) = self.kept(lent);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
         let canvases: Vec<_> = shown.iter().map(|_| self.canvas(size)).collect();
-        // SAFETY: what is lent is as it says, and outlives the frames.
+        // SAFETY: lent objects have the stated contents, and outlive the frames.
         let prepared = || unsafe {
             let options = of_size(size);
             self.antialiaser
@@ -550,21 +551,21 @@ impl<'a> Machine<'a> {
         frames.map(|(frame, canvas)| canvas.shown(frame)).collect()
     }
 
-    /// Pictures of the world in images of sizes that one frame takes one after the other.
+    /// Pictures of the world, made by one frame that is resized to each of the `sizes` in turn.
     pub fn see_resized(&self, way: &Way, lent: &Lent, sizes: &[[u32; 2]]) -> Vec<Shown> {
         let lending = Lending::new(self, way, lent);
         let (corners, dispatched) = self.kept(lent);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
         let options = of_size(sizes[0]);
         let prepare = |geometry| {
-            // SAFETY: what is lent is as it says, and outlives the frame.
+            // SAFETY: lent objects have the stated contents, and outlive the frame.
             unsafe { self.antialiaser.prepare(geometry, &KINDS, &options) }
         };
         let mut frame = prepare(&lending.geometry).unwrap();
         let scenery = Scenery::new(&lent.draws, self.world.projection);
         let shown = sizes.iter().map(|&size| {
             let canvas = self.canvas(size);
-            // SAFETY: the commands before are done.
+            // SAFETY: the previous commands have run.
             unsafe { frame.resize(size) }.unwrap();
             assert!(is_not_recorded(frame.outcome().err()));
             submit(&self.gpu, |commands| {
@@ -578,7 +579,7 @@ impl<'a> Machine<'a> {
         shown.collect()
     }
 
-    /// Places for corners of triangles and numbers of workgroups.
+    /// Buffers for the corners of triangles and for numbers of workgroups.
     fn kept(&self, lent: &Lent) -> (Buffer, Buffer) {
         let corners = self.read_back(48 * u64::from(lent.triangle_count));
         (corners, self.read_back(4 * CALLS))

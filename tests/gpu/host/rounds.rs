@@ -114,8 +114,8 @@ fn bounded_rounds_leave_pixels_as_they_were_drawn_without_conditional_rendering(
     );
 }
 
-/// Hosts that skip their shading get the same picture as others; dispatches of the others have no work in rounds that
-/// have nothing to do.
+/// A host that skips its shading in idle rounds gets the same picture as a host that does not. Dispatches in idle
+/// rounds have no workgroups.
 fn dispatches_nothing_in_vain(gpu: &mut Headless) {
     let world = World::new();
     let mut machine = Machine::new(gpu, &world);

@@ -1,4 +1,4 @@
-//! Viewports, and what depth they make of clip space.
+//! Viewports, and the depth to which they map clip space.
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, PLACED, SIZE, Way, World};
@@ -15,7 +15,7 @@ fn part<T: Copy>(picture: &[T], corner: [u32; 2], size: [u32; 2]) -> Vec<T> {
     rows.flat_map(|row| row[columns.clone()].to_vec()).collect()
 }
 
-/// A frame that is a part of the viewport's image shows what that image shows there.
+/// A frame that covers a part of the viewport shows that part of the viewport's picture.
 #[test]
 fn a_part_of_a_viewport_is_that_part_of_the_picture() {
     on_gpu(|gpu| {
@@ -58,7 +58,7 @@ fn a_part_of_a_viewport_is_that_part_of_the_picture() {
     });
 }
 
-/// A viewport that is larger than the frame's part of the images does what a matrix does.
+/// A viewport that is larger than the frame has the effect of a matrix that scales and moves clip space.
 #[test]
 fn a_viewport_scales_and_moves_clip_space() {
     on_gpu(|gpu| {
@@ -101,7 +101,7 @@ fn a_viewport_scales_and_moves_clip_space() {
     });
 }
 
-/// Thin blades are found by depth: in any range, those of the range from 0 to 1.
+/// Thin blades are found by depth: the same blades in every range of depths as in the range from 0 to 1.
 #[test]
 fn depth_ranges_do_not_change_the_picture() {
     on_gpu(|gpu| {
@@ -122,7 +122,7 @@ fn depth_ranges_do_not_change_the_picture() {
             let apart = rmse(&seen, &colors);
             assert!(apart < 0.005, "{depth_range:?}: {apart}");
         }
-        // Without thin triangles there are fewer, so that depth matters.
+        // Without the search for thin triangles there are fewer superpixels, so that depth matters.
         let options = Options::new(SIZE[0], SIZE[1]).flat_background(true);
         let lent = world.lent(&PLACED);
         let seen = machine.see_lent(&PLACED, &lent, Base::All(&drawn), options.thin(false));

@@ -20,7 +20,7 @@ pub struct Mesh {
     pub paints: Vec<f32>,
     pub coordinates: Vec<[f32; 2]>,
     pub indices: Vec<u32>,
-    /// Indices that are the same triangles in the topology of [`World::of`].
+    /// Indices of the same triangles in the topology of [`World::of`].
     pub sequence: Vec<u32>,
 }
 
@@ -69,7 +69,7 @@ pub struct Way {
     pub bare: bool,
     pub topology: Topology,
     pub viewport: Option<Viewport>,
-    /// What the image of depth holds for a depth of 0 and of 1.
+    /// Values in the image of depth for a depth of 0 and for a depth of 1.
     pub depth_range: [f32; 2],
 }
 
@@ -209,7 +209,7 @@ impl World {
         }
     }
 
-    /// The same vertices, whose indices are those of strips or fans.
+    /// World with the same vertices as [`World::new`], whose indices are those of strips or fans.
     pub fn of(topology: Topology) -> Self {
         let mut world = Self::new();
         for mesh in &mut world.meshes {

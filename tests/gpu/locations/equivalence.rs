@@ -88,8 +88,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
         for (name, stage) in stages() {
             let prepared = stage.upload(gpu);
             use {Coverage as C, Pattern as P, Shading as S};
-            // The cases are the defaults, with and without first trying few samples; some settings must differ for the
-            // results to be equal.
+            // The first cases have the default options, as far as these give equal results: with numbers of samples for
+            // which few samples are tried first, and with others.
             let mut cases = vec![
                 (P::Sobol, C::Area, S::Part, 256),
                 (P::Sobol, C::Samples, S::Triangle, 17),
@@ -127,8 +127,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 }
                 let differ = pairs().filter(|(a, b)| a != b).count();
                 if pattern == P::Lines {
-                    // Frames know more exactly which triangles touch a pixel. What touches it first decides between rows and
-                    // columns.
+                    // Frames know more exactly which triangles touch a pixel, and the first of these triangles decides
+                    // between rows and columns.
                     assert!(
                         differ * 50 < image.colors.len(),
                         "{name}, {samples} samples: {differ}"
@@ -144,7 +144,7 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
     });
 }
 
-/// Result of a call with the smallest memory limit that it accepts, which divides its locations into runs.
+/// Result of a call with the smallest memory limit that the call accepts. The limit divides the locations into runs.
 fn least<T: std::fmt::Debug>(
     prepared: &PreparedScene,
     settings: &Settings,

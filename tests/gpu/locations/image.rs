@@ -157,7 +157,7 @@ fn brute_force_reads_textures_at_its_samples() {
         let locations = gpu
             .render_locations(&prepared, &rig, SIZE, &settings)
             .unwrap();
-        // These are the pixels of the square without its border.
+        // Pixels of the square without its border.
         let inside = (20..44).flat_map(|y| (20..76).map(move |x| y * SIZE[0] as usize + x));
         let reds =
             inside.map(|pixel| [&image, &locations].map(|seen| f64::from(seen.colors[pixel][0])));

@@ -35,7 +35,8 @@ fn energy(rendered: &Rendered) -> f64 {
     rendered.colors.iter().map(|c| f64::from(c[0])).sum()
 }
 
-/// Share of the energy of superpixels everywhere that is found: with and without the search for thin triangles.
+/// Energy of the image, with and without the search for thin triangles, as a share of its energy with superpixels
+/// everywhere.
 fn shares(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation]) -> [f64; 2] {
     let all = energy(&seen(
         gpu,
@@ -297,7 +298,8 @@ fn amid(ids: &[u32], cell: u32, id: u32) -> bool {
     here != 0 && here != id && (beside || above)
 }
 
-/// An output with more cells than a band holds, which repeats the same picture; the band ends in the middle of one.
+/// An output with more cells than a band holds. The output repeats the same picture, and the band ends in the middle of
+/// one.
 #[test]
 fn bands_of_an_output_find_what_the_whole_does() {
     on_gpu(|gpu| {

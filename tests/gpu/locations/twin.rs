@@ -54,7 +54,8 @@ fn random_points_see_what_the_twin_sees() {
     });
 }
 
-/// Places of a cell's samples relative to its middle: one of the sets is used, if a cell isn't left to points.
+/// Sets of sample places relative to a cell's middle. A cell is sampled at the places of one set, unless it is left to
+/// points.
 type Offsets = Vec<Vec<[f64; 2]>>;
 
 fn points(samples: u32) -> Offsets {

@@ -79,7 +79,7 @@ impl RenderSetup {
         })
     }
 
-    /// Figures of an image that was written to `output`; `more` holds the figures of this command alone.
+    /// Figures of an image that was written to `output`; `more` holds the figures that only this command has.
     pub fn figures<T: Serialize>(
         &self,
         output: &Path,

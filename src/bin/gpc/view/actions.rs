@@ -1,4 +1,4 @@
-//! What keys and mouse do.
+//! Actions of keys, buttons and the mouse.
 
 use super::command::{Shot, line, unzoom_photo, zoom_photo};
 use super::files::{free_name, scenes_at};
@@ -250,7 +250,7 @@ impl Viewer {
         self.restart();
     }
 
-    /// Goes on by `by` files; the first one follows the last.
+    /// Shows the file that is `by` places further on in the list; the first file follows the last.
     fn turn_to(&mut self, by: usize) {
         if self.scenes.len() > 1 {
             self.show_scene((self.scene + by) % self.scenes.len());

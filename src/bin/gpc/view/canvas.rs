@@ -66,7 +66,7 @@ pub struct Canvas {
     pub engine: Arc<Engine>,
 }
 
-/// What the next image of the window shows.
+/// Contents of the next image of the window.
 pub struct ShownPicture<'a> {
     pub camera: Option<&'a Camera>,
     pub moment: Option<&'a Arc<Moment>>,
@@ -378,8 +378,8 @@ impl Canvas {
         // SAFETY: guaranteed by the caller.
         unsafe {
             picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
-            // The clear colour fills what no picture covers: before the first picture, or around one of a smaller
-            // window.
+            // The clear colour fills areas without a picture: before the first picture, or around a picture of a
+            // smaller window.
             device.handle.cmd_clear_color_image(
                 commands,
                 acquired.image,

@@ -36,7 +36,7 @@ pub struct Cover {
     is_done: bool,
 }
 
-/// What to do with a picture that has arrived.
+/// Decision about a picture that has arrived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {
     pub is_shown: bool,
@@ -45,7 +45,7 @@ pub struct Arrival {
 }
 
 impl Cover {
-    /// Cover over frames; says whether its pictures have shadows and show the environment.
+    /// Cover over frames. The arguments say whether its pictures have shadows and show the environment.
     pub fn new(has_shadows: bool, shows_environment: bool) -> Self {
         Self {
             has_shadows,
@@ -62,7 +62,7 @@ impl Cover {
         }
     }
 
-    /// Kind of picture to order of a scene, if one is needed.
+    /// Kind of picture that a scene needs as its cover, if it needs one.
     pub fn subject(&self) -> Option<Subject> {
         match (self.overlay, self.lenses.map()) {
             (Some(overlay), _) => Some(Subject::Overlay(overlay)),
@@ -82,7 +82,7 @@ impl Cover {
     }
 
     /// Number and samples of the first order after a change of the view, or of the lenses alone. `asked` is the number
-    /// of samples of the last order to come.
+    /// of samples of the last order in the series.
     pub fn begin(&mut self, view_changed: bool, asked: u32) -> (u64, u32) {
         let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
         let below = |samples: &u32| *samples < asked && !needs_all;
@@ -107,7 +107,7 @@ impl Cover {
         self.due
     }
 
-    /// Decides what to do with the picture of an order that has arrived.
+    /// Decides how a picture that has arrived is used; `number` is that of its order.
     pub fn arrived(&mut self, number: u64, now: Instant) -> Arrival {
         let is_last = number == self.number;
         let next = self.steps.get(self.step + 1).filter(|_| is_last);

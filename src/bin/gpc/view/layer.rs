@@ -56,7 +56,7 @@ pub struct Job {
     _band: Option<Picture>,
 }
 
-/// What a picture shows: scene and camera.
+/// Subject of a picture: scene, camera and moment.
 pub struct Sight<'a> {
     pub scene: &'a Arc<PreparedScene>,
     pub camera: &'a Camera,

@@ -20,7 +20,8 @@ pub struct Look {
 }
 
 impl Look {
-    /// Settings of the picture at rest; where their method is not that of superpixels, the options that these get once it is.
+    /// Look with the settings of the picture at rest. `superpixels` are the options for a later change to superpixels;
+    /// if `settings` have superpixels already, their own options replace these.
     pub fn new(settings: Settings, superpixels: SuperpixelOptions) -> Self {
         Self {
             settings,

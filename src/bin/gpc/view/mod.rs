@@ -1,6 +1,6 @@
 //! `gpc view`: a window for looking at a scene.
 //!
-//! The viewer is a host like any other. It uses the library's public interface alone: it has its own device and
+//! The viewer is a host like any other, and uses only the library's public interface: it has its own device and
 //! swapchain, records the renderer's passes into its own command buffers, and draws its panel over the result.
 
 mod actions;

@@ -1,4 +1,4 @@
-//! The mouse: what dragging and the wheel move.
+//! Navigation by mouse: dragging and the wheel.
 
 use super::fly::Flight;
 use super::lens::Lenses;
@@ -174,7 +174,7 @@ impl Viewer {
         }
     }
 
-    /// Zooms by a factor; what is at `place` in the window stays there.
+    /// Zooms by a factor about `place` in the window: the point shown at `place` stays there.
     fn zoom(&mut self, factor: f64, place: DVec2) {
         if self.reframe(|framing| framing.zoom(factor, place)) {
             return;

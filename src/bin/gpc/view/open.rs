@@ -150,7 +150,8 @@ impl Viewer {
         self.view_changed();
     }
 
-    /// Shows a photograph or returns to the scene. Lenses are removed, because their places mean nothing in the other.
+    /// Shows a photograph, or returns to the scene. Lenses are removed, because their places in one mean nothing in the
+    /// other.
     fn set_easel(&mut self, easel: Option<Easel>) {
         if easel.is_some() != self.easel.is_some() {
             self.cover = self.cover.cleared(easel.is_some());

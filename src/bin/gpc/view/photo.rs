@@ -10,7 +10,7 @@ use gpc::resample::{Photograph, Zoomed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Half side of the square in which the image is unzoomed / height of the window.
+/// Half side of the square in which the image is unzoomed, as a share of the window's height.
 const LOUPE: f64 = 0.25;
 /// Largest enlargement of a photograph, in pixels of the window for one pixel of the photograph.
 const MOST: f64 = 64.0;
@@ -190,8 +190,8 @@ impl PhotoView {
         photograph.resample(self.window.size, |place| self.look(place))
     }
 
-    /// `code` of a pixel with what lies over it: black outside of the photograph, a tint, or the frame of the loupe.
-    /// `place` is the pixel's centre.
+    /// Colour of a pixel whose own colour is `code`, with overlays: black outside of the photograph, a tint, or the
+    /// frame of the loupe. `place` is the pixel's centre.
     pub fn covered(&self, code: [u8; 4], place: DVec2) -> [u8; 4] {
         let plane = self.window.location(place);
         if let Some(distance) = self.outside_loupe(place)

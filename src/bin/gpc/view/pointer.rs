@@ -1,4 +1,4 @@
-//! State of the mouse: the pointer's place, and what a drag does.
+//! State of the mouse: the pointer's place, and the effect of a drag.
 
 use glam::DVec2;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const DOUBLE: Duration = Duration::from_millis(400);
 const NEAR: f64 = 5.0;
 
-/// What a drag does.
+/// Effect of a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drag {
     Orbit,

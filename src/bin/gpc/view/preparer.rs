@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
-/// Identifies the layer that requested a frame. Once it is dropped, its frames are no longer wanted.
+/// Identifies the layer that requested a frame. Once the layer's ticket is dropped, its frames are no longer wanted.
 pub type Ticket = Arc<()>;
 
 /// A prepared frame, or the error of preparing it.

@@ -15,7 +15,7 @@ const TARGET_MS: f64 = 80.0;
 const MOST_SLOW: u32 = 2;
 /// Time before a number of samples that was too slow is tried again; a rest ends it early.
 const AGAIN: Duration = Duration::from_secs(2);
-/// Number of rows of which a band has a multiple: the height of a tile.
+/// Number of rows of which the height of a band is a multiple: the height of a tile.
 const ROW_STEP: u32 = 4;
 /// Expected ratio of a row's time with the next number of samples to its time with the present one, until a row has
 /// been measured.

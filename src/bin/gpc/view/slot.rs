@@ -112,8 +112,8 @@ impl Slot {
         Ok(self.commands)
     }
 
-    /// Submits the recorded commands. They draw to the window's image once `free` is signalled, and signal `drawn`
-    /// when they are done.
+    /// Submits the recorded commands. The commands draw to the window's image once `free` is signalled, and signal
+    /// `drawn` when they are done.
     pub fn submit(&mut self, drawn: vk::Semaphore) -> Result<(), VulkanError> {
         let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
         // Rendering needs not wait for the window's image, which the commands first copy to.

@@ -37,12 +37,12 @@ pub enum Opened {
     Photo(Photo),
 }
 
-/// A scene on the device, and what the window needs to know of it.
+/// A scene on the device, and the data about it that the window needs.
 pub struct LoadedScene {
     pub source: SceneSource,
     pub scene: Arc<Scene>,
     pub prepared: Arc<PreparedScene>,
-    /// How the scene moves, if it has animations.
+    /// Motion of the scene, if it has animations.
     pub motion: Option<Motion>,
     pub animations: Vec<AnimationInfo>,
     pub cameras: Vec<SceneCamera>,

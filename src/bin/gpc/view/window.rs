@@ -1,4 +1,4 @@
-//! The window: loads scenes and draws what is due.
+//! The window: loads scenes, and draws pictures when they are due.
 
 use super::app::Event;
 use super::canvas::{Canvas, ShownPicture};
@@ -296,7 +296,7 @@ impl Viewer {
         (self.looks.len() > 1).then(|| (self.split * self.size()[0]).round() as u32)
     }
 
-    /// Does what is due, and returns when to be called again.
+    /// Does the work that is due. Returns when to call `advance` again.
     ///
     /// # Errors
     /// If the device is lost or memory runs out.

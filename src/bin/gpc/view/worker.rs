@@ -56,7 +56,7 @@ struct Order {
     stop: Stop,
 }
 
-/// What to make.
+/// Kind of picture or file to make.
 pub enum Task {
     Scene(Box<SceneTask>),
     Photo(PhotoView),
@@ -78,7 +78,7 @@ pub struct SceneTask {
 }
 
 impl Task {
-    /// File that the task writes. Files are written whatever is ordered afterwards.
+    /// File that the task writes. Later orders do not stop the writing of files.
     fn file(&self) -> Option<&Path> {
         match self {
             Self::Scene(task) => match &task.subject {
@@ -162,7 +162,7 @@ pub struct PictureWorker {
 }
 
 impl PictureWorker {
-    /// Starts the thread. It opens a device for the first order of a scene, and passes results to `deliver`.
+    /// Starts the thread. The thread opens a device for the first order of a scene, and passes results to `deliver`.
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
         let thread = std::thread::spawn(move || {

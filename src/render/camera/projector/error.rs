@@ -35,7 +35,7 @@ pub enum ProjectorError {
         .0[0], .0[1]
     )]
     Horizon([u32; 2]),
-    /// Projector without pixels, or with a number of locations that is not that of its pixels.
+    /// Projector without pixels, or with a map that does not have one location for each pixel.
     #[error("a projector of {} x {} pixels and a map of {found} locations; there must be one for each pixel", .size[0], .size[1])]
     Size {
         /// Width and height in pixels.

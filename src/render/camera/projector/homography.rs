@@ -22,11 +22,11 @@ pub struct Homography {
     inverse: DMat3,
 }
 
-/// Smallest ratio of the spread of points across a line to their spread along it at which they do not count as on the
-/// line.
+/// Smallest ratio of the points' spread across their best line to their spread along it. Below this ratio, the points
+/// count as collinear.
 const THINNEST: f64 = 1e-4;
 
-/// Largest ratio of an eigenvalue to the largest one at which it counts as zero.
+/// Ratio to the largest eigenvalue, up to which an eigenvalue counts as zero.
 const ZERO: f64 = 1e-12;
 
 impl Homography {
@@ -83,10 +83,10 @@ impl Homography {
         Self::new(matrix).ok_or(ProjectorError::Collinear("image plane"))
     }
 
-    /// Fits a homography that agrees with most correspondences to `tolerance` pixels of the image plane. Returns it,
-    /// and for each correspondence whether it agrees. Random fits to four correspondences are scored by their squared
-    /// errors, each up to the tolerance (P. Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000); the best one is fitted
-    /// again to all correspondences that agree with it. The same `seed` gives the same result.
+    /// Fits a homography that agrees with most correspondences to `tolerance` pixels of the image plane. Returns the
+    /// homography, and for each correspondence whether it agrees. Random fits to four correspondences are scored by
+    /// their squared errors, each up to the tolerance (P. Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000); the best
+    /// one is fitted again to all correspondences that agree with it. The same `seed` gives the same result.
     ///
     /// # Errors
     /// [`ProjectorError`] if fewer than half agree, otherwise as [`Homography::fit`].
@@ -149,7 +149,7 @@ impl Homography {
         self.matrix
     }
 
-    /// Place that this maps to `location`; `None` behind the horizon.
+    /// Place that the homography maps to `location`; `None` behind the horizon.
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> Option<DVec2> {
         let p = self.inverse * location.extend(1.0);
@@ -162,7 +162,7 @@ impl Homography {
         (self.matrix * place.extend(1.0)).z > 0.0
     }
 
-    /// Distance in pixels between the pair's location and the one to which this maps its place.
+    /// Distance in pixels between the pair's location and the location to which the homography maps the pair's place.
     fn error(&self, pair: &Correspondence) -> f64 {
         let place = DVec2::from(pair.place);
         if !self.is_ahead(place) {

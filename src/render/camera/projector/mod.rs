@@ -65,8 +65,8 @@ impl Projector {
         Ok(Self { size, map })
     }
 
-    /// Makes a projector of `size` = [width, height] pixels from a location for each of them, as [`WarpMap::new`]
-    /// takes them.
+    /// Makes a projector of `size` = [width, height] pixels from the location of each pixel's centre, row by row; NaN
+    /// for a pixel that lights nothing.
     ///
     /// # Errors
     /// As [`WarpMap::new`].

@@ -17,7 +17,8 @@ pub struct WarpMap {
 /// Number of pixels along each side to which the rough homography is fitted.
 const FITTED: u32 = 24;
 
-/// Tolerance, in pixels of the image plane, for the location of the place that [`WarpMap::inverse`] finds.
+/// Largest distance, in pixels of the image plane, between the location that [`WarpMap::inverse`] is given and the
+/// location of the place that it finds.
 const NEAR: f64 = 1e-6;
 
 impl WarpMap {

@@ -57,7 +57,7 @@ pub enum SetError {
         /// Rows of the output.
         rows: u32,
     },
-    /// Marks of superpixels whose number is not that of the pixels.
+    /// Superpixel marks whose number differs from the number of pixels.
     #[error(
         "{found} marks for the superpixels of an image of {expected} pixels; give one for each"
     )]
@@ -67,7 +67,7 @@ pub enum SetError {
         /// Number of marks.
         found: usize,
     },
-    /// Locations for which no grid has at most one in each cell.
+    /// Locations that no grid separates: even the finest grid tried has two of them in a cell.
     #[error(
         "no uniform grid fits: locations {first} and {second} share a cell even of {pitch} pixel; use a no-pattern set"
     )]

@@ -1,8 +1,8 @@
-//! Sampling sets: any locations on an image plane, in cells, each for a row and column of the output.
+//! Sampling sets: locations anywhere on an image plane, each for a row and column of the output, sorted into cells.
 //!
 //! Locations are (u, v) in pixels of the plane, u to the right and v down, (0, 0) its upper left corner. A location may
-//! lie outside of the image, as far as [`FARTHEST`] pixels away. Where a location lies, and which row and column of the
-//! output it belongs to, are two things: a warp moves locations far from their cells.
+//! lie outside of the image, as far as [`FARTHEST`] pixels away. The place of a location and its row and column of the
+//! output are independent of each other: a warp moves locations far from their cells.
 //!
 //! ```text
 //!     planar            offset             superpixel           no pattern
@@ -39,7 +39,7 @@ pub const FARTHEST: f64 = 1_048_576.0;
 /// Largest number of cells of an output.
 pub const MOST_CELLS: u64 = 1 << 28;
 
-/// Largest number of locations in a leaf of quadtrees that are made by default.
+/// Default for the largest number of locations in a leaf of a quadtree.
 const LEAF_SAMPLES: usize = 32;
 
 /// A sampling location, and the cell of the output to which it belongs.
@@ -183,7 +183,7 @@ impl SamplingSet {
     }
 
     /// Makes a set with one sample for each cell of an output of `size` = [columns, rows], at the location to which
-    /// `map` takes the cell's centre. It is an offset set, or a no-pattern set if no grid fits.
+    /// `map` takes the cell's centre. The set is an offset set, or a no-pattern set if no grid fits.
     ///
     /// # Errors
     /// [`SetError`] if the output has no cells or too many, or a location is not finite or too far away.

@@ -11,12 +11,13 @@
 //!   └───────────────────────────┘
 //! ```
 //!
-//! An output pixel p at the distance q from the centre, in radii of the region, looks at c + (s(q) / q) (p - c); `s` is
-//! m q inside, q outside, and between them linear in its displacement or smooth in its rate (see [`Transition`]). For a
-//! circle q = |p - c| / r; for a rectangle of half sides RX and RY, q = max(|x| / RX, |y| / RY).
+//! An output pixel p at the distance q from the centre, in radii of the region, looks at c + (s(q) / q) (p - c). Inside,
+//! `s` is m q, and outside `s` is q. In the transition, either the displacement of locations is linear, or their rate is
+//! continuous (see [`Transition`]). For a circle q = |p - c| / r; for a rectangle of half sides RX and RY,
+//! q = max(|x| / RX, |y| / RY).
 //!
-//! The factor s(q) / q lies in [m, 1]: what a pixel looks at is between it and the centre, so that an image with the
-//! centre inside is never left.
+//! The factor s(q) / q lies in [m, 1], so that each pixel looks at a location between itself and the centre. If the
+//! centre is inside the image, all locations are.
 
 mod profile;
 mod window;
@@ -112,8 +113,8 @@ impl ZoomRegion {
         self.profile().outer()
     }
 
-    /// Window for an ordinary image of the inside: the rectangle around it, with one pixel for each pixel of the
-    /// output there.
+    /// Window for an ordinary image of the inside. The image has the size in pixels that the rectangle around the
+    /// region has in the output.
     #[must_use]
     pub fn window(&self) -> Window {
         let size = self
@@ -127,7 +128,7 @@ impl ZoomRegion {
         }
     }
 
-    /// Whether a place of the output is inside the region; the transition is outside.
+    /// Whether a place of the output is inside the region; the transition counts as outside.
     #[must_use]
     pub fn contains(&self, place: DVec2) -> bool {
         self.distance(place).0 <= 1.0

@@ -11,9 +11,10 @@
 //!
 //! and in between
 //!
-//! - *linear*: q is moved by the share t = (Q - q) m of what it is moved by inside, s(q) = q (1 - t (1 - m)), a parabola.
-//!   Its slope is a line, from m (2 - m) at q = 1 to 2 - m^2 at q = Q: positive for 0 < m < sqrt(2), so that nothing
-//!   folds, but it jumps from m to m (2 - m) at the inner border and from 2 - m^2 to 1 at the outer one.
+//! - *linear*: the displacement that pixels have inside, q (1 - m), is multiplied by t = (Q - q) m:
+//!   s(q) = q (1 - t (1 - m)), a parabola. Its slope is a line, from m (2 - m) at q = 1 to 2 - m^2 at q = Q. The slope is
+//!   positive for 0 < m < sqrt(2), so that nothing folds, but jumps from m to m (2 - m) at the inner border and from
+//!   2 - m^2 to 1 at the outer one.
 //! - *smooth*: the cubic with the values m and Q and the slopes m and 1 at the two borders. There is exactly one. Its mean
 //!   slope is D = m (Q - m) = 1 + m - m^2 and the second derivative of its slope, per unit of the transition squared,
 //!   6 (m + 1 - 2 D) = 6 (2 m + 1) (m - 1), which is not positive for m <= 1: the slope is concave, and so at least

@@ -115,13 +115,14 @@ impl FrameGeometry {
     }
 
     /// Writes a scene's instances for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled
-    /// clip space. Call it before each recording, once the device has finished the one before. `image` is the size in
-    /// pixels of the image that `raster` draws, if it runs.
+    /// clip space. Call `place` before each recording, once the device has finished the previous one. `image` is the
+    /// size in pixels of the image that `raster` draws, if it runs.
     pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4, image: Option<[u32; 2]>) {
         self.placed.write(&scene.geometry, to_clip, image);
     }
 
-    /// Writes what moves at a moment. Call it before a recording, once the device has finished the one before.
+    /// Writes the vertices' matrices and weights at a moment. Call `write_moment` before a recording, once the device
+    /// has finished the previous one.
     pub(crate) fn write_moment(&mut self, moment: &Moment) {
         if let Some(moving) = &mut self.moving {
             moving.write(moment);

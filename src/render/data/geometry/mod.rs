@@ -27,20 +27,20 @@ use std::collections::HashMap;
 /// Number of consecutive indices that belong to the same instance.
 const BLOCK: u32 = Instance::ALIGNMENT;
 
-/// Consecutive triangles of the same class and the same place, drawn at once.
+/// Consecutive triangles of the same class and the same place, drawn by one command.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Run {
     pub(in crate::render) class: DrawClass,
     pub(in crate::render) first_index: u32,
     pub(in crate::render) triangle_count: u32,
-    /// Index of the place at which they are drawn.
+    /// Index of the place at which the triangles are drawn.
     pub(in crate::render) place: u32,
 }
 
-/// A place at which triangles are drawn.
+/// Place at which triangles are drawn: their transform, their bounds, and the range of their indices.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    /// Three words: the difference, modulo 2^32, from an index to its record; the index after the last; flags.
+    /// Difference, modulo 2^32, from an index to its record; the index after the last; flags; 0.
     words: [u32; 4],
     transform: DAffine3,
     /// Lowest and highest corner of the box around the vertices, before the transform.
@@ -107,7 +107,7 @@ impl GpuGeometry {
         (geometry, motion): (&Geometry, Option<&Motion>),
         records: &[[u32; 4]],
     ) -> Result<Self, VulkanError> {
-        // The alpha test reads both streams, even if the scene has only one of them.
+        // The alpha test reads both streams, colours and texture coordinates, even if the scene has only one of them.
         let has_mask = scene
             .materials
             .iter()
@@ -169,7 +169,7 @@ impl GpuGeometry {
         self.is_posed() || self.strokes.is_some()
     }
 
-    /// Index of the first triangle of a class or of a later class; the number of indices if there is none.
+    /// Index of the first triangle of a class or of a later one; the number of indices if there is no such triangle.
     pub(in crate::render) fn first_of(&self, class: DrawClass) -> u32 {
         self.runs
             .iter()
@@ -196,8 +196,8 @@ fn blocks(geometry: &Geometry) -> Vec<u32> {
     blocks
 }
 
-/// All places; without instances a single one, the world. Boxes are infinite if vertices move or have a size in
-/// pixels.
+/// Places of all instances; for a scene without instances, a single place with the identity as its transform and an
+/// infinite box. If vertices move or have a size in pixels, all places with this transform have an infinite box.
 fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
     if geometry.instances.is_empty() {
@@ -222,7 +222,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     geometry.instances.iter().map(place).collect()
 }
 
-/// Runs of triangles that are drawn at once.
+/// Runs of triangles, each drawn by one command.
 fn runs(geometry: &Geometry) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     if geometry.instances.is_empty() {

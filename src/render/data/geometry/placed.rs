@@ -60,7 +60,7 @@ impl PlacedInstances {
 
     /// Writes the instances for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled clip
     /// space. The device must have finished the previous recording. Products are computed in 64 bits and rounded once.
-    /// Places outside of an `image` of this size in pixels are not drawn.
+    /// If `image` is the size of an image in pixels, places outside of that image are not drawn.
     pub(in crate::render) fn write(
         &mut self,
         geometry: &GpuGeometry,

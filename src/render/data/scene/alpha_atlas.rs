@@ -76,7 +76,8 @@ impl AlphaAtlas {
         alpha
     }
 
-    /// Appends a level as words of 2 x 2 texels; the first row and column of words reach half out of the image.
+    /// Appends a level in words of 2 x 2 texels. The words of the first and last row and column extend one texel beyond
+    /// the image.
     fn push(&mut self, level: &[u8], [width, height]: [u32; 2], sampler: &Sampler) {
         let texel = |x: i64, y: i64| {
             let (x, y) = (

@@ -29,8 +29,8 @@ pub(super) enum EnvironmentUpload {
 pub struct EnvironmentUniform {
     /// Spherical-harmonic coefficients of the irradiance / pi; the fourth component is unused.
     pub irradiance: [[f32; 4]; 9],
-    /// Rows of the rotation from world space to the map's space. The fourth component of the first row is a factor for
-    /// the cube's values, that of the second row the last level.
+    /// Rows of the rotation from world space to the map's space. In the fourth components, the first row has a factor
+    /// for the cube's values, and the second row the index of the last level.
     pub axes: [[f32; 4]; 3],
 }
 

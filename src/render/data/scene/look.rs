@@ -11,8 +11,7 @@ use ash::vk;
 
 /// Materials and lights of a scene that change.
 pub(super) struct ChangingLook {
-    /// For each material that changes: its index, and the part of its row in the table that does not come from its
-    /// numbers.
+    /// For each material that changes: its index, and its texture slots and alpha texture, which stay the same.
     materials: Vec<(usize, MaterialRow)>,
     lights: bool,
 }
@@ -36,7 +35,7 @@ impl ChangingLook {
 pub struct FrameLook {
     materials: Option<BufferView>,
     lights: Option<Buffer>,
-    /// Updates for the next recording: of the buffer of materials or of lights, from a byte on.
+    /// Updates of the materials and lights for the next recording.
     updates: Vec<Update>,
 }
 
@@ -47,7 +46,8 @@ struct Update {
 }
 
 impl FrameLook {
-    /// Allocates memory for what changes. If nothing does, the frame uses the scene's buffers.
+    /// Allocates memory for the materials and lights that change. If nothing changes, the frame uses the scene's
+    /// buffers.
     ///
     /// # Errors
     /// If memory runs out.

@@ -25,10 +25,10 @@ pub(super) struct GpuMaterial {
     specular_glossiness: [f32; 4],
 }
 
-/// Part of a material's row in the table that does not come from its numbers.
+/// Data of a material's row in the table that the material itself does not hold.
 pub(super) struct MaterialRow {
     pub(super) slots: Slots,
-    /// Place of its alpha texture in the alpha atlas.
+    /// Place of the material's alpha texture in the alpha atlas.
     pub(super) alpha: [u32; 4],
 }
 
@@ -77,7 +77,7 @@ impl MaterialTable {
     }
 }
 
-/// Vector of three numbers and a fourth one.
+/// Vector of three colour components and a fourth number.
 fn vector([r, g, b]: [f32; 3], w: f32) -> [f32; 4] {
     [r, g, b, w]
 }
@@ -136,8 +136,8 @@ impl GpuMaterial {
 /// Largest roughness at which the reflection of an untextured surface can change noticeably within a pixel.
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
-/// Whether light or colour may change within a pixel on the material's surface, so that one shading a pixel is too
-/// few: the material is textured or glossy, or an animation may make it so.
+/// Whether light or colour may change within a pixel on the material's surface, so that one shading for each pixel is
+/// not enough: the material is textured or glossy, or an animation may make it so.
 pub(super) fn high_frequency(material: &Material) -> bool {
     let may_be_glossy = material.animated || is_glossy(material);
     material.textures().next().is_some() || (!material.unlit && may_be_glossy)

@@ -1,6 +1,6 @@
 //! Mipmap levels that an image file lacks.
 //!
-//! They are computed on the host: devices that compute them with blits round differently, and CPU drivers compile
+//! Mipmaps are computed on the host: devices that compute them with blits round differently, and CPU drivers compile
 //! shaders for these blits at every start.
 
 use crate::color::srgb;
@@ -80,7 +80,7 @@ static CURVE: LazyLock<Curve> = LazyLock::new(Curve::new);
 
 impl Curve {
     const UNIT: f64 = (1 << 22) as f64;
-    /// Number of bits of light within such an interval.
+    /// Number of low bits of light that distinguish values within an interval.
     const REST: u32 = 10;
 
     fn new() -> Self {

@@ -58,7 +58,7 @@ pub struct GpuScene {
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
     memory: Memory,
-    /// Whether the copies that fill it have been executed.
+    /// Whether the copies that fill the device memory have been executed.
     uploaded: AtomicBool,
 }
 
@@ -87,7 +87,8 @@ impl SceneUploads {
 }
 
 impl GpuScene {
-    /// Allocates everything and fills what the host can write; the other copies wait for [`SceneUploads::record`].
+    /// Allocates all buffers and images, and fills those that the host can write. [`SceneUploads::record`] copies the
+    /// other contents.
     ///
     /// # Errors
     /// If memory runs out or the scene exceeds a limit of the device.

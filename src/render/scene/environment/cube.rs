@@ -89,7 +89,7 @@ fn place(d: DVec3) -> (u32, [f64; 2]) {
     }
 }
 
-/// Solid angle of a texel at a place of a face / that of a texel in the middle.
+/// Ratio of a texel's solid angle at a place of a face to that of a texel in the middle of the face.
 pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
     let square = 1.0 + a * a + b * b;
     1.0 / (square * square.sqrt())
@@ -98,7 +98,7 @@ pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
 /// Cube of an equirectangular image, followed by ever coarser averages of it down to one texel a face.
 pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
     let side = (image.width / 4).next_power_of_two().clamp(LEAST, MOST);
-    // So many points are averaged for a texel that no texel of the image is skipped.
+    // Number of points along each axis that are averaged for a texel, so that no texel of the image is skipped.
     let points = (image.width / 4).div_ceil(side).max(2);
     let finest = Cube::new(side, |face, x, y| {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);

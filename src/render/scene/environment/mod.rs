@@ -130,8 +130,8 @@ impl Environment {
         self.cubes.iter().map(|cube| (cube.side, &cube.texels[..]))
     }
 
-    /// Coefficients, in the map's space, of the real spherical harmonics of the first three bands. They give the
-    /// irradiance / pi of a surface by its normal.
+    /// Coefficients, in the map's space, of the real spherical harmonics of the first three bands. The harmonics of a
+    /// surface's normal, weighted by the coefficients, add up to the surface's irradiance / pi.
     #[must_use]
     pub fn irradiance(&self) -> [[f32; 3]; 9] {
         self.irradiance

@@ -17,7 +17,7 @@ use crate::scene::{
 
 /// Number of vertices that one task transforms; a multiple of 3, so that triangles with flat normals stay whole.
 const CHUNK: usize = 24_576;
-/// Largest distance of a vertex from the world's origin. It is so far below the largest float that differences and
+/// Largest distance of a vertex from the world's origin. This is so far below the largest float that differences and
 /// products of coordinates stay finite in double precision, and relative positions in single precision.
 const FARTHEST: f64 = 1e30;
 
@@ -31,7 +31,7 @@ const LEAST_SAVED: usize = 1 << 16;
 /// A placement, and the place of its elements in the geometry.
 struct PlacementJob<'p, 'd> {
     placement: Placement<'d>,
-    /// Index of the placement; with instances, of one of its placements.
+    /// Index of the placement, or of one of the placements if the mesh is drawn by instances.
     index: usize,
     class: DrawClass,
     first_vertex: u32,

@@ -100,7 +100,7 @@ pub(super) fn pose_in_motion(
     request: &PoseRequest,
 ) -> Result<(Pose, Motion), SceneError> {
     let document = &scene.document;
-    // At time 0 no animation is chosen by default, but a motion needs the one of later times.
+    // At time 0 no animation is chosen by default, but a motion needs the animation that is chosen at later times.
     let later = PoseRequest {
         time: f64::MAX,
         ..request.clone()
@@ -150,7 +150,7 @@ pub(super) fn environment_of(
     document.environments.get(scene)?.clone()
 }
 
-/// Collects what a scene contains at a moment.
+/// Collects the contents of a scene at a moment.
 fn show<'d>(
     scene: &'d Scene,
     request: &PoseRequest,

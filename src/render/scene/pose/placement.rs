@@ -37,7 +37,7 @@ enum VertexMotion {
 #[derive(Clone, Copy, Debug)]
 pub struct VertexTransform {
     affine: DAffine3,
-    /// Inverse transpose up to a positive factor. It exists even if the inverse does not.
+    /// Inverse transpose up to a positive factor, which exists even if the inverse does not.
     normals: DMat3,
     sign: f64,
 }
@@ -123,7 +123,8 @@ impl<'d> Placement<'d> {
         placements
     }
 
-    /// Mesh of the placement, if other placements of it may differ only in their [`rigid`](Self::rigid) transform.
+    /// Mesh of the placement; `None` unless a [`rigid`](Self::rigid) transform is all that tells placements of the mesh
+    /// apart.
     pub fn mesh(&self) -> Option<&'d Primitive> {
         let is_rigid =
             matches!(self.motion, VertexMotion::Rigid(_)) && self.targets.is_empty() && !self.moves;

@@ -79,8 +79,8 @@ fn sampler_of<'i>(
     Ok((sampler, format!("{place}/samplers/{index}")))
 }
 
-/// Reads a channel. Returns none if the channel has no node, or animates something that no node has (both are valid),
-/// and several if its pointer leads to something that several nodes share.
+/// Reads a channel. Returns no channel if the target has no node or a property that no node has (both are valid), and
+/// several channels if the pointer leads to data that several nodes share.
 fn read_channel(
     target: &animation::Target,
     target_place: &str,
@@ -205,13 +205,13 @@ impl ChannelReader<'_, '_> {
         channel: &Channel,
         place: &str,
     ) -> Result<(), Fault> {
-        /// Largest number of keyframes that are examined for a channel; the next is for all channels.
+        /// Largest numbers of keyframes that are examined: for one channel, and for all channels together.
         const MOST: usize = 64;
         const MOST_OF_ALL: usize = 1 << 14;
         let model = self.context.model;
         let wrong = |fault: Fault| Fault::new(place, format!("{pointer} keeps its value: {fault}"));
         let descriptions = &self.descriptions;
-        // Warnings about values are reported when they are drawn.
+        // Warnings are dropped here: they are reported when the moment is drawn.
         let mut unheard = self.context.warnings.of_the_same_file();
         let mut read = |changes: &[Change<'_>]| -> Result<Option<AnimatedProperty>, Fault> {
             Ok(match described {

@@ -76,7 +76,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// `length` bytes at `offset` of a buffer. `place` is the place of what refers to them.
+    /// `length` bytes at `offset` of a buffer. `place` is the place of the object that refers to the bytes.
     fn range(
         &self,
         buffer: Index<Buffer>,

@@ -54,7 +54,7 @@ impl Descriptions {
         }
     }
 
-    /// A material with changes. It has the textures of the material `at_rest`; their coordinates may have changed.
+    /// A material with changes. Its textures are those of the material `at_rest`; their coordinates may have changed.
     pub fn material(
         &self,
         index: usize,

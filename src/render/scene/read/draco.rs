@@ -20,8 +20,8 @@ use crate::scene::error::Fault;
 /// The extension's name.
 pub const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Largest number of elements for each encoded byte. Equal values are almost free, so that an honest file may have
-/// thousands.
+/// Largest number of elements for each encoded byte. Equal values take almost no space, so that a valid file may have
+/// thousands of elements for each byte.
 const ELEMENTS_PER_BYTE: u64 = 65_536;
 /// Number of decoded elements that is allowed beyond the declared one, because seams split vertices.
 const SLACK: u64 = 1024;

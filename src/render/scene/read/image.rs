@@ -112,7 +112,7 @@ impl Images {
         Ok(self.decoded.len() as u32 - 1)
     }
 
-    /// Index of image `index` among the decoded ones.
+    /// Index, among the decoded images, of the document's image `index`; `None` if it was not decoded.
     pub fn place(&self, index: usize) -> Option<u32> {
         self.places.get(&index).copied().flatten()
     }

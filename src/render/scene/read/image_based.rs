@@ -1,4 +1,4 @@
-//! Environments of a file (`EXT_lights_image_based`). One that can't be used is left out with a warning.
+//! Environments of a file (`EXT_lights_image_based`). An environment that can't be used is left out with a warning.
 
 use std::{collections::BTreeMap, sync::Arc};
 

@@ -11,7 +11,7 @@ use crate::scene::{
     light::{Light, LightKind},
 };
 
-/// Largest inner angle of a spot light's cone / its outer angle.
+/// Largest ratio of the inner to the outer angle of a spot light's cone.
 const HARDEST: f32 = 0.999;
 
 /// Reads all lights, each at the origin and along -Z; `None` for those that can't be used.

@@ -127,7 +127,7 @@ fn occlusion_info(texture: &OcclusionTexture) -> Info {
     }
 }
 
-/// Extensions of a texture for which `gltf` reads none.
+/// Texture extensions from their JSON, for textures whose extensions `gltf` does not parse.
 fn with_transform(others: &Map<String, Value>) -> extensions::texture::Info {
     extensions::texture::Info {
         texture_transform: None,

@@ -130,7 +130,7 @@ impl Model {
         })
     }
 
-    /// Makes a model of a document from which parts were removed, but of which nothing is broken.
+    /// Makes a model of a document without broken parts. Some parts may have been removed from the document.
     pub fn of(root: Root, value: Value) -> Self {
         Self {
             root,
@@ -318,7 +318,7 @@ impl Lists<'_, '_> {
         Ok(list)
     }
 
-    /// Removes broken members from an element that it can do without.
+    /// Removes broken members from an element, as far as the element can do without them.
     fn mend<T: Element>(
         &mut self,
         mut value: Value,

@@ -1,4 +1,5 @@
-//! PLY: polygons, strips of triangles and edges, or otherwise points, with normals and colours of vertices.
+//! PLY: polygons, triangle strips and edges, with normals and colours of vertices. A file without polygons, strips and
+//! edges shows its vertices as points.
 
 use std::io::Cursor;
 

@@ -32,7 +32,8 @@ pub fn animated_materials(model: &Model) -> BTreeSet<usize> {
         .collect()
 }
 
-/// Targets of a pointer at `place`: several if several nodes share what it leads to.
+/// Targets of an animation pointer: several if several nodes share the property. `place` is the place of the pointer
+/// itself.
 pub fn targets(model: &Model, pointer: &str, place: &str) -> Result<Vec<Animated>, Fault> {
     let pointed = parse(pointer).ok_or_else(|| {
         let reason = format!(

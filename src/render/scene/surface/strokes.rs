@@ -20,7 +20,7 @@ pub struct Corner {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
     pub triangles: Vec<[u32; 3]>,
-    /// Corners. Their vertices are the last ones, in the same order.
+    /// Corners. The last vertices of the primitive belong to them, in the same order.
     pub corners: Vec<Corner>,
 }
 
@@ -171,8 +171,8 @@ impl Strokes {
         }
     }
 
-    /// Removes vertices that are not used: returns the indices of the used ones, and renumbers the strokes so that
-    /// they refer to that list, which the corners follow.
+    /// Removes vertices that are not used. Returns the indices of the used vertices, followed by one for each corner,
+    /// and renumbers the strokes to positions in this list.
     pub fn compact(&mut self, vertex_count: usize) -> Vec<u32> {
         let named = |corner: &Corner| [corner.at, corner.other, corner.beyond];
         let mut named: Vec<[u32; 3]> = self.corners.iter().map(named).collect();

@@ -72,7 +72,7 @@ impl Geometry for MikktspacePrimitive<'_> {
             // In MikkTSpace v points up, in glTF down, so that the bitangent changes its sign.
             [x, y, z, -sign]
         });
-        // Coordinates near the largest float overflow in between.
+        // The computation overflows for coordinates near the largest float.
         self.corners[3 * face + corner] = tangent.filter(|t| t.iter().all(|x| x.is_finite()));
     }
 }

@@ -181,8 +181,8 @@ pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind the camera. The near
-/// plane cuts its quadrilaterals in many ways, and its vertices lie up to 10^6 pixels off the screen. It covers the
+/// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind the camera. The near plane
+/// cuts its quadrilaterals in many ways, and its vertices lie up to 10^6 pixels off the screen. The mesh covers the
 /// screen from the pixel row `horizon` (from the centre) downwards; `half` is the distance in pixels from the screen's
 /// centre to its sides.
 #[must_use]

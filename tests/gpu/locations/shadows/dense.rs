@@ -6,12 +6,12 @@ use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun};
 use crate::meshes::Random;
 use crate::stage::on_gpu;
 
-/// Triangles in a tile that still have a list, and in one that has none.
+/// Numbers of triangles in a tile that still has a list, and in a tile that has none.
 const LISTED: usize = 36_000;
 const UNLISTED: usize = 45_000;
 
-/// Samples in tiles without a list have the shadows that lists give them. What is shown once more casts the same shadow; some of the
-/// specks are seen by the rounding of their edges.
+/// Samples in tiles without a list have the same shadows as with a list. The stage without a list only repeats specks
+/// of the other one, so that it casts the same shadows. Some of the specks are seen, because their edges are rounded.
 #[test]
 fn shadows_are_the_same_without_a_list() {
     on_gpu(|gpu| {

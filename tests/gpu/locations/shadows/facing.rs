@@ -74,7 +74,8 @@ fn a_ball_shadows_its_far_side_alone() {
                     grazing += 1;
                     continue;
                 }
-                // Just behind an edge, the facet in front of one that faces away is at the same distance.
+                // A facet that faces away may be lit just behind an edge, where the facet in front of it is at the same
+                // distance.
                 assert!(
                     !shadowed || cosine < 0.0,
                     "{seen:?}: {cosine} towards light {bit}"

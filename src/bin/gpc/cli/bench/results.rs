@@ -47,7 +47,7 @@ pub struct SceneMotion {
     pub textured: bool,
     pub size: [u32; 2],
     pub rows: Vec<MotionRow>,
-    /// What was left out, and why.
+    /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
 }
 
@@ -68,7 +68,7 @@ pub struct SceneVariants {
     pub triangles: u64,
     /// Costs, starting with the raster pass.
     pub rows: Vec<VariantRow>,
-    /// What was left out, and why.
+    /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
 }
 
@@ -100,7 +100,7 @@ pub struct Stress {
 pub struct ScalingCurve {
     pub quantity: String,
     pub points: Vec<Point>,
-    /// What was left out, and why.
+    /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
 }
 
@@ -137,7 +137,7 @@ pub struct SceneResults {
     pub textured: bool,
     /// Seconds that the reference took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// What was left out, and why.
+    /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
 }
@@ -188,8 +188,8 @@ impl Results {
         }
     }
 
-    /// Lines `# key: value` for the head of a CSV, which say where its figures come from. The size is that of the
-    /// images.
+    /// Lines `# key: value` for the head of a CSV, which say where its figures come from. The images have the size
+    /// `width` x `height`.
     pub fn head(&self, [width, height]: [u32; 2]) -> String {
         let Machine { cpu, threads, os } = &self.machine;
         let lines = [

@@ -7,7 +7,7 @@ use gpc::bench::{
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 
-/// Most samples a pixel of the references of stripped scenes. They only have to tell which of two errors is larger.
+/// Most samples a pixel of the references of stripped scenes. These references only tell which of two errors is larger.
 const MOST_SAMPLES: u32 = 1024;
 
 /// Images and scenes that tell the causes and faults of errors.
@@ -15,7 +15,7 @@ pub(super) struct Splitter {
     looks: PixelTriangles,
     /// The scene stripped to its paint and stripped to its light, each with its reference.
     halves: [(PreparedScene, DecodedImage); 2],
-    /// Samples of the superpixels by which the images of other methods are split.
+    /// Number of samples of the superpixels by which the errors of methods without superpixels are split.
     shown: u32,
 }
 

@@ -15,7 +15,7 @@ use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
-/// Background colour in sRGB. It is opaque, so that images differ in colour alone and never in alpha.
+/// Background colour in sRGB. The background is opaque, so that images differ in colour alone and never in alpha.
 const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
 
 /// Device and options for measuring one scene after the other.

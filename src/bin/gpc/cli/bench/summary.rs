@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Summary of the scenes with textures, or of those without.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Whether these are the scenes with textures.
+    /// Whether the summarised scenes have textures.
     pub textured: bool,
     /// Number of scenes.
     pub scenes: usize,
@@ -93,7 +93,7 @@ pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32
 }
 
 impl Summary {
-    /// A phrase that says which scenes the summary is of.
+    /// Phrase for the summarised scenes: their number, and whether they are textured.
     pub fn about(&self) -> String {
         let kind = if self.textured {
             "textured"

@@ -45,7 +45,7 @@ pub struct ComparedImage {
     pub status: Status,
     #[serde(flatten)]
     pub comparison: Option<Comparison>,
-    /// Why the image is not equal.
+    /// Reason why the image is not equal.
     pub reason: Option<String>,
 }
 

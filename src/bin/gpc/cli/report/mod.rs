@@ -61,8 +61,8 @@ impl DeviceReport {
     }
 }
 
-/// Figures of an image that was sampled at locations which the command chose. `T` holds the figures of this command
-/// alone.
+/// Figures of an image that was sampled at locations which the command chose. `T` holds the figures that only this
+/// command has.
 #[derive(Serialize)]
 pub struct Figures<T> {
     /// The file, or `-`.

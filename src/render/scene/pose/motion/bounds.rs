@@ -16,7 +16,7 @@ const NOTHING: Box3 = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 /// Bounds of a motion, known before any of its moments.
 pub(crate) struct MovingBounds {
     origin: DVec3,
-    /// Box around what does not move.
+    /// Box around the triangles that do not move.
     still: Box3,
     parts: Vec<PartBounds>,
 }

@@ -1,5 +1,5 @@
-//! Motion of a scene, and the matrices, weights, materials and lights of its moments, which are all that a device
-//! needs to show them.
+//! Motion of a scene. Each of its moments holds matrices, weights, materials and lights, which are all that a device
+//! needs to show the moment.
 
 mod bounds;
 
@@ -30,7 +30,7 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// Collects what these channels change.
+    /// Collects the nodes, materials and lights that these channels change.
     pub fn new(scene: &Scene, animation: &[Channel]) -> Self {
         let document = &scene.document;
         let mut lights = false;
@@ -64,7 +64,7 @@ impl Moving {
         }
     }
 
-    /// Whether an animation moves what a node draws.
+    /// Whether an animation moves or deforms the mesh of a node.
     pub fn has(&self, document: &Document, index: usize, node: &Node) -> bool {
         if self.places.is_empty() {
             return false;
@@ -233,7 +233,7 @@ impl Motion {
         }
     }
 
-    /// Whether a pose may be the one with which the motion was made.
+    /// Whether a pose can be the one of this motion: both have the same number of vertices.
     pub(crate) fn is_of(&self, pose: &Pose) -> bool {
         self.vertex_count == pose.geometry.positions.len()
     }
