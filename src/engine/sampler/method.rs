@@ -72,7 +72,7 @@ pub enum Detection {
     /// A neighbour with a contrasting colour, on the same or another triangle. With growth, the resolved colour of a
     /// neighbouring superpixel is compared as well.
     Contrast,
-    /// A neighbour with another triangle and a contrasting colour: the rule of the papers on which the method is based.
+    /// A neighbour with another triangle and a contrasting colour: the rule with which the method was published.
     Edges,
     /// A neighbour with another triangle.
     Exact,
