@@ -984,7 +984,8 @@ void gpc_frame_destroy(struct GpcFrame *frame);
 // Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, and with one shading key.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
-GpcResult gpc_init_geometry(struct GpcGeometry *geometry, size_t size);
+GpcResult gpc_init_geometry(struct GpcGeometry *geometry,
+                            size_t size);
 
 // Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): with a colour image only, whose format still
 // has to be set.
