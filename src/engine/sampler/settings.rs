@@ -72,7 +72,7 @@ impl PixelRect {
     }
 }
 
-/// Settings of a rendering: everything that determines an image besides scene and camera.
+/// Settings of a rendering: everything that determines an image besides scene and camera, and how it is timed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
