@@ -28,6 +28,8 @@ pub enum ShadeSource {
 pub struct Shade {
     layout: Arc<FrameLayout>,
     source: ShadeSource,
+    /// Whether textures are averaged over footprints.
+    box_filter: bool,
     pipelines: Vec<Arc<Pipeline>>,
     /// Index of each bin's pipeline.
     bins: Vec<usize>,
@@ -88,6 +90,7 @@ impl Shade {
         Ok(Self {
             layout: layout.clone(),
             source,
+            box_filter: output.box_filter,
             pipelines,
             bins,
         })
@@ -106,7 +109,12 @@ impl Shade {
                     let Some(pipeline) = self.pipelines.get(*pipeline) else {
                         continue;
                     };
-                    recorder.bind_sets(layout, 1, &[&material_bin.textures]);
+                    let textures = if self.box_filter {
+                        &material_bin.averaged_textures
+                    } else {
+                        &material_bin.textures
+                    };
+                    recorder.bind_sets(layout, 1, &[textures]);
                     recorder.push(layout, &spirv::ShadePush { bin });
                     let argument = if every_record {
                         Argument::Sort as u32

@@ -111,7 +111,10 @@ impl ShadeFeatures {
 /// Materials that the same dispatch shades: same pipeline, same textures.
 pub(in crate::render) struct MaterialBin {
     pub(in crate::render) features: ShadeFeatures,
+    /// Textures with the samplers of the scene.
     pub(in crate::render) textures: DescriptorSet,
+    /// Textures with samplers for means over footprints.
+    pub(in crate::render) averaged_textures: DescriptorSet,
 }
 
 /// Key of a material bin.
@@ -181,16 +184,20 @@ impl Bins {
         if self.keys.is_empty() {
             return Ok((Vec::new(), None));
         }
-        let pool = layout.pool(0, self.keys.len() as u32)?;
+        let pool = layout.pool(0, 2 * self.keys.len() as u32)?;
         let bins = self
             .keys
             .iter()
             .map(|key| {
-                let set = pool.allocate(layout.texture_set)?;
-                textures.write(&set, &key.textures);
+                let set = |averaging| {
+                    let set = pool.allocate(layout.texture_set)?;
+                    textures.write(&set, &key.textures, averaging);
+                    Ok(set)
+                };
                 Ok(MaterialBin {
                     features: key.features,
-                    textures: set,
+                    textures: set(false)?,
+                    averaged_textures: set(true)?,
                 })
             })
             .collect::<Result<_, VulkanError>>()?;

@@ -94,14 +94,19 @@ impl<'a> TextureSet<'a> {
         Ok((index, self.sampler(Sampler::default())?))
     }
 
-    /// Writes textures to the slots of a descriptor set, in their order.
-    pub(super) fn write(&self, set: &DescriptorSet, textures: &[TextureIndex]) {
+    /// Writes textures to the slots of a descriptor set, in their order, with samplers for means over footprints where that is
+    /// wanted.
+    pub(super) fn write(&self, set: &DescriptorSet, textures: &[TextureIndex], averaging: bool) {
         let infos: Vec<vk::DescriptorImageInfo> = textures
             .iter()
             .filter_map(|(image, sampler)| {
                 let view = self.textures.get(*image)?.image.view;
-                let sampler = self.samplers.get(*sampler)?.1.raw;
-                Some(read_image(view).sampler(sampler))
+                let sampler = &self.samplers.get(*sampler)?.1;
+                Some(read_image(view).sampler(if averaging {
+                    sampler.averaging
+                } else {
+                    sampler.given
+                }))
             })
             .collect();
         // SAFETY: the set was just allocated; images and samplers live as long as the scene that holds the set.
