@@ -36,7 +36,7 @@ Corner corner_of(Triangle k, vec4 vertex, vec3 weights, vec2 center) {
     return Corner(relative_to(vertex, center), distance_);
 }
 
-// How far a vertex lies behind the near plane: negative in front of it.
+// How far a vertex lies on the visible side of the near plane; negative on the other side.
 float behind_near(Corner v) { return v.at.w - v.at.z; }
 
 Corner on_near(Corner a, Corner b) {

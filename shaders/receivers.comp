@@ -37,8 +37,8 @@ layout(push_constant) uniform Push {
 // shadow. Of a shadow that is a line a fifth of a pixel wide, it misses 1 % on average over all directions of the line, and 14 %
 // in the worst direction. With centres alone it would miss 22 % and 78 %.
 const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), vec2(0.46875, -0.296875));
-// A surface is no caster if it is less than this nearer to the light than the receiver: a share of the receiver's distance or,
-// for distant lights, of the scene's depth.
+// Casters have to be nearer to the light than the receiver by at least this share of the receiver's distance or, for distant
+// lights, of the scene's depth. This keeps a surface from shadowing itself.
 const float BIAS = 1.0 / 131072.0;
 
 // The plane of a cube that a direction belongs to, by the nearest axis: x, -x, y, -y, z, -z. Of equally near axes the first wins.

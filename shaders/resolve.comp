@@ -22,7 +22,7 @@ layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
 layout(constant_id = RESOLVE_CONSTANT_LAYERED) const bool LAYERED = false;
 layout(constant_id = RESOLVE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = RESOLVE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = false;
-layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // cells have one block, unless they are marked
+layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // only marked cells have more than one block
 layout(constant_id = RESOLVE_CONSTANT_GROWS) const bool GROWS = false;       // neighbours are marked for `grow`
 
 void write(uvec2 pixel, vec4 c) {
@@ -76,7 +76,7 @@ void main() {
     float uncovered = float(frame.sample_count) - covered;
     vec4 background = frame.background;
 #ifdef DRAWN
-    // Sums of areas are rounded, so that they may leave a little of a cell that is covered.
+    // Sums of areas are rounded: a cell that is covered may seem to have a little background.
     if (mine && uncovered > 1e-3) background = behind(place);
 #endif
     sum = (sum + background * uncovered) * share;

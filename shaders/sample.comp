@@ -71,7 +71,8 @@ void main() {
     uint samples = RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count;
     uint first_sample = RUN == RUN_PROBE ? frame.sample_count : 0u;
     uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
-    // The subgroup's share of an entry of the work list: x counts spans of BLOCKS_AT_ONCE blocks, y counts runs of cells.
+    // Several subgroups share an entry of the work list. `work.y` is the entry. `share.x` and `share.y` say which blocks and
+    // which cells of it this subgroup takes.
     uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
     uvec2 work = split(workgroup_number(), spans * (LANES / CELLS_AT_ONCE));
     if (work.y >= counters[RUN == RUN_REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;

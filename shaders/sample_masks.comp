@@ -221,7 +221,7 @@ void main() {
             used += shows ? 1u : 0u;
             covered |= shows ? mask : uvec2(0u);
             deepest = shows ? min(deepest, range.x) : deepest;
-            // A candidate's depth is less than 2^-13 of its value above that of its key's bits.
+            // An upper bound for the depths of remaining candidates, as in order.glsl.
             int next = keys[0] != 0 ? keys[0] : others ? limit : 0;
             bool behind = intBitsToFloat(next | int(INDEX)) * 1.000002 < deepest;
             done = done || failed || (rivals == 0u && behind && covered == all);

@@ -18,11 +18,14 @@ layout(local_size_x = 64) in;
 
 layout(set = SET_FRAME, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
 layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
-// Two vectors for each corner of a point or line: (vertex to place; vertices of the end that it belongs to, of the segment's
-// other end, and of the end of the segment in which the line goes on: the first end again if it does not), (kind and flag; for
-// a disc: x and y of the corner from the disc's centre, floats as bits; 0). Then two vectors for each edge: (first of the four
-// vertices to place; vertices of both ends; flags), (third vertices of the two faces at the edge: of the one in which the edge
-// leads from the first end to the second, and of the other one; an end instead if there is no face; 0, 0).
+// Two vectors for each corner of a point or line:
+//   the vertex to place; vertices: the end that the corner belongs to, the segment's other end, the far end of the segment in
+//     which the line goes on (or the first end again)
+//   kind and flag; for a disc: x and y of the corner from the disc's centre, floats as bits; 0
+// Then two vectors for each edge:
+//   the first of the four vertices to place; vertices: the two ends; flags
+//   third vertices of the two faces at the edge: of the one whose order of vertices leads from the first end to the second, and
+//     of the other one (or an end if there is no such face); 0; 0
 layout(set = SET_FRAME, binding = BINDING_STROKES) uniform utextureBuffer strokes;
 
 layout(push_constant) uniform Push {
@@ -42,14 +45,14 @@ bool is_behind(vec4 clip) {
     return clip.z > clip.w;
 }
 
-// Where the way from a point before the near plane to a point behind it crosses the plane, from 0 to 1.
+// Where the way from a visible point to a point on the other side of the near plane crosses the plane, from 0 to 1.
 float to_near_plane(vec4 front, vec4 behind) {
     float at = front.w - front.z;
     return at / (at - (behind.w - behind.z));
 }
 
-// The visible part of the way from `to` to `from`, which is before the near plane: its direction on the screen, and its length
-// in pixels.
+// The way from `to` to `from`, of which the latter is visible, clipped at the near plane: its direction on the screen, and its
+// length in pixels.
 vec3 way_from(vec4 from, vec4 to) {
     to = is_behind(to) ? mix(from, to, to_near_plane(from, to)) : to;
     vec2 d = from.xy * to.w - to.xy * from.w;
@@ -96,9 +99,9 @@ bool edge_shows(uvec2 ends, uvec2 opposite, uint flags) {
     return (flags & EDGE_DOUBLE_SIDED) != 0u || (exists && front) || (exists_beyond && front_beyond);
 }
 
-// How far a face at an edge rises towards the camera, over the distance `across` the edge in the plane that is parallel to the
-// image. `third` is the face's third vertex; on the other side of the edge the face is mirrored. All vectors are relative to an
-// end of the edge.
+// How far a face at an edge rises towards the camera over the step `across` from the edge, which is parallel to the image. If the
+// step leads to the other side of the edge, the opposite step is taken. `along`, `third` and `across` are relative to an end of
+// the edge; `third` is the face's third vertex.
 float rise(vec3 along, vec3 third, vec3 view, vec3 across, float most) {
     vec3 normal = cross(along, third), sides = cross(view, along);
     float facing = dot(normal, view), slope = dot(normal, across) * (dot(sides, across) * dot(sides, third) < 0.0 ? 1.0 : -1.0);

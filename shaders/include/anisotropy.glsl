@@ -29,8 +29,8 @@ float ggx_anisotropic(Surface s, vec3 v, vec3 l, vec3 h, float n_h, float n_l, f
     return distribution * 0.5 / (n_l * to_eye + n_v * to_light + 1e-7);
 }
 
-// The normal to reflect an environment about: bent towards the part of `v` that is perpendicular to `s.along`, by more
-// the longer the lobe is compared with its width.
+// The normal at which the view is mirrored to look up the environment. It is bent towards the direction that results from
+// removing from `v` its part along `s.along`. The more the lobe is stretched, the more it is bent.
 vec3 bent_normal(Surface s, vec3 v) {
     vec3 bent = safe_normalize(cross(cross(s.along, v), s.along), s.normal);
     float share = clamp((s.alpha_along - s.alpha) / max(s.alpha_along + s.alpha, 1e-4), 0.0, 1.0);

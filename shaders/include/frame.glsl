@@ -54,7 +54,7 @@ layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
 // reads is therefore bound as both; the binding for writers ends in `_out`.
 layout(set = SET_FRAME, binding = BINDING_POSITIONS) uniform textureBuffer positions;
 layout(set = SET_FRAME, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
-layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: scale of lengths since the mesh
+layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: length in the world / in the mesh
 layout(set = SET_FRAME, binding = BINDING_TANGENTS) uniform textureBuffer tangents;
 layout(set = SET_FRAME, binding = BINDING_UVS) uniform textureBuffer uvs;
 layout(set = SET_FRAME, binding = BINDING_COLORS) uniform textureBuffer colors;
@@ -100,7 +100,7 @@ layout(std430, set = SET_FRAME, binding = BINDING_PAIRS_OUT) writeonly buffer Pa
 // Three words for each tile, a bit a pixel, in three arrays one after the other:
 // - pixels that a thin triangle crosses unseen (`thin`, `shadow`); later cells that a PROBE leaves
 // - the same for triangles close to a surface, like paint; later pixels that contrast with a superpixel beside them
-// - superpixels of earlier growth (`grow`)
+// - all superpixels before the last growth (`grow`)
 layout(std430, set = SET_FRAME, binding = BINDING_MARKS) buffer Marks { uint marks[]; };
 
 // (n % width, n / width). Integer division is a loop on CPU devices. For quotients below 2^22 the quotient of floats is off by

@@ -147,7 +147,7 @@
 #define CONSTANT_THICKNESS_TEXTURE 58
 #define CONSTANT_SPECULAR_GLOSSINESS_TEXTURE 59
 
-// IDs of specialisation constants of one shader. `sample_masks` and `sample_lines` also have those of `sample`.
+// IDs of specialisation constants of one shader. `sample_masks` and `sample_lines` share those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
 #define ADOPT_CONSTANT_INDEXED 1
 #define ATTRIBUTES_CONSTANT_SUPERPIXELS 0

@@ -67,7 +67,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     }
     do {
         uint count = 0u, before = left;
-        uvec4 held;             // record of the group whose number is that of the invocation
+        uvec4 held;             // record of one group: invocation n holds that of group n
         uint number[ROWS];
         do {
             Group s = first_group(left);

@@ -13,7 +13,8 @@ struct Key {
 // from run to run.
 bool comes_before(Key k, Key other) { return (k.depth ^ other.depth) <= INDEX ? k.id < other.id : k.depth > other.depth; }
 
-// A depth that no candidate from this key on exceeds. A candidate's depth is less than 2^-13 of its value above that of its bits.
+// An upper bound for the depths of the candidate with this key and of all later ones. It is needed since a key lacks the lowest
+// bits of a depth.
 float nearest_from(uint depth) { return uintBitsToFloat(depth | INDEX) * 1.000002; }
 
 // Merges runs of `size` keys, the first half of which is in order and the second half in reversed order. Every second run

@@ -17,8 +17,9 @@ uint owners_room() { return 4u * frame.list_capacity; }
 // Number of candidates whose room the owners of a tile's cells take.
 uint candidates_of_owners(uint cells) { return (cells * frame.sample_count + 3u) / 4u; }
 
-// How much an invocation of `scatter` does, so that its loops end within the limit of MOST_TRIPS in workarounds.glsl: most trips
-// for a triangle in a cell, number of triangles (or pairs), number of cells of a tile that each triangle is shown to.
+// The work of an invocation of `scatter` is limited, since the driver ends long loops (MOST_TRIPS of workarounds.glsl). These
+// functions return the trips that a triangle may take in a cell, the number of triangles (or pairs) of an invocation, and the
+// number of a tile's cells that it shows each triangle to.
 uint trips_of_cell() { return 65u + frame.sample_count; }
 uint pairs_of_scatter() { return clamp(56000u / (32u * trips_of_cell()), 1u, 8u); }
 uint cells_of_scatter() { return 56000u / (pairs_of_scatter() * trips_of_cell()); }

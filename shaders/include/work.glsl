@@ -1,6 +1,6 @@
-// The work lists of `sample` and `resolve`, in `tile_lists`: one for each kind of tile, then one for the cells of each kind
-// that a first kernel leaves to another. An entry is a work item (a tile, or a group of locations) and the number of a part
-// of its cells: as many cells as a subgroup has invocations. Pixels that are not superpixels cause no work.
+// The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind, of
+// the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
+// a part of its cells: as many cells as a subgroup has invocations. Pixels that are not superpixels cause no work.
 #ifndef WORK_GLSL
 #define WORK_GLSL
 #include "lanes.glsl"
