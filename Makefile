@@ -2,21 +2,21 @@
 
 CARGO ?= cargo
 
-# Tests run on Mesa's software driver, so that they mean the same on every machine; a driver named in
-# VK_ICD_FILENAMES or VK_DRIVER_FILES comes first. Looked up by the shell, after it has been installed.
+# Tests run on Mesa's software driver, so that results are the same on every machine, unless VK_ICD_FILENAMES or
+# VK_DRIVER_FILES names another driver. The shell runs this command when the driver has been installed.
 LAVAPIPE = ls /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json 2>/dev/null | paste -sd :
 
-# Options of `gpc bench`. These take about half an hour on two cores without a GPU; its own defaults (BENCH=) take
-# hours there.
+# Options of `gpc bench`. With these it takes about half an hour on two cores without a GPU. With its own defaults
+# (BENCH=) it takes hours there.
 BENCH ?= --size 480x270 --samples 4,16,64,256 --reference 1024 --budget 4
 
-# Where `make install` puts the C library. The shared object's name has the version of its binary interface.
+# Where `make install` puts the C library. The shared library's name (SONAME) has the version of the binary interface.
 PREFIX ?= /usr/local
 DESTDIR ?=
 VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 SONAME = libgpc.so.$(shell sed -n 's/^pub const GPC_ABI_VERSION: u32 = \(.*\);/\1/p' src/capi/version.rs)
 
-# What `make view` opens.
+# Scene that `make view` opens.
 SCENE ?= assets/letters.glb
 
 .PHONY: help demo view test test-view test-drivers test-compilers bench measure figures pictures lint shaders check-shaders \
@@ -99,7 +99,7 @@ lint:
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps
 
-# The build script does the work; `check` spares the crate's own code generation.
+# The build script does the work. `cargo check` saves the time of generating code for the crate.
 shaders:
 	@tools/setup.sh shaders
 	GPC_SPIRV=write $(CARGO) check --release --features compile-shaders
@@ -116,7 +116,7 @@ header:
 	@tools/setup.sh build
 	GPC_HEADER=write $(CARGO) test --release --test hosts header
 
-# A crate type of this build alone: `cargo build` makes neither library.
+# The crate types of the C library are set only here, so that `cargo build` does not make it.
 install:
 	@tools/setup.sh build
 	$(CARGO) rustc --release --lib --no-default-features --features capi --crate-type cdylib,staticlib -- \

@@ -454,7 +454,7 @@ impl Type {
             Self::Uint => "u32".to_owned(),
             Self::Int => "i32".to_owned(),
             Self::Float => "f32".to_owned(),
-            // Hosts have matrices as flat arrays.
+            // In Rust, matrices are flat arrays.
             Self::Several(of, count, stride) => match &**of {
                 Self::Several(inner, rows, _)
                     if **inner == Self::Float && (*count, *rows, *stride) == (4, 4, 16) =>

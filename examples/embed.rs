@@ -4,9 +4,9 @@
 //! cargo run --release --example embed [SCENE [OUT.png]]
 //! ```
 //!
-//! The host owns instance, device, queue, allocator, image and command buffer, as an engine or a viewer does.
-//! The renderer is lent them, and says beforehand what it needs; it never submits, waits or allocates while it
-//! records.
+//! The host owns instance, device, queue, allocator, image and command buffer, as an engine or a viewer does, and
+//! lends them to the renderer. The renderer states beforehand what it needs. It never submits or waits, and it does
+//! not allocate while it records.
 
 #[path = "common/arguments.rs"]
 mod arguments;

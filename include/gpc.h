@@ -1,18 +1,20 @@
-// gpc: antialiases the pixels of a Vulkan application's own frames that alias, shaded by its own pipelines.
+// gpc: antialiasing for the frames of a Vulkan application. Only pixels that alias are sampled, and the application's own
+// pipelines shade the samples.
 //
-// An application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
-// library. gpc_frame_record then finds the pixels that alias, samples the application's triangles there, has the application
-// shade what the samples see, and draws the resolved pixels over the aliased ones, all in the application's command buffer.
-// docs/embedding.md is the manual.
+// An application draws its frame as usual, with an additional attachment of triangle IDs. It may also leave some or all of this
+// drawing to the library. gpc_frame_record then finds the pixels that alias, samples the application's triangles there, has
+// the application shade what the samples see, and draws the resolved pixels over the aliased ones. All of this is recorded
+// into the application's command buffer. docs/embedding.md is the manual.
 //
-// - Functions that can fail answer a GpcResult; gpc_last_error has the message. No error leaves anything behind, and no
-//   panic of the library crosses this boundary.
-// - A struct that is handed over is first filled by its gpc_init function, which sets size, type and defaults. Later versions of
-//   the library may add members to its end, and take structs without them. So may they of GpcDraw, GpcMesh and GpcAlphaMap, which stand
-//   in arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
-// - Numbers of type uint32_t that stand for one of a few values name the enumeration that has them.
-// - A pointer or handle is null, which is an error where nothing else is said, or alive, of the type named and of the device
-//   lent. That it is null is found out; the rest is the application's affair, as with Vulkan itself.
+// - Functions that can fail return a GpcResult; gpc_last_error returns the message. A call that fails leaves no objects
+//   behind. Panics of the library do not cross this boundary.
+// - Before a struct is passed to the library, its gpc_init function fills it: with its size, its type and defaults. Later
+//   versions of the library may add members at its end, and accept structs without them. Members may also be added to GpcDraw,
+//   GpcMesh and GpcAlphaMap, which are elements of arrays: set members that an application does not use to 0. GpcImageState,
+//   GpcImage, GpcLocation and GpcMemory never change.
+// - The comment of a uint32_t with only a few possible values names their enumeration.
+// - Pointers and handles must not be null unless their comments allow it. The library checks this. They must also be valid, of
+//   the right type, and of the device that is lent. This is not checked, as with Vulkan itself.
 
 #if defined(__cplusplus) && __cplusplus < 201103L && !defined(_MSC_VER)
 #error "gpc.h needs C++11 or later: compile with -std=c++11"

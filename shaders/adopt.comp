@@ -1,7 +1,7 @@
-// adopt: a host's triangles, in the order of its draws, as the other passes read them. A dispatch takes draws that follow each
-// other and have one mesh and one topology. Twin: `gpc::reference::topology`.
-// Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: what
-// they draw is wrong, and nothing else is.
+// adopt: converts a host's triangles, in the order of its draws, to the form that the other passes read. A dispatch takes
+// consecutive draws with the same mesh and topology, and an invocation a triangle. Twin: `gpc::reference::topology`.
+// Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: only
+// their own triangles are wrong then.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/interface.glsl"
@@ -14,11 +14,11 @@ layout(std430, set = SET_OWN, binding = ADOPT_BINDING_INDICES) readonly buffer I
 layout(std430, set = SET_OWN, binding = ADOPT_BINDING_TRIANGLES_OUT) writeonly buffer TrianglesOut { uvec4 triangles_out[]; };
 layout(std430, set = SET_OWN, binding = ADOPT_BINDING_DRAW_OF_OUT) writeonly buffer DrawOfOut { uint draw_of_out[]; };
 layout(push_constant) uniform Push {
-    uint first_triangle;    // among those of all draws
+    uint first_triangle;    // among the triangles of all draws
     uint triangle_count;
     uint draw_count;
-    uint first_index;       // in the buffer, of those that there are
-    uint index_count;
+    uint first_index;       // first index of the mesh in the buffer
+    uint index_count;       // indices of the mesh
     uint topology;          // TOPOLOGY_LIST, _STRIP or _FAN
 } push;
 
@@ -33,7 +33,7 @@ uint position(Draw draw, uint number) {
     return draw.first_position + min(vertex, draw.last_position);
 }
 
-// Numbers of the corners of a draw's triangle, in the order in which Vulkan has them.
+// The numbers of the indices of a draw's triangle, in Vulkan's order of vertices.
 uvec3 corners(uint triangle) {
     uint odd = triangle & 1u;
     if (push.topology == TOPOLOGY_STRIP) return triangle + uvec3(0u, 1u + odd, 2u - odd);

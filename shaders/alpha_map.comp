@@ -1,5 +1,6 @@
-// alpha_map: a level of a host's alpha map as alpha.glsl reads it: a word for each place between 2 x 2 texels, wrapped.
-// Reads: the image, of any format with floats. Writes: the atlas. Twin: `AlphaAtlas`.
+// alpha_map: converts a mipmap level of a host's alpha map to the form that alpha.glsl reads. An invocation writes a word, for a
+// place between 2 x 2 texels, wrapping applied.
+// Reads: the image, of any format that is sampled as floats. Writes: the atlas. Twin: `AlphaAtlas`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -11,8 +12,8 @@ layout(std430, set = SET_OWN, binding = ALPHA_MAP_BINDING_ATLAS) writeonly buffe
 layout(push_constant) uniform Push {
     uvec2 size;         // of the level, in texels
     uint level;
-    uint first;         // word of the level
-    uint repeats;       // 1 along u, 2 along v; otherwise the border goes on
+    uint first;         // first word of the level in the atlas
+    uint repeats;       // bit 0: repeats along u; bit 1: along v; otherwise the texels at the border continue
 } push;
 
 int wrapped(int at, int side, uint axis) {

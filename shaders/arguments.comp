@@ -1,4 +1,6 @@
-// arguments: what was counted on the GPU becomes the size of the dispatches that follow; nothing is read back.
+// arguments: computes the sizes of the indirect dispatches that follow from what earlier passes counted, so that nothing is
+// read back. One invocation.
+// Reads: counters, bins. Writes: arguments, bins, counters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -6,8 +8,8 @@
 #include "include/pairs.glsl"
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push {
-    uint after;
-    uint subgroups_first;   // as in schedule.comp
+    uint after;             // one of AFTER_
+    uint subgroups_first;   // as in load.glsl
     uint subgroups;
     uint subgroups_unlisted;
 } push;
@@ -42,7 +44,8 @@ void main() {
         uint in_workgroup = 64u / INVOCATIONS_OF_PAIR;
         arguments[ARGUMENT_THIN] = groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + in_workgroup - 1u) / in_workgroup);
     } else {
-        // An invocation a record, or 8 a span. Bins one after the other; the dispatch of each begins at its first record.
+        // `shade` takes an invocation for a record, or 8 for a span. Bins follow each other in `shade_order`; the dispatch of a
+        // bin begins at its first entry.
         uint first = 0u;
         for (uint b = 0u; b < frame.bin_count; b++) {
             uint n = bins[b].x;

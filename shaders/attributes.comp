@@ -1,4 +1,5 @@
-// attributes: what the centre of a pixel sees besides its colour, where the caller asked for it.
+// attributes: for callers that ask for it, what the centre of a pixel sees besides its colour. An invocation takes an output
+// pixel.
 // Reads: ids, the geometry, masks, marks. Writes: two vectors a pixel, floats as bits:
 // (distance along the view direction, ID, sub-samples, superpixel 0 or 1), (world normal, 0).
 #version 460
@@ -9,12 +10,12 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = ATTRIBUTES_CONSTANT_SUPERPIXELS) const bool SUPERPIXELS = false;
-layout(constant_id = ATTRIBUTES_CONSTANT_GROWN) const bool GROWN = false;       // masks hold those that `grow` added alone
+layout(constant_id = ATTRIBUTES_CONSTANT_GROWN) const bool GROWN = false;       // masks hold only what `grow` added last
 layout(std430, set = SET_FRAME, binding = BINDING_ATTRIBUTES_OUT) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
     uint i = invocation_number();
-    // Under supersampling, what the grid's middle sees of an output pixel.
+    // With supersampling, the pixel in the middle of the grid stands for the output pixel.
     uint side = frame.side;
     uvec2 size = frame.size / side;
     if (i >= size.x * size.y) return;

@@ -1,9 +1,10 @@
-// bin: survivors into pairs of a triangle and a tile, with the pair's rank in the tile's list.
+// bin: makes pairs of a surviving triangle and a tile that it may touch, with the triangle's rank in the tile's list. An
+// invocation takes a small triangle, or a workgroup a large one.
 // Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
-// A pair that finds no room marks its tile: `scatter` then tries every triangle there.
-// Large or small is a matter of what a region shows of a triangle, so that both are tested alike against a tile: which
-// kernel samples it is the same however an image is divided.
+// If there is no room for a pair, its tile gets a flag, and `scatter` tries every triangle there.
+// Whether a triangle is large depends on how much of it a region shows. Both kinds get the same test against a tile, so that
+// the same kernel samples a tile however an image is divided into regions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -14,7 +15,7 @@
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
-layout(push_constant) uniform Push { uint large; } push;     // 1: a workgroup a triangle, not an invocation
+layout(push_constant) uniform Push { uint large; } push;     // 1: takes large triangles
 
 void main() {
     bool large = push.large != 0u;
@@ -31,14 +32,14 @@ void main() {
     uint columns = uint(high.x - low.x + 1), count = exists ? columns * uint(high.y - low.y + 1) : 0u;
     float inverse_columns = 1.0 / float(columns);
     uint k = large ? gl_LocalInvocationID.x : 0u;
-    // Invocations stay together as long as one has a tile left, as `append` asks.
+    // Invocations stay in the loop as long as one of the subgroup has a tile left, as `append` requires.
     do {
         uint kk = min(k, max(count, 1u) - 1u);
         uint row = uint((float(kk) + 0.5) * inverse_columns);
         ivec2 tile = low + ivec2(kk - row * columns, row);
         uint index = uint(tile.y) * frame.tiles.x + uint(tile.x);
         bool touches = k < count && (masks[index] & footprint_mask(f, tile)) != 0u;
-        // A pixel's centre is within (3.5, 1.5) of the tile's; a quarter more covers rounding.
+        // A pixel's centre is at most (3.5, 1.5) from the tile's; a quarter of a pixel more covers rounding.
         Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
         vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
         touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
@@ -48,7 +49,8 @@ void main() {
             bool kept = slot < frame.pair_capacity;
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
             if (flags != 0u) atomicOr(tiles[index].w, flags);
-            // One that is not kept leaves no gap: its tile gets no list. Neither does one with more ranks than there is room for.
+            // A pair that is not kept leaves no gap in a list, since its tile gets none. Neither does a tile with more triangles
+            // than there are ranks.
             if (kept) pairs_out[slot] = make_pair(t, index, rank);
         }
         k += large ? 64u : 1u;

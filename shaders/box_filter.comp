@@ -1,4 +1,4 @@
-// box_filter: k x k supersampled pixels to one output pixel.
+// box_filter: averages k x k supersampled pixels to an output pixel, which an invocation takes.
 // Reads: color of a region at k times the resolution (linear light, as in the output). Writes: filtered.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,7 @@
-// centres: the centres of pixels as visibility samples, where nobody has drawn colours. Runs twice over a band of pixels:
-// LIST them, each a record of the whole pixel, and once these are shaded, GATHER their colours.
-// Reads: ids; shaded. Writes: records; color, display.
+// centres: makes visibility samples of the centres of pixels, for hosts that draw no colours. It runs twice over a band of
+// pixels. The first run makes a record for each pixel. After these are shaded, the second run (GATHER) stores their colours. An
+// invocation takes a pixel.
+// Reads: ids; GATHER: ids, shaded. Writes: records; GATHER: color, display.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -10,7 +11,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = CENTRES_CONSTANT_GATHER) const bool GATHER = false;
 layout(push_constant) uniform Push {
-    uint first;         // pixel of the band
+    uint first;         // first pixel of the band
     uint count;
 } band;
 

@@ -1,4 +1,5 @@
-// composite: the colour of each list of layers, in the place of its leaf.
+// composite: computes the colour of each list of layers, and stores it as that of the list's leaf. An invocation takes a record,
+// and does nothing if this is no leaf.
 // Reads: records, shaded. Writes: shaded.
 #version 460
 #extension GL_GOOGLE_include_directive : require

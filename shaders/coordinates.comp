@@ -1,5 +1,5 @@
-// coordinates: texture coordinates of a host's vertices, one for each position in clip space.
-// Reads: draws, the host's vertices. Writes: coordinates. OBJECT: as for transform.
+// coordinates: copies the texture coordinates of a host's vertices, for each position in clip space, which an invocation takes.
+// Reads: draws, the host's vertices. Writes: coordinates. OBJECT: see transform.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BY_POSITION
@@ -11,11 +11,11 @@ layout(constant_id = COORDINATES_CONSTANT_OBJECT) const bool OBJECT = false;
 layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_VERTICES) readonly buffer Vertices { uint vertices[]; };
 layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_COORDINATES_OUT) writeonly buffer CoordinatesOut { uvec2 coordinates_out[]; };
 layout(push_constant) uniform Push {
-    uint first_position;    // of those of one mesh, that follow each other
+    uint first_position;    // first one of a mesh, whose positions follow each other
     uint position_count;
     uint draw_count;
-    uint first_word;        // of the first vertex
-    uint stride;            // in words
+    uint first_word;        // where the coordinates of the first vertex begin
+    uint stride;            // from vertex to vertex, in words
 } push;
 
 void main() {

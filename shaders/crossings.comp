@@ -1,9 +1,10 @@
-// crossings: cells of a list that a thin triangle crosses unseen become superpixels, as `thin` has it of pixels: what is said there
-// of pixels and columns holds of cells, in which x and y are those of the output. In the place of depth stands nearness: 1 / distance along the view
-// direction or, where rays are parallel, minus the distance. Triangles that reach before the near plane are cut there.
+// crossings: marks cells of a list that a thin triangle crosses although no location sees it. It does for cells what `thin` does
+// for pixels: see there for the rules. Columns and rows are those of a cell, whose axes are x and y of the output. Instead of
+// depth there is nearness: 1 / distance along the view direction or, for a parallel projection, minus the distance. Triangles
+// are clipped at the near plane. Twin: src/reference/crossings.rs.
 // Reads: the geometry, pairs, cells, what each location sees. Writes: marks of the output's cells, tile by tile, which
 // `detect` reads.
-// A few invocations take a pair of a triangle and a tile, and in turn the tile's cells near the triangle. Twin: src/reference/crossings.rs.
+// INVOCATIONS_OF_PAIR invocations share a pair of a triangle and a tile. They take the tile's cells near the triangle by turns.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -17,14 +18,14 @@
 layout(local_size_x = 64) in;
 layout(constant_id = CROSSINGS_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
 layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_LOADS) readonly buffer TileLocations { uint loads[]; };
-// A location: distance along the view direction as a float's bits (0: background), ID, ID of the nearest BLEND triangle (0: none),
-// its cell of the output, row by row.
+// A vector a location: (distance along the view direction as a float's bits, 0 for background; ID; ID of the nearest BLEND
+// triangle, 0 for none; number of its cell of the output, row by row).
 layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_SEEN) readonly buffer Seen { uvec4 seen[]; };
 layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_CELL_MARKS) buffer CellMarks { uint cell_marks[]; };  // as `marks` of pixels
 layout(push_constant) uniform Push {
     uvec2 tiles;        // of the output
     uint width;         // of the output, in cells
-    float pixel;        // width of a pixel of the plane at a distance of 1 or, where rays are parallel, at any
+    float pixel;        // width of a pixel of the plane at a distance of 1 or, for a parallel projection, at any distance
 } push;
 
 // A vertex in clip space, and its distance along the view direction.
@@ -35,7 +36,7 @@ Corner corner_of(Triangle k, vec4 vertex, vec3 weights, vec2 center) {
     return Corner(relative_to(vertex, center), distance_);
 }
 
-// How far a vertex lies behind the near plane.
+// How far a vertex lies on the visible side of the near plane; negative on the other side.
 float behind_near(Corner v) { return v.at.w - v.at.z; }
 
 Corner on_near(Corner a, Corner b) {
@@ -73,7 +74,7 @@ void main() {
     Corner b = corner_of(k, k.v1, vec3(0.0, 1.0, 0.0), center);
     Corner c = corner_of(k, k.v2, vec3(0.0, 0.0, 1.0), center);
 
-    // Cut at the near plane: `a` is the corner that is alone on its side, and what is left has four corners or less.
+    // Clipping at the near plane. `a` becomes the corner that is alone on its side; four corners or fewer are left.
     bvec3 shown = greaterThanEqual(vec3(behind_near(a), behind_near(b), behind_near(c)), vec3(0.0));
     int shown_count = int(shown.x) + int(shown.y) + int(shown.z);
     bool second = shown_count == 1 ? shown.y : !shown.y, third = shown_count == 1 ? shown.z : !shown.z;
@@ -86,7 +87,8 @@ void main() {
     vec3 p0 = projected(a), p1 = projected(b), p2 = projected(c), p3 = p2;
     if (shown_count == 2) p3 = projected(near_c);
 
-    // Cells of a tile lie along a Morton curve through its pixels, which passes those of a rectangle between two of its corners.
+    // Cells of a tile lie along a Morton curve through its pixels. On this curve, all pixels of a rectangle lie between its upper
+    // left and its lower right pixel. Only cells from the one to the other are tried.
     Footprint f = footprint_of(k.v0, k.v1, k.v2);
     ivec2 corner = ivec2(split(tile, frame.tiles.x)) * ivec2(8, 4);
     uvec2 low = uvec2(clamp(f.low - corner, ivec2(0), ivec2(7, 3))), high = uvec2(clamp(f.high - corner, ivec2(0), ivec2(7, 3)));
@@ -104,7 +106,7 @@ void main() {
         vec3 q0 = vec3(to_cell * (p0.xy - at), p0.z), q1 = vec3(to_cell * (p1.xy - at), p1.z);
         vec3 q2 = vec3(to_cell * (p2.xy - at), p2.z), q3 = vec3(to_cell * (p3.xy - at), p3.z);
         float height = height_of(q0.xy, q1.xy, q2.xy, q3.xy);
-        // Along the longer side; the coordinates are exchanged where that is y.
+        // The triangle is taken along its longer side. If that is along y, x and y are exchanged.
         vec2 extent = max(max(q0, q1), max(q2, q3)).xy - min(min(q0, q1), min(q2, q3)).xy;
         bool swap = extent.y > extent.x;
         q0.xy = swap ? q0.yx : q0.xy;

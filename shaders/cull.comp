@@ -1,8 +1,9 @@
-// cull: keeps the triangles that can touch a superpixel; counts the others by reason. It errs towards keeping:
-// `setup` has the last word on what has area and faces the camera.
-// Reads: the geometry, masks. Writes: survivors (small from the front, large ones from the back), counters.
-// THIN_ALONE keeps those that may be thin in some cell, for `crossings`.
-// The host discards a frame whose survivors outnumber their room. Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
+// cull: keeps the triangles that may touch a superpixel, and counts the others by reason. In doubt it keeps a triangle: `setup`
+// decides finally which ones have area and face the camera. An invocation takes PER_INVOCATION triangles.
+// Reads: the geometry, masks. Writes: survivors (small ones from the front, large ones from the back), counters.
+// THIN_ALONE keeps only triangles that may be thin in some cell, for `crossings`.
+// The host discards a frame with more survivors than there is room for. In `bin` an invocation takes a small triangle, and a
+// workgroup a large one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

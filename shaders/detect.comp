@@ -1,8 +1,11 @@
-// detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
-// A pixel is one if any of its 8 neighbours shows a contrasting colour, by display-encoded 8-bit codes; EDGES asks for
-// another triangle there (opaque or the nearest BLEND one) or the shadow of another light as well, EXACT for that alone.
+// detect: decides which pixels are superpixels, and stores a bit for each pixel, in a word for each tile of 8 x 4 pixels.
+// By the MODE, a pixel is a superpixel if one of its 8 neighbours
+//   CONTRAST  has a contrasting colour, by display-encoded 8-bit codes
+//   EDGES     has a contrasting colour, and another triangle (opaque or the nearest BLEND one) or other shadows
+//   EXACT     has another triangle or other shadows
+// BLENDED: if the pixel itself shows a BLEND triangle. EVERY: always.
 // Twin: src/reference/detect.rs.
-// Reads: ids, blend_ids, display, marks. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
+// Reads: ids, blend_ids, display, marks, shadow words. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,11 +18,11 @@ layout(local_size_x = 64) in;
 
 layout(constant_id = DETECT_CONSTANT_MODE) const uint MODE = 0u;
 layout(constant_id = DETECT_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
-layout(constant_id = DETECT_CONSTANT_THIN) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
-layout(constant_id = DETECT_CONSTANT_TRANSPARENT) const bool TRANSPARENT = false;  // colours differ in alpha too
-layout(constant_id = DETECT_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that are superpixels too, for `grow`
+layout(constant_id = DETECT_CONSTANT_THIN) const bool THIN = false;    // pixels that `thin` marked are superpixels, too; some only amid a triangle
+layout(constant_id = DETECT_CONSTANT_TRANSPARENT) const bool TRANSPARENT = false;  // alpha is compared, too
+layout(constant_id = DETECT_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that may be superpixels, for `grow`
 
-// The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
+// The nearest BLEND triangle at a pixel. MULTISAMPLED: not 0 if any sample sees one.
 uint blend_at(ivec2 p) {
 #ifdef MULTISAMPLED
     uint any_id = 0u;
@@ -30,6 +33,7 @@ uint blend_at(ivec2 p) {
 #endif
 }
 
+// Whether two neighbours differ by the rule of MODE.
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint shadow_a, uint shadow_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b) || shadow_a != shadow_b;
     if (MODE == DETECT_EXACT) return other;
@@ -46,7 +50,7 @@ void main() {
     ivec2 last = ivec2(frame.size) - 1;
 
     uint word = 0u, previous_row = 0u;
-    uint amid = 0u, previous_beside = 0u, previous_same = 0u;   // pixels between two that show the same triangle
+    uint amid = 0u, previous_beside = 0u, previous_same = 0u;   // pixels between two neighbours on their triangle
     if (MODE == DETECT_EVERY) {
         word = ~0u;
     } else if (MODE == DETECT_BLENDED) {
@@ -60,8 +64,8 @@ void main() {
         [[unroll]] for (int i = 0; i < 10; i++) {
             above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; shadow[i] = 0u; above_shadow[i] = 0u; above_alpha[i] = 0;
         }
-        // The tile's rows and one beyond on both sides; what the first ones say is shifted out. ROLLED, see
-        // workarounds.glsl.
+        // The tile's rows, with one above and one below. The results of the first two trips are shifted out of the word. ROLLED,
+        // see workarounds.glsl.
         int r = -1;
         do {
             int y = clamp(base.y + r, 0, last.y);

@@ -1,13 +1,13 @@
-// distribute: the sample locations of a list to the tiles that they lie in, and there to cells and groups of cells: a
-// counting sort, in four STEPs.
-//   NUMBER   a location: as which of those of its pixel it came
-//   LAY_OUT  a tile: where its locations, cells and groups begin
-//   ARRANGE  a location: to its place in the order, tile by tile, and there pixel by pixel along a Morton curve; the first one of
-//            a cell tells that its tile
-//   ENCLOSE  a cell: its locations and the rectangle around them; the first one of a group makes that
-// Reads: the list. Writes: what `include/locations.glsl` describes, masks, counters. Which of the locations of a pixel comes
-// first varies from run to run; what they see does not depend on it.
-// What is not finite, or lies off the region of the plane, is left out and counted.
+// distribute: sorts the sample locations of a list by the tiles that they lie in, and makes cells and groups of cells of them. It
+// is a counting sort in four STEPs. An invocation takes
+//   NUMBER   a location: finds its rank among the locations of its pixel
+//   LAY_OUT  a tile: decides where its locations, cells and groups begin
+//   ARRANGE  a location: moves it to its place in the order, tile by tile, and in a tile pixel by pixel along a Morton curve. The
+//            first location of a cell stores the cell's tile
+//   ENCLOSE  a cell: finds its locations and the rectangle around them. The first cell of a group stores the group
+// Reads: the list. Writes: what `include/locations.glsl` describes, masks, counters. The order of the locations of a pixel
+// varies from run to run; what they see does not depend on it.
+// Locations that are not finite, or lie outside of the region of the plane, are left out and counted.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -31,7 +31,7 @@ layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_GROUPS_OUT) writeonly
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_TILE_LOADS) writeonly buffer TileLoads { uvec4 tile_loads[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_MASKS) writeonly buffer Masks { uint masks[]; };
 layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_COUNTERS) buffer Counters { uint counters[]; };
-// Bound twice, BOUND_TWICE of workarounds.glsl.
+// BOUND_TWICE of workarounds.glsl.
 layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_LOCATIONS) uniform utextureBuffer locations;
 layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_ORDER) uniform utextureBuffer order;
 layout(push_constant) uniform Push {
@@ -39,28 +39,29 @@ layout(push_constant) uniform Push {
     uint count;             // locations
     uint in_cell;           // most locations of a cell
     uint in_group;          // most cells of a group
-    uint samples;           // of a cell that is one location
+    uint samples;           // samples of a cell that is one location
 } push;
 
-// Half of a cell's sides beyond its samples, in pixels: covers the rounding of edge functions; and a factor, for that of samples.
+// What is added to half of a cell's sides, in pixels, for the rounding of edge functions; a factor for the rounding of samples.
 const float SLACK = 1.0 / 64.0, ROUNDING = 1.0 + 1.0 / 1048576.0;
 // The farthest that a sample may lie from its location's pixel, in pixels.
 const float FARTHEST = 1048576.0;
 
+// How far the samples of a location may lie from it, along x and y.
 vec2 half_extent(uint location) {
     if (POINTS) return vec2(0.0);
     vec4 j = abs(uintBitsToFloat(texelFetch(locations, int(2u * location + 1u))));
     return 0.5 * (j.xy + j.zw);
 }
 
-// How wide a location's cell is, in pixels: the larger of its Jacobian's singular values.
+// The width of a location's cell, in pixels: the larger singular value of its Jacobian.
 float width_of(uint location) {
     vec4 j = uintBitsToFloat(texelFetch(locations, int(2u * location + 1u)));
     float both = dot(j, j), area = j.x * j.w - j.y * j.z;
     return sqrt(0.5 * (both + sqrt(max(both * both - 4.0 * area * area, 0.0)))) * ROUNDING;
 }
 
-// The pixel's number in its tile, row by row.
+// The number of a pixel in its tile, row by row.
 uint bit_of(ivec2 pixel) { return uint(pixel.x & 7) | uint(pixel.y & 3) << 3; }
 
 uint tile_of(ivec2 pixel) { return uint(pixel.y >> 2) * push.tiles.x + uint(pixel.x >> 3); }
@@ -69,7 +70,7 @@ void number(uint i) {
     uvec4 at = texelFetch(locations, int(2u * i));
     ivec2 pixel = ivec2(at.xy);
     vec2 within = uintBitsToFloat(at.zw), extent = half_extent(i);
-    // Neither holds of what is not a number.
+    // NaN fails these comparisons.
     bool valid = all(greaterThanEqual(within, vec2(0.0))) && all(lessThanEqual(within, vec2(1.0)))
         && is_finite(extent.x) && is_finite(extent.y) && max(extent.x, extent.y) <= FARTHEST;
     valid = valid && all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(uvec2(pixel) >> uvec2(3u, 2u), push.tiles));
@@ -101,7 +102,7 @@ void lay_out(uint tile) {
     masks[tile] = mask;
     tile_loads[tile] = uvec4(0u);
     if (count == 0u) return;
-    // Places are as many as cells have room for: a tile's locations begin with a cell.
+    // A tile's locations begin with a new cell, so cells have as many places as they have room for, also if some stay empty.
     uint first_cell = atomicAdd(counters[COUNTER_CELLS], cells), first = first_cell * push.in_cell, next = first;
     tile_loads[tile] = uvec4(cells, POINTS ? count : cells * push.samples, first_cell, 0u);
     atomicMax(counters[COUNTER_MOST_CELLS], cells);
@@ -142,7 +143,7 @@ void enclose(uint cell) {
         low = min(low, at - extent);
         high = max(high, at + extent);
     } while (++member < push.in_cell);
-    // A lone location is the middle itself, to the bit.
+    // The middle of a cell with one location is that location, to the bit.
     vec2 middle = held.y == 1u ? at : 0.5 * (low + high);
     vec2 half_side = max(high - middle, middle - low) * ROUNDING + SLACK;
     cells_out[2u * cell] = floatBitsToUint(vec4(middle, half_side));

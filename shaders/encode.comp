@@ -1,5 +1,5 @@
-// encode: the region's colours in the format of a host's image, ready to be copied into it.
-// Reads: color (linear light, premultiplied). Writes: encoded, rows packed.
+// encode: converts the region's colours to the format of a host's image, ready to be copied into it. An invocation takes a pixel.
+// Reads: color (linear light, premultiplied). Writes: encoded, rows without gaps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

@@ -1,6 +1,6 @@
 // enlist: gives the tiles of a round their places in the round's memory, and enters them in the work lists.
 // Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists, counters.
-// A subgroup takes a stretch, in tile order, so that lists are the same in every run.
+// A subgroup takes a stretch (see load.glsl), in the order of tiles, so that lists are the same in every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -30,7 +30,7 @@ void main() {
         uint length_ = list == TILE_LIST_UNLISTED ? 0u : tile.x;
         uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND | TILE_OVERFLOW)) | (list == TILE_LIST_UNLISTED ? 0u : TILE_LISTED);
         if (busy) tiles[index] = uvec4(tile.x, at, flags | length_ << TILE_COUNT_SHIFT);
-        // Lengths of all lists in one scan, a byte each.
+        // One scan counts the entries of all lists, in a byte for each list.
         uvec4 lengths = load.entries << uvec4(0u, 8u, 16u, 24u);
         uint together = lengths.x | lengths.y | lengths.z | lengths.w;
         uint first = first_entry(list) + before.entries[list] + (subgroupExclusiveAdd(together) >> (8u * list) & 0xffu);
@@ -47,7 +47,7 @@ void main() {
     owned = lanes_add(owned);
     if (unlisted != 0u && subgroupElect()) {
         atomicAdd(counters[COUNTER_UNLISTED_TOTAL], unlisted);
-        // `schedule` has counted their room as candidates.
+        // `schedule` has counted the room of their owners as candidates.
         atomicAdd(counters[COUNTER_CANDIDATES_TOTAL], 0u - owned);
     }
 }

@@ -1,4 +1,5 @@
-// groups: the groups of cells of the round's tiles, sorted by what their samples need as `schedule` sorts tiles.
+// groups: enters the groups of cells of the round's tiles in the work lists, by the kinds of their tiles, as `enlist` does with
+// tiles. An invocation takes a group.
 // Reads: location_groups, tiles. Writes: tile_lists, counters. The order varies from run to run; `sample` does not depend on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +13,7 @@ void main() {
     uint i = invocation_number();
     uint count = counters[COUNTER_GROUPS];
     uint tile = texelFetch(location_groups, int(min(i, max(count, 1u) - 1u))).x, flags = tiles[tile].w;
-    // Where POINTS see nothing is the background.
+    // POINTS in a tile without triangles need no samples: they see the background.
     bool needless = POINTS && !OCCLUDERS && tiles[tile].x == 0u;
     bool placed = i < count && in_round(tile) && !needless;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;

@@ -1,7 +1,7 @@
-// grow: pixels beside superpixels that `resolve` found to contrast with these become superpixels in their place.
-// No centre saw what a superpixel's samples see of a thin feature, of a corner or of a hole, and it seldom ends at the
-// pixel's border. Twin: src/reference/grow.rs.
-// Reads: masks, marks. Writes: masks (of the new ones alone), marks, COUNTER_SUPERPIXELS, COUNTER_TILES.
+// grow: makes superpixels of the pixels beside superpixels that `resolve` found to contrast with these.
+// The samples of a superpixel may reveal a thin feature, a corner or a hole that no pixel centre sees. It often extends into
+// neighbouring pixels. Twin: src/reference/grow.rs.
+// Reads: masks, marks. Writes: masks (only the new superpixels), marks (all earlier ones), COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +9,7 @@
 #include "include/workgroup.glsl"
 #include "include/interior.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = GROW_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that grow too, for a growth that follows
+layout(constant_id = GROW_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that grow, too, for later growth
 
 void main() {
     uint tile = invocation_number();

@@ -1,6 +1,7 @@
-// multisample: what the device's own multisampling saw, as visibility samples: one a triangle a pixel, at the
-// pixel's centre, weighted by its samples. From there on `shade` and `resolve` are those of superpixels.
-// Reads: ids_ms. Writes: records, headers, tiles, tile_lists, arguments; every tile is PLAIN and in this round.
+// multisample: makes visibility samples of what the device's own multisampling saw: one for each triangle in each pixel, at
+// the pixel's centre, weighted by the triangle's samples. `shade` and `resolve` then treat all pixels as superpixels. An
+// invocation takes a pixel.
+// Reads: ids_ms. Writes: records, headers, masks, tiles, tile_lists, arguments, counters; every tile is PLAIN and in this round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -22,7 +23,8 @@ void main() {
     uvec2 pixel = split(tile, frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
     bool inside = exists && all(lessThan(pixel, frame.size));
     ivec2 at = ivec2(min(pixel, frame.size - 1u));
-    // Every pixel has as many slots as samples; tiles are whole, so that headers follow the mask's bits.
+    // Every pixel has room for as many records as it has samples. All pixels of a tile have headers, in the order of the mask's
+    // bits.
     uint first = (tile * 32u + bit) * frame.sample_count;
     uint used = 0u, previous = 0u;
     bool more;

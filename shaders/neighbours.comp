@@ -1,5 +1,6 @@
-// neighbours: cells of an output beside superpixels, which contrast with what these were found to show, as `resolve` marks pixels.
-// Superpixels of an output are locations of lists, so that `resolve` knows none beside another. `grow` reads the marks.
+// neighbours: marks cells of an output that lie beside a superpixel and contrast with its resolved colour, for `grow`. In frames,
+// `resolve` does this. Superpixels of an output are sampled as locations of a list, where `resolve` does not know which cells
+// lie beside each other.
 // Reads: masks, color, display. Writes: marks.
 // An invocation takes a cell. Twin: src/reference/grow.rs.
 #version 460

@@ -1,11 +1,12 @@
-// patch: the colours of superpixels, drawn into a host's image; all other pixels keep what they hold. ALL: those of all
-// pixels. Reads: masks, marks, color. ENCODED: the host writes sRGB codes into a format of plain numbers.
+// patch: draws the colours of superpixels into a host's image. Other pixels keep their colours. ALL: draws all pixels.
+// ENCODED: the host writes sRGB codes into a UNORM format. An invocation takes a pixel.
+// Reads: masks, marks, color. Writes: the host's image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
 layout(constant_id = PATCH_CONSTANT_ENCODED) const bool ENCODED = false;
-layout(constant_id = PATCH_CONSTANT_GROWN) const bool GROWN = false;       // masks hold those that `grow` added alone
+layout(constant_id = PATCH_CONSTANT_GROWN) const bool GROWN = false;       // masks hold only what `grow` added last
 layout(constant_id = PATCH_CONSTANT_ALL) const bool ALL = false;
 layout(std430, set = SET_FRAME, binding = BINDING_COLOR) readonly buffer ColorIn { vec4 color_in[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_MASKS) readonly buffer MasksIn { uint masks_in[]; };

@@ -1,7 +1,8 @@
-// points: what each location sees that is sampled once: its colour and, where asked, attributes, from its visibility samples.
-// Reads: records, shaded, the geometry. Writes: color, and two vectors a location, floats as
-// bits: (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, which lights the
-// opaque or MASK triangle lies in the shadow of).
+// points: for locations that are sampled once, computes from their visibility samples what they see: a colour and, if asked for,
+// ATTRIBUTES. An invocation takes a record, and does nothing unless this stands for all that a location sees.
+// Reads: records, shaded, the geometry, shadow words. Writes: color, and two vectors a location, floats as bits:
+// (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, a bit for each light whose
+// shadow is on the opaque or MASK triangle).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -22,7 +23,7 @@ void main() {
     uvec4 record = texelFetch(records, int(i));
     if ((record.x & POINT_VALUE) == 0u) return;
     uint location = record.x & POINT_LOCATION;
-    // A leaf is no surface itself.
+    // A leaf is no surface, but links to the nearest one.
     uint nearest = record.y != 0u ? i : farther(i);
     bool hits = nearest != ~0u;
     nearest = hits ? nearest : i;

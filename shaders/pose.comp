@@ -1,4 +1,5 @@
-// pose: vertices of a mesh that moves, from those at rest: morph targets, then the matrices of its joints or of its node.
+// pose: moves the vertices of a mesh from their pose at rest: applies morph targets, then the matrices of joints or of the mesh's
+// node. An invocation takes a vertex.
 // Reads: resting, influences, displacements, moment. Writes: positions, normals, tangents. Twin: the poses of `gpc::scene`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,20 +8,20 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = SET_FRAME, binding = BINDING_MOMENT) uniform textureBuffer moment;         // rows of matrices; weights, and what targets they are of
+layout(set = SET_FRAME, binding = BINDING_MOMENT) uniform textureBuffer moment;         // rows of matrices; weights, targets
 layout(set = SET_FRAME, binding = BINDING_RESTING) uniform textureBuffer resting;        // position, normal, tangent of each vertex
 layout(set = SET_FRAME, binding = BINDING_INFLUENCES) uniform utextureBuffer influences;    // joints of a vertex, bits of their weights
-layout(set = SET_FRAME, binding = BINDING_DISPLACEMENTS) uniform textureBuffer displacements;  // of a vertex, as many vectors as the target displaces
+layout(set = SET_FRAME, binding = BINDING_DISPLACEMENTS) uniform textureBuffer displacements;  // 1 to 3 vectors of a vertex
 layout(set = SET_FRAME, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
 layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
 layout(set = SET_FRAME, binding = BINDING_TANGENTS_OUT, rgba32f) uniform writeonly imageBuffer tangents_out;
 
 layout(push_constant) uniform Push {
     uint count;             // vertices
-    uint first_vertex;      // those of the geometry
+    uint first_vertex;      // where the vertices are written
     uint first_resting;
     uint first_influence;
-    uint sets;              // of four influences
+    uint sets;              // sets of four influences; 0: the mesh follows its node
     uint first_displacement;
     uint displacement_vectors;
     uint first_matrix;      // in `moment`
@@ -29,7 +30,7 @@ layout(push_constant) uniform Push {
     uint flags;
 } part;
 
-// A vertex's position (0), normal (1) or tangent (2), displaced.
+// The position (`stream` 0), normal (1) or tangent (2) of a vertex, displaced by the morph targets.
 vec3 morphed(uint v, uint stream) {
     vec3 value = texelFetch(resting, int((part.first_resting + v) * 3u + stream)).xyz;
     uint k = 0u;
@@ -50,7 +51,7 @@ Rows matrix(uint index) {
     return Rows(texelFetch(moment, row), texelFetch(moment, row + 1), texelFetch(moment, row + 2));
 }
 
-// The weighted sum of the matrices of a vertex's joints; without any, the one of its node.
+// The weighted sum of the matrices of a vertex's joints; without joints, the matrix of its node.
 Rows blended(uint v) {
     Rows sum = matrix(0u);
     if (part.sets == 0u) return sum;
@@ -89,7 +90,7 @@ void main() {
     Rows rows = blended(v);
     imageStore(positions_out, to, vec4(position_at(rows, v), 1.0));
 
-    // The inverse transpose up to a positive factor, which is there for flat joints too.
+    // The cofactor matrix times `side` is the inverse transpose up to a positive factor. It exists for flat joints, too.
     vec3 cofactors = cross(rows.y.xyz, rows.z.xyz);
     float side = dot(rows.x.xyz, cofactors) < 0.0 ? -1.0 : 1.0;
     vec3 n = morphed(v, 1u);

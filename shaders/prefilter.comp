@@ -1,5 +1,6 @@
-// prefilter: what surfaces of one roughness reflect of an environment, seen along their normals: averages over directions,
-// each of which reads the cube whose texels are as large as what it stands for.
+// prefilter: computes what surfaces of one roughness reflect of an environment if they are seen along their normals. It is an
+// average over directions. For each direction the cube is read whose texels are about as large as the solid angle that the
+// direction stands for. An invocation takes a texel.
 // Reads: an environment's cube and ever coarser averages of it, directions. Writes: a cube. Twin: src/reference/prefilter.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,13 +12,13 @@ layout(std430, set = SET_OWN, binding = PREFILTER_BINDING_TEXELS) buffer Texels 
 layout(std430, set = SET_OWN, binding = PREFILTER_BINDING_RAYS) readonly buffer Rays { vec4 rays[]; };    // about +z, and the level to read
 layout(push_constant) uniform Push {
     uint finest;        // texels along the side of the finest cube that is read, a power of two
-    uint side;          // the same of the cube that is written
-    uint first;         // its first texel
+    uint side;          // texels along the side of the cube that is written
+    uint first;         // first texel of that cube
     uint first_ray;
     uint ray_count;
 } push;
 
-// The direction of a place on a face, within -1 to 1; not normalised.
+// The direction of a place on a face, whose coordinates go from -1 to 1. It is not normalised.
 vec3 direction(uint face, vec2 at) {
     float along = (face & 1u) == 0u ? 1.0 : -1.0;
     if (face < 2u) return vec3(along, -at.y, -along * at.x);
@@ -25,7 +26,7 @@ vec3 direction(uint face, vec2 at) {
     return vec3(along * at.x, -at.y, along);
 }
 
-// The face that a direction falls on, and where.
+// The inverse: the face that a direction points at, and the place there.
 vec2 place(vec3 d, out uint face) {
     vec3 size = abs(d);
     bool is_x = size.x >= size.y && size.x >= size.z, is_y = !is_x && size.y >= size.z;
@@ -39,12 +40,12 @@ vec3 texel(uint i) {
     return vec3(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y).x);
 }
 
-// Between the nearest texels of a face of the averages of a level.
+// Interpolates between the nearest texels of a face in the cube of a level.
 vec3 average(uint level, uint face, vec2 at) {
     uint side = push.finest >> level, last = side - 1u;
     vec2 middle = clamp((0.5 * at + 0.5) * float(side) - 0.5, 0.0, float(last)), low = floor(middle), share = middle - low;
     uvec2 a = uvec2(low), b = min(a + 1u, uvec2(last));
-    // Six times the squares of the sides before it.
+    // The number of texels in finer cubes, which is six times the sum of the squares of their sides; then the faces before.
     uint face_start = 8u * (push.finest * push.finest - side * side) + face * side * side;
     uint top = face_start + a.y * side, bottom = face_start + b.y * side;
     vec3 upper = mix(texel(top + a.x), texel(top + b.x), share.x);
@@ -58,7 +59,7 @@ void main() {
     uint in_face = i % area;
     uvec2 column_row = uvec2(in_face % push.side, in_face / push.side);
     vec3 normal = normalize(direction(i / area, (2.0 * vec2(column_row) + 1.0) / float(push.side) - 1.0));
-    // Any two axes across it (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
+    // Any two axes perpendicular to the normal (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
     float turn = normal.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (turn + normal.z), b = normal.x * normal.y * a;
     vec3 right = vec3(1.0 + turn * normal.x * normal.x * a, turn * b, -turn * normal.x);
     vec3 up = vec3(b, turn + normal.y * normal.y * a, -normal.y);

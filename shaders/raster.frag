@@ -1,6 +1,6 @@
-// raster: one triangle ID a pixel, or a sample under MSAA; colours are made by `shade`.
-// MASKED discards where alpha is below the cutoff. BYTES splits the ID over four 8-bit channels, since a
-// multisampled attachment need not hold integers.
+// raster: writes the triangle ID of each pixel, or of each sample under MSAA. `shade` makes the colours later.
+// MASKED discards fragments with an alpha below the cutoff. BYTES splits the ID over four 8-bit channels, since devices need
+// not support multisampled attachments of integers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

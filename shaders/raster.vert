@@ -1,6 +1,6 @@
-// raster: pulls a triangle's vertices, so that the ID of a triangle is gl_VertexIndex / 3 (cheaper than
-// gl_PrimitiveID) and so that positions are those that `sample` sees.
-// Reads: triangles, positions. What differs between instances is pushed, which costs less than to look it up.
+// raster: fetches vertices by itself (vertex pulling), so that the ID of a triangle is 1 + gl_VertexIndex / 3, which is cheaper
+// than gl_PrimitiveID, and so that positions are the same as in `sample`. An invocation takes a vertex of a triangle.
+// Reads: triangles, positions. The matrix and the vector of an instance are pushed, which costs less than reading them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -8,7 +8,7 @@
 layout(location = 0) flat out uint triangle_id;
 layout(push_constant) uniform Push {
     mat4 matrix;        // position -> (pixel x * w, pixel y * w, z, w)
-    uvec4 instance;     // first of its vectors, see triangle.glsl
+    uvec4 instance;     // the instance's first vector, see triangle.glsl
 } push;
 
 void main() {

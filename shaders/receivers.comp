@@ -1,10 +1,13 @@
-// receivers: where the surfaces that are about to be shaded appear on the plane of a light, as a list of sample locations.
-// Sources: PIXELS (what the centres of a region's pixels see) or the visibility samples of a round, BLEND layers among them.
-// What the light does not reach, or another plane of a light with several is asked for, is left out: it gets a pixel off the
-// plane. A surface whose triangle turns the light the side that is not seen lies in the shadow of itself, but of
-// DIFFUSE_TRANSMISSION, which light from behind shines through.
-// A probe is another place in a pixel that its triangle covers too; `shadow` compares it with the centre. It begins no word.
-// Reads: ids or records, the geometry. Writes: a location each, and a word of `include/shadows.glsl`. Twin, with what hides them: `gpc::reference::shadow`.
+// receivers: projects the surfaces that are about to be shaded on the plane of a light, and makes a list of sample locations
+// there. An invocation takes one of PIXELS (what the centre of a pixel sees) or a visibility sample of a round, BLEND layers
+// included.
+// Places that the light does not reach, or that belong to another plane of the light, are left out: they get a location off the
+// plane. If light and camera are on different sides of a triangle, its surface lies in its own shadow, unless its material has
+// DIFFUSE_TRANSMISSION, which lets light from behind through.
+// A probe is another place in a pixel, if the pixel's triangle covers it, too. `shadow` compares it with the pixel's centre. No
+// shadow words are written for probes.
+// Reads: ids or records, the geometry. Writes: a location for each place, and the words of `include/shadows.glsl`.
+// Twin: `gpc::reference::shadow`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -16,26 +19,29 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = RECEIVERS_CONSTANT_PIXELS) const bool PIXELS = false;
-layout(constant_id = RECEIVERS_CONSTANT_DIFFUSE_TRANSMISSION) const bool DIFFUSE_TRANSMISSION = false;   // of some materials
-layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_LOCATIONS_OUT) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // as OCCLUDERS have them
+layout(constant_id = RECEIVERS_CONSTANT_DIFFUSE_TRANSMISSION) const bool DIFFUSE_TRANSMISSION = false;   // some material has it
+layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_LOCATIONS_OUT) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // those of OCCLUDERS
 layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_WORDS) buffer ShadowWords { uint words[]; };
 layout(push_constant) uniform Push {
     mat4 to_plane;      // position -> (pixel x * w, pixel y * w, z, w), pixels from the plane's middle
     vec4 light;         // xyz: unit direction to a distant light (w = 0) or position of a local one (w = 1)
-    vec4 cone;          // xyz: axis of a local light, unit; w: cosine of the angle from it up to which light goes, -2 for all directions
+    vec4 cone;          // xyz: axis of a local light, unit; w: cosine of the cone's half angle, -2 for light in all directions
     ivec2 low;          // upper left pixel of the part of the plane that is sampled, from its middle
     uvec2 size;         // of that part, in pixels
-    float range;        // how far the light of a local one reaches
-    uint step_;         // of the light: its bit; 32 more in the first step of all, which begins the words; of a probe, 64 times its number from 1 on
-    uint face;          // which of the six planes of a cube this is, as `face_of` numbers them; SINGLE_PLANE is no cube's
+    float range;        // how far the light of a local light reaches
+    uint step_;         // bits 0 to 4: number of the light; bit 5: the first step of all, which clears the words; from bit 6 on:
+                        // number of the probe, from 1 on, or 0 for none
+    uint face;          // which of the six planes of a cube this is, as `face_of` numbers them, or SINGLE_PLANE
 } push;
-// Places of probes in their pixels. Growth finds what lies within two pixels of a place that a shadow covers: of a line a fifth of a
-// pixel wide, all but 1 % on average over its directions, and all but 14 % in the worst. Centres alone miss 22 % and 78 %.
+// Places of probes in their pixels. Growth finds those parts of a shadow that lie within two pixels of a probe or centre in the
+// shadow. Of a shadow that is a line a fifth of a pixel wide, it misses 1 % on average over all directions of the line, and 14 %
+// in the worst direction. With centres alone it would miss 22 % and 78 %.
 const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), vec2(0.46875, -0.296875));
-// What lies nearer to the light than this is the receiver itself: part of its distance or, of distant light, of the scene's depth.
+// Casters have to be nearer to the light than the receiver by at least this share of the receiver's distance or, for distant
+// lights, of the scene's depth. This keeps a surface from shadowing itself.
 const float BIAS = 1.0 / 131072.0;
 
-// The plane of a cube that a direction belongs to, by the axis that it is nearest to: x, -x, y, -y, z, -z; of equally near ones the first.
+// The plane of a cube that a direction belongs to, by the nearest axis: x, -x, y, -y, z, -z. Of equally near axes the first wins.
 uint face_of(vec3 way) {
     vec3 size = abs(way);
     float largest = max(size.x, max(size.y, size.z));
@@ -86,7 +92,7 @@ void main() {
     vec4 at = to_clip(push.to_plane, vec4(position, 1.0));
     vec2 uv = at.xy / at.w, low = floor(uv);
     bool asked = reached && !turned && at.w > 0.0 && (push.face == SINGLE_PLANE || face_of(-to_light) == push.face);
-    // Rounding takes what lies on the part's rim off it.
+    // Rounding may move a place on the border of the part of the plane outside. Up to a pixel outside it is moved back.
     ivec2 pixel = ivec2(clamp(low, -8388608.0, 8388607.0)) - push.low, last = ivec2(push.size) - 1;
     vec2 within = uv - low;
     within = mix(mix(within, vec2(0.0), lessThan(pixel, ivec2(0))), vec2(1.0), greaterThan(pixel, last));

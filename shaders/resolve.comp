@@ -1,10 +1,10 @@
-// resolve: the colour of each superpixel, from its shaded records.
-// Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
-// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display or marks.
-// DRAWN, a variant: samples that see no triangle show what the host has drawn, in its image, instead of the background.
-// LOCATIONS: the cells of a group, into the colours of their locations.
-// LAYERED records are layers over an opaque surface, and those of the header the leaves of their lists, of which `composite` has made
-// colours.
+// resolve: computes the colour of each superpixel from its shaded records. A subgroup takes an entry of a work list, and an
+// invocation a cell of it.
+// The colours of records are tone-mapped one by one, then averaged in linear light; alpha is coverage.
+// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, if asked for, display and marks.
+// DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
+// LOCATIONS: cells are locations, and colours are stored by the index of a location.
+// LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -22,15 +22,15 @@ layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
 layout(constant_id = RESOLVE_CONSTANT_LAYERED) const bool LAYERED = false;
 layout(constant_id = RESOLVE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = RESOLVE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = false;
-layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // cells that are not marked have one block
-layout(constant_id = RESOLVE_CONSTANT_GROWS) const bool GROWS = false;       // `grow` follows
+layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // only marked cells have more than one block
+layout(constant_id = RESOLVE_CONSTANT_GROWS) const bool GROWS = false;       // neighbours are marked for `grow`
 
 void write(uvec2 pixel, vec4 c) {
     if (LOCATIONS) {
         color[pixel.x] = c;
         return;
     }
-    // Whole tiles are cells where the device multisamples: some reach over the border.
+    // With the device's own multisampling all pixels of a tile are cells, and some lie outside of the image.
     if (any(greaterThanEqual(pixel, frame.size))) return;
     uint at = pixel.y * frame.size.x + pixel.x;
     color[at] = c;
@@ -52,7 +52,7 @@ void main() {
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 
-    // An invocation a cell.
+    // The cell of this invocation.
     uint first = entry_part(entry) * LANES, cell = first + lane;
     uint bit = LOCATIONS ? lane : bit_of_cell(word, cell);
     bool mine = cell < (LOCATIONS ? location_group.z : bitCount(word));
@@ -76,7 +76,7 @@ void main() {
     float uncovered = float(frame.sample_count) - covered;
     vec4 background = frame.background;
 #ifdef DRAWN
-    // Sums of areas are rounded.
+    // Sums of areas are rounded: a cell that is covered may seem to have a little background.
     if (mine && uncovered > 1e-3) background = behind(place);
 #endif
     sum = (sum + background * uncovered) * share;

@@ -1,30 +1,31 @@
-// sample: the nearest triangle of every sub-sample of every superpixel of a list of tiles.
+// sample: finds the nearest triangle of every sub-sample of the superpixels in a work list. No colours are read or computed.
 // Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets.
-// Writes: records, headers. No colour is known here.
+// Writes: records, headers; PROBE: also marks, and lists of the cells that are left to REST.
 //
-// A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
-// conservative tests, of its bounding box by `setup` and of its edges against the cell's square here, keep a short list,
-// and the nearest triangle that covers the whole square hides what lies behind it. Then, cell by cell, an invocation holds
-// ROWS samples, with their depth and ID in
-// registers, and the short list passes by, block by block of samples. A list that outgrows its room is replaced by all
-// candidates of the tile. Ties in depth go to the smaller ID, so that the order of candidates does not matter.
-// Samples of UNLISTED tiles know what they see.
+// A subgroup takes up to LANES cells of a tile. In the first loop an invocation holds a cell, and all candidates of the tile are
+// tested against it. The tests are conservative: `setup` has tested the candidate's bounding box and edges, and here its edges
+// are tested against the cell's square. Candidates that pass make the cell's short list, unless they lie behind a triangle that
+// covers the whole square. Then the subgroup takes the cells one after the other, in blocks of samples: an invocation holds ROWS
+// samples, with their depths and IDs in registers, and the short list is tested against these. If a short list outgrows its
+// room, all candidates of the tile are tested instead. If depths are equal, the smaller ID wins, so that the order of candidates
+// does not matter. For samples of UNLISTED tiles, `scatter` has already found what they see.
 //
-// Coverage. A triangle that loses none of the samples that it covers is taken to be seen whole, and weighs the exact
-// area of its part of the cell; what is left is shared by the others in proportion to their samples. Small areas are
-// left to samples: to trust those that happen to be met would lose those that are not. With many samples
-// to take, a first run PROBEs each cell with few: where at most one surface is left to share, that is exact, and only
-// the REST takes all samples (and what is HIGH_FREQUENCY, to be shaded at).
+// Coverage. A triangle that owns all samples that it covers is taken to be wholly visible, and its weight is the exact
+// area of its part of the cell. What is left of the cell is shared by the other surfaces in proportion to their samples.
+// Small triangles are weighted by samples: with exact areas for those that samples meet, those that samples miss would be lost.
+// If cells have many samples, a first run (PROBE) takes few of them. If at most one surface is left to share the rest, the
+// result is exact. Only other cells get all samples, in a second run (REST), as do cells with HIGH_FREQUENCY triangles, which
+// are shaded at the samples.
 //
 // Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
-//   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there
-//           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
-//   LAYERED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
-//           stead of a place, and the index of its samples' nearest surface (include/layers.glsl).
-// Records link to those before them. Where cells are LOCATIONS, the first word of a record is its location. POINTS make a record of
-// each location that sees something; LAYERED, of the others too.
-// OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
-// Header of a cell's block: first record, number of records (LAYERED: leaves).
+//   merged: weight as a float, in samples; one record for each visible triangle of a block, at the centroid of its samples
+//           (BY_PART: for each of its parts there; PER_SAMPLE: for each sample, at its position);
+//   LAYERED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight instead of a
+//           place, and the index of its samples' nearest surface (include/layers.glsl).
+// Links lead to records with smaller indices. If cells are LOCATIONS, the first word of a record is its location. POINTS make a
+// record of each location that sees something; LAYERED: of the others, too.
+// OCCLUDERS start with the triangle and depth of their surface. They record another triangle that is nearer, or background.
+// Header of a cell's block: first record, number of records (LAYERED: of leaves).
 //
 // Loops are do-while with guarded bodies: DO_WHILE of workarounds.glsl.
 #version 460
@@ -37,11 +38,11 @@ layout(constant_id = SAMPLE_CONSTANT_PER_SAMPLE) const bool PER_SAMPLE = false;
 layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;           // which of the tile lists
 layout(constant_id = SAMPLE_CONSTANT_RUN) const uint RUN = 0u;
-layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // records for each part of a block, to shade at
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // triangles may have a record for each part
 #ifdef UNLISTED
 const bool EXACT_AREAS = false;
 #else
-layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // where a block has all samples of a cell
+layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // only if a block has all samples of a cell
 #endif
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
 layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
@@ -49,10 +50,10 @@ layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 #ifndef UNLISTED
-const uint ROOM = APART && LANES < 32u ? 3072u : 1024u; // words of `kept`: fewer lanes take more trips for what is not kept
-const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates of a cell
+const uint ROOM = APART && LANES < 32u ? 3072u : 1024u; // words of `kept`: small subgroups take more trips if it is too small
+const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates in the short list of a cell
 
-// Candidates by cell, then entry: two in a word, as no list of several cells is longer than 16 bits; APART, one.
+// The short lists, cell by cell: numbers of candidates, two in a word, since 16 bits can count the tile's list; APART: one.
 shared uint kept[ROOM];
 #endif
 
@@ -70,13 +71,14 @@ void main() {
     uint samples = RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count;
     uint first_sample = RUN == RUN_PROBE ? frame.sample_count : 0u;
     uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
-    // A subgroup's share of an entry: (blocks, cells).
+    // Several subgroups share an entry of the work list. `work.y` is the entry. `share.x` and `share.y` say which blocks and
+    // which cells of it this subgroup takes.
     uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
     uvec2 work = split(workgroup_number(), spans * (LANES / CELLS_AT_ONCE));
     if (work.y >= counters[RUN == RUN_REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
     uvec2 share = split(work.x, spans);
     uint lane = gl_SubgroupInvocationID;
-    // What marks are kept for: a tile's pixels, or a group's cells.
+    // The work item: a tile or a group. It has a word of marks for its pixels or cells.
     uint entry = tile_lists[first_entry(RUN == RUN_REST ? LIST + LEFT : LIST) + work.y], item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
@@ -98,7 +100,7 @@ void main() {
     // The cell of each invocation, and what it keeps of the tile's candidates.
     uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.5 + ROUNDING);
-    uvec2 my_locations = uvec2(0u);     // the first one, and how many
+    uvec2 my_locations = uvec2(0u);     // the cell's first location, and how many it has
     if (LOCATIONS) {
         int at = int(2u * (location_group.y + my_bit));
         vec4 square = uintBitsToFloat(texelFetch(location_cells, at));
@@ -114,15 +116,15 @@ void main() {
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
     trips = 0u;
 #ifndef UNLISTED
-    float my_hidden = 0.0;          // nothing farther than this shows in the cell
+    float my_hidden = 0.0;          // depth: what lies farther is hidden in the whole cell
     uint count = header.w >> TILE_COUNT_SHIFT;
-    uint my_count = 0u, my_last = 0u;   // candidates kept; the last word of them
+    uint my_count = 0u, my_last = 0u;   // number of candidates in the cell's short list, and the list's last word
     uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
     do {
         Candidate k = load_candidate(cell.first, min(chunk * LANES + lane, max(count, 1u) - 1u), cell.center);
         uint chunk_count = min(count - min(count, chunk * LANES), LANES);
         if (APART) {
-            // The cell is the only one: an invocation tests a candidate.
+            // There is only one cell, so each invocation tests a candidate.
             RectangleTest test = test_rectangle(k, cell_at, cell_half, HAS_MASK);
             bool exists = lane < chunk_count && may_touch(k, cell_bit);
             my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
@@ -157,7 +159,7 @@ void main() {
     do {
         load_offsets(first_sample + block * BLOCK, first_sample + samples - 1u);
         cell.samples = min(samples - block * BLOCK, BLOCK);
-        uvec2 my_header = uvec2(0u);    // records that the block makes of the cell
+        uvec2 my_header = uvec2(0u);    // header of this invocation's cell
         cell.member = 0u;
         do {
             uint bit = subgroupShuffle(my_bit, cell.member);

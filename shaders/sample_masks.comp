@@ -1,29 +1,30 @@
-// sample_masks: what sample.comp finds, for cells of at most 64 samples and triangles that are opaque or alpha-tested: an
-// invocation takes a cell, and which samples see a triangle is a mask, a bit each.
-// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers; marks and lists the cells that it leaves to
-// sample.comp: those that see more than SLOTS triangles, or one that crosses the near plane.
+// sample_masks: finds the same as sample.comp, for cells of at most 64 samples with opaque or alpha-tested triangles. An
+// invocation takes a cell. The samples that see a triangle are a mask, with a bit for each sample.
+// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that see more than SLOTS triangles, or one that
+// crosses the near plane, and those of tiles with more than INDEX candidates, are marked and listed for sample.comp.
 //
-// Candidates come by their nearest depth in the cell, the nearest first. Where the depths that two triangles can have in
-// the cell lie apart, the nearer one takes the samples that both cover; where not, depths are compared at each of these, in
-// a trip of its own. A cell is done when all its samples are covered and what is to come lies behind all that it sees.
+// Candidates are taken in the order of their nearest depth in the cell, the nearest first. If the ranges of depth that two
+// triangles have in the cell do not overlap, the nearer triangle takes the samples that both cover. Otherwise depths are
+// compared at each of these samples, in a trip of the loop of its own. A cell is done when all its samples are covered and all
+// remaining candidates lie behind what it sees.
 //
-// Loops end by votes, and have one body for both kinds of trips: see DO_WHILE of workarounds.glsl.
+// Loops end when all invocations agree, and have one body for both kinds of trips: see DO_WHILE of workarounds.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
-layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // this and the following ones: as in sample.comp
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false;
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
 
 const float ROUNDING = 1.0 / 64.0;  // as in sample.comp
-const int SLOTS = 6;                // triangles that a cell sees
+const int SLOTS = 6;                // most triangles that a cell sees
 const int AHEAD = 8;                // candidates that are sorted at once
-const uint INDEX = 1023u;           // bits of a candidate's number in a key; the depth has those above
+const uint INDEX = 1023u;           // bits of a key that hold a candidate's number; those above hold its depth
 
 #include "include/alpha.glsl"
 #include "include/area.glsl"
@@ -42,13 +43,13 @@ vec2 depth_range(Candidate k, vec2 at) {
     return vec2(max(depth - slope, k.far), min(depth + slope, k.near));
 }
 
-// The order of candidates: the nearer one first and, of those whose keys have the same depth, the smaller ID, since their
-// order in the list differs from run to run.
+// The order of candidates: the nearer one comes first. If keys have the same depth, the smaller ID comes first, since the order
+// of the list differs from run to run.
 bool comes_before(int key, uint id, int other, uint other_id) {
     return uint(key ^ other) <= INDEX ? id < other_id : key > other;
 }
 
-// Of samples in the cell around `at`, those where a triangle passes its alpha test.
+// Those of `samples`, in the cell around `at`, at which a triangle passes its alpha test.
 uvec2 alpha_mask(uint triangle, uvec2 samples, vec2 center, vec2 at) {
     AlphaTest test = alpha_test(triangle, center, at, mat2(frame.sample_footprint));
     uvec2 passed = uvec2(0u);
@@ -67,10 +68,10 @@ uvec2 alpha_mask(uint triangle, uvec2 samples, vec2 center, vec2 at) {
 struct Seen {
     uvec2 mask;
     uint id;
-    uint index;             // candidate of the tile
+    uint index;             // number of the candidate in the tile's list
     float far;              // its farthest depth in the cell
-    int area;               // 0 where it goes by its samples
-    uint parts;             // PARTS_ONE where it makes one record
+    int area;               // its exact area; 0 if its weight is its number of samples
+    uint parts;             // PARTS_ONE if it makes one record
 };
 
 void main() {
@@ -93,19 +94,19 @@ void main() {
 
     Seen seen[SLOTS];
     [[unroll]] for (int s = 0; s < SLOTS; s++) seen[s] = Seen(uvec2(0u), ~0u, 0u, 3.4e38, 0, PARTS_ONE);
-    uint used = 0u;                     // slots
-    uint wholes = 0u;                   // a bit a slot: of triangles that lose no sample that they cover
+    uint used = 0u;                     // slots in use
+    uint wholes = 0u;                   // a bit for each slot: the triangle owns all samples that it covers
     uvec2 all = all_samples(), covered = uvec2(0u);
-    float deepest = 3.4e38;             // that a slot reaches
+    float deepest = 3.4e38;             // the farthest depth of all slots in the cell
     bool failed = count > INDEX, done = !exists || failed;
     count = failed ? 0u : count;
 
-    int limit = 0x7fffffff;             // keys of this depth and this ID or a smaller one, and nearer ones, have passed by
+    int limit = 0x7fffffff;             // candidates up to this key, with `last_id`, are done, in the order of comes_before
     uint last_id = 0u;
-    bool more;                          // candidates than AHEAD ones
+    bool more;                          // candidates are left behind the AHEAD ones
     do {
         int keys[AHEAD + 1], least = 0;
-        uint of_keys[AHEAD];    // their triangles
+        uint of_keys[AHEAD];    // the keys' triangle IDs
         [[unroll]] for (int a = 0; a <= AHEAD; a++) keys[a] = 0;
         [[unroll]] for (int a = 0; a < AHEAD; a++) of_keys[a] = 0u;
         uint batch = 0u;
@@ -142,10 +143,11 @@ void main() {
         last_id = of_keys[AHEAD - 1];
         bool others = least != 0;
 
-        // The candidate at hand: its samples, less what nearer triangles own, and slots with which it is to be compared.
+        // The current candidate: the samples that it covers and that no nearer triangle owns, and the slots with which it is
+        // still to be compared.
         uvec2 mask = uvec2(0u), taken = uvec2(0u);
         uint id = 0u, index = 0u, rivals = 0u;
-        bool masked = false;                // its area is not that of its triangle
+        bool masked = false;                // it is alpha-tested, so that its area is not that of its triangle
         vec3 plane = vec3(0.0);
         vec2 bounds = vec2(0.0), range = vec2(0.0);
         do {
@@ -160,7 +162,7 @@ void main() {
             }
             Candidate k = load_candidate(first, min(fetched, max(count, 1u) - 1u), center);
 
-            // Of equal depths the smaller ID's wins: its depth comes first.
+            // If depths are equal, the smaller ID wins: its depth comes first in the comparison.
             bool before = id < k.id;
             Comparison test;
             test.a = compares ? vec3(before ? plane.x : k.depth.x, before ? k.depth.x : plane.x, 0.0) : k.a;
@@ -174,7 +176,7 @@ void main() {
             uvec2 holds = mask_of(test, at);
             holds = (compares && !before ? ~holds : holds) & all;
 
-            // A new candidate, or the samples that are lost to it and by it.
+            // The trip either takes a new candidate, or moves samples between the current candidate and a slot.
             shared_ &= mask;
             uvec2 won = shared_ & holds;
             vec2 its_range = depth_range(k, at);
@@ -186,7 +188,7 @@ void main() {
             taken = takes ? holds : taken;
             uvec2 shown = takes ? holds : uvec2(0u);
             if (HAS_MASK) {
-                // Alpha is read where no nearer triangle hides it.
+                // Alpha is tested only at samples at which no nearer triangle hides the candidate.
                 bool tested = takes && k.id > frame.first_mask;
                 uvec2 open_ = tested ? shown : uvec2(0u);
                 [[unroll]] for (int s = 0; s < SLOTS; s++) open_ &= range.y < seen[s].far ? ~seen[s].mask : uvec2(~0u);
@@ -219,7 +221,7 @@ void main() {
             used += shows ? 1u : 0u;
             covered |= shows ? mask : uvec2(0u);
             deepest = shows ? min(deepest, range.x) : deepest;
-            // A key's depth is less than a 2^-13th above what its bits say.
+            // An upper bound for the depths of remaining candidates, as in order.glsl.
             int next = keys[0] != 0 ? keys[0] : others ? limit : 0;
             bool behind = intBitsToFloat(next | int(INDEX)) * 1.000002 < deepest;
             done = done || failed || (rivals == 0u && behind && covered == all);
@@ -228,7 +230,7 @@ void main() {
         more = !done && others;
     } while (any_lane(more));
 
-    // What is seen whole weighs its exact area, what is left is shared by the others by their samples.
+    // Wholly visible triangles are weighted by their exact areas. The others share what is left, in proportion to their samples.
     uint slot = 0u, singles = 0u, records_made = 0u, several = 0u;
     if (EXACT_AREAS || BY_PART) {
         do {
@@ -263,7 +265,7 @@ void main() {
     if (EXACT_AREAS) {
         int whole_units = 0;
         uint whole_samples = 0u, sharing = covered != all ? 1u : 0u;
-        bool small = false;             // what is seen whole and too small to be trusted
+        bool small = false;             // a triangle is wholly visible, but its area is too small to be used
         [[unroll]] for (int s = 0; s < SLOTS; s++) {
             bool shares = seen[s].mask != uvec2(0u) && seen[s].area == 0;
             whole_units += seen[s].area;
@@ -291,7 +293,7 @@ void main() {
     if (writes) headers[min(header.z + cell, frame.record_capacity - 1u)] = uvec2(mine, fits ? records_made : 0u);
     uint cell_id = pixel.x | pixel.y << 16, at_record = mine, seen_id = 0u;
     do {
-        // By ascending ID, so that the order of candidates does not show.
+        // By ascending ID, so that records do not depend on the order of candidates.
         Seen t = Seen(uvec2(0u), ~0u, 0u, 0.0, 0, 0u);
         [[unroll]] for (int s = 0; s < SLOTS; s++) {
             bool least = seen[s].parts == PARTS_ONE && seen[s].id < t.id && seen[s].id > seen_id;
@@ -309,7 +311,7 @@ void main() {
     } while (any_lane(singles != 0u));
 
     if (BY_PART) {
-        uvec2 rest = uvec2(0u);     // samples of the triangle at hand that are not recorded yet
+        uvec2 rest = uvec2(0u);     // samples of the current triangle that are not recorded yet
         uint id = 0u, parts = PARTS_ALL;
         float each = 0.0;
         do {
@@ -329,7 +331,7 @@ void main() {
             parts = next ? t.parts : parts;
             float weight = EXACT_AREAS && exact ? samples * (t.area != 0 ? float(t.area) * (1.0 / AREA_UNIT) * mend / max(float(samples_of(t.mask)), 1.0) : share) : 1.0;
             each = next ? weight : each;
-            // The samples of the first run that has some.
+            // The samples of the first run that has samples left.
             bool upper = rest.x == 0u;
             uint length = part_length(parts);
             uint half_ = upper ? rest.y : rest.x, from = (half_ == 0u ? 0u : uint(findLSB(half_))) & ~(length - 1u);

@@ -1,15 +1,16 @@
-// scatter: what the samples of tiles without a list of candidates see. Triangles come one by one, in any order and number, and
-// leave their depth in the samples that they cover; the nearest stays. In STEPs:
-//   CLEAR    a vector of the round
-//   DEPTHS   a triangle: the depth of the nearest opaque or alpha-tested surface of each sample
-//   IDS      a triangle: of the surfaces at that depth, the least ID
-//   COUNT    a triangle: the BLEND layers before that surface
-//   PLACE    an owner: where its layers begin
-//   LAYERS   a triangle: the layers to their places
-//   ORDER    a layer: to its place in the order of depth
-// Reads: pairs, or (EVERY) all triangles, for tiles of which pairs were not kept; tiles, masks, tile_lists, offsets.
+// scatter: finds what the samples of tiles without a list of candidates see. Triangles are taken in any order and number. Each
+// one updates, by atomic operations, the owners of the samples that it covers: a sample's owner is its vector in
+// include/owners.glsl. In each step an invocation takes
+//   CLEAR    an owner: resets it
+//   DEPTHS   triangles: find the depth of the nearest opaque or alpha-tested surface of each sample
+//   IDS      triangles: find the smallest ID of the surfaces at that depth
+//   COUNT    triangles: count the BLEND layers before that surface
+//   PLACE    an owner: decides where its layers begin
+//   LAYERS   triangles: store the layers
+//   ORDER    a layer: finds its place in the order of depth
+// Reads: pairs or, for tiles with pairs that were not kept (`every`), all triangles; tiles, masks, tile_lists, offsets.
 // Writes: candidates, as include/owners.glsl describes.
-// A triangle is tested against the rectangles of some samples before it is tested at each of them.
+// A triangle is tested against the rectangle around a run of samples before it is tested at each of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -23,14 +24,14 @@
 layout(local_size_x = 64) in;
 layout(constant_id = SCATTER_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(push_constant) uniform Push {
-    uint step_;
-    uint every;
+    uint step_;             // one of SCATTER_
+    uint every;             // 1: tries every triangle in the tiles that have lost pairs
 } push;
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
-const uint RUNS = 32u;                                  // of neighbouring samples of a cell
+const uint RUNS = 32u;                                  // runs of neighbouring samples in a cell
 
-shared vec4 rectangles[RUNS];                           // that hold the offsets of a run: middle, half of the sides
+shared vec4 rectangles[RUNS];                           // the rectangle around the offsets of a run: middle, half of the sides
 
 struct Cell {
     uint first_owner;
@@ -137,7 +138,7 @@ void show(uint t, uint tile, uint from, uint to) {
         left = word & pixels_touched(s) & footprint_mask(f, tile_at) & ~before & ~after;
     }
     uint number = from;
-    // Owners beyond the room are counted by `sample`.
+    // Cells without room for their owners are skipped here, and counted by `sample`.
     while (LOCATIONS ? number < to : left != 0u) {
         uint bit = uint(findLSB(left));
         if (!LOCATIONS) number = uint(bitCount(word & ((1u << bit) - 1u)));
@@ -158,7 +159,7 @@ void show(uint t, uint tile, uint from, uint to) {
 
 uint cells_of_tile(uint tile) { return LOCATIONS ? tile_loads[tile].x : uint(bitCount(masks[tile])); }
 
-// Where the layers of an owner begin.
+// Makes room for the layers of owner `i`, and stores where they begin.
 void place(uint i) {
     uint count = candidates_out[i].w;
     if (count == 0u) return;
@@ -171,11 +172,12 @@ void place(uint i) {
     atomicAdd(counters[few ? COUNTER_UNFINISHED : COUNTER_STALLED], 1u);
 }
 
-// The order of an owner's layers: the farthest first and, of what is as far, the greater ID.
+// Stores the ID of layer `i` at its place in the order of its owner's layers: the farthest first. If depths are equal, the
+// greater ID comes first.
 void order(uint i) {
     uvec4 own = candidates_out[i], owner = candidates_out[min(own.z, owners_room() - 1u)];
     uint count = owner.w, first = owner.z - count, before = 0u, j = 0u;
-    // Where layers found no room, what is here is left from another round.
+    // If there was no room for the owner's layers, this vector is a remnant of another round.
     if (own.z >= counters[COUNTER_OWNERS] || i < first || i >= owner.z) return;
     while (j < count) {
         uvec2 other = candidates_out[first + j].xy;

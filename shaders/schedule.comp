@@ -1,8 +1,10 @@
-// schedule: how many tiles fit in a round, from where the last round ended; `enlist` then gives each of them its place.
-// Reads: loads of stretches, tiles, masks. Writes: loads of the round's stretches, arguments of the round, counters.
-// LOCATIONS: `groups` then lists groups of cells in the place of tiles.
-// One subgroup does it all, in tile order, so that a round's content is the same in every run: an invocation takes a
-// stretch, or a tile of one that is not in the round as a whole.
+// schedule: decides which tiles are in a round: as many as fit, from where the last round ended. `enlist` then gives each of
+// them its place.
+// Reads: loads of stretches (see load.glsl), tiles, masks. Writes: loads of the round's stretches, arguments of the round,
+// counters.
+// LOCATIONS: `groups` then lists groups of cells instead of tiles.
+// One subgroup takes all tiles in their order, so that the content of a round is the same in every run. An invocation takes a
+// stretch or, of a stretch that does not fit as a whole, a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -10,7 +12,7 @@
 #include "include/pairs.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
-// Sums over the invocations up to this one.
+// The sum of needs over the invocations up to and including this one.
 uvec4 sums_up_to(uvec4 needs) {
     uint lane = gl_SubgroupInvocationID;
     [[unroll]] for (uint log = 0u; log < 5u; log++) {
@@ -30,7 +32,7 @@ void main() {
     begin_loads();
     Load taken = no_load();
     uint next = start;
-    bool divided = false;       // the stretch at hand does not fit as a whole
+    bool divided = false;       // a stretch was met that does not fit as a whole
     bool open_ = start < tile_count();
     while (open_) {
         bool whole = next % STRETCH == 0u && !divided;
@@ -43,7 +45,7 @@ void main() {
         load.entries = whole ? kept.entries : load.entries;
         bool exists = first + lane < end;
         uvec4 sums = sums_up_to(exists ? min(load.needs, room + 1u) : uvec4(0u));
-        // The first tile of a round is always taken: what does not fit then is counted by `sample`.
+        // The first tile of a round is always taken. If it does not fit, `sample` counts what is missing.
         bool fits = all(lessThanEqual(add(taken.needs, sums), room)) || (!whole && next == start && lane == 0u);
         uvec4 refused = subgroupBallot(exists && !fits);
         bool any_refused = subgroupBallotBitCount(refused) != 0u;
@@ -54,7 +56,7 @@ void main() {
         Load before;
         before.needs = taken.needs + (whole ? sums - load.needs : uvec4(0u));
         before.entries = taken.entries + subgroupExclusiveAdd(load.entries);
-        // Where the tiles of a stretch that are in the round begin.
+        // At the first tile of a stretch that is in the round, the load before it is stored for `enlist`.
         bool begins = whole ? mine : mine && lane == 0u && (next == start || next % STRETCH == 0u);
         if (begins) keep_load(whole ? item : stretch, before);
         taken.needs += subgroupAdd(load.needs);

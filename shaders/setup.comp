@@ -1,4 +1,5 @@
-// setup: the triangle of each pair as edge functions and a depth plane around its tile's centre, in the tile's list.
+// setup: computes the edge functions and the depth plane of each pair's triangle, relative to the centre of the pair's tile, and
+// stores them in the tile's list. An invocation takes PAIRS_OF_SETUP pairs.
 // Reads: pairs, the geometry, tiles. Writes: candidates, 4 vectors each:
 // (a0, b0, c0, a1), (b1, c1, a2, b2), (c2, depth x, depth y, depth at centre), (nearest, farthest depth, ID, pixels of the
 // tile that it may touch).
@@ -12,7 +13,7 @@
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
-// Writes pair `i` of the round.
+// Writes the candidate of pair `i`.
 void set_up(uint i) {
     uvec2 pair = texelFetch(pairs, int(i)).xy;
     uint tile_index = pair_tile(pair);
@@ -20,7 +21,7 @@ void set_up(uint i) {
     Triangle k = triangle_at(pair.x);
     ivec2 tile_at = ivec2(split(tile_index, frame.tiles.x));
     Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);
-    // A triangle that does not show keeps its place and touches nothing.
+    // A triangle that can't be seen keeps its place in the list, but touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;
     if ((tile.w & TILE_LISTED) == 0u) return;
@@ -31,8 +32,8 @@ void set_up(uint i) {
     candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, touches);
 }
 
-// Each round looks at all pairs, and sets up its own. An invocation looks at several before it sets up any, since CPU devices
-// compute what no invocation of a subgroup needs, too.
+// Each round looks at all pairs, and sets up those of its tiles. An invocation looks at several pairs before it sets up any,
+// since CPU devices also execute code that no invocation of a subgroup needs.
 void main() {
     uint count = min(counters[COUNTER_PAIRS], frame.pair_capacity);
     uint first = workgroup_number() * 64u * PAIRS_OF_SETUP + gl_LocalInvocationID.x;

@@ -1,7 +1,8 @@
-// shadow: keeps a light from the receivers that another triangle was found before. Of probes it marks for `detect` those pixels
-// whose centre the light reaches otherwise.
-// Reads: records of OCCLUDERS and, where some of these let light pass, their opacities; counters. Writes: words of
-// `include/shadows.glsl`, or marks. Its last step adds what the passes before left undone to what the frame has left.
+// shadow: stores that a light is blocked, or how much of it passes, at receivers in front of which another triangle was found.
+// With probes it instead marks pixels for `detect`: those at whose centre and probe different shares of the light arrive. An
+// invocation takes a record.
+// Reads: records of OCCLUDERS and, if casters may let light pass, their opacities; counters. Writes: words of
+// `include/shadows.glsl`, or marks. Its last step adds what the passes before it could not finish to the frame's count of that.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -13,21 +14,21 @@ layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_WORDS) buffer Sh
 layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
 layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
-    uint first_place;   // of the receivers
+    uint first_place;   // place of the first receiver
     uint light;
     uint ends;          // whether this is the last step
-    uint width;         // of the region whose pixels are probed; 0: what was found is written down
+    uint width;         // width of the region whose pixels are probed; 0 if there are no probes, and words are written
 } push;
 
-// Shares of a light that differ by no more are alike.
+// Shares of a light that differ by no more than this are taken as equal.
 const float ALIKE = 1.0 / 64.0;
 
 uint beyond(uint count, uint room) { return count > room ? count - room : 0u; }
 
-// What part of the light passes the surfaces from the nearest one on.
+// The share of the light that passes all surfaces of a list. `node` is the nearest one.
 float passes(uint node) {
     float through = 1.0;
-    // Not do-while: see `composite.glsl`.
+    // The exception of DO_WHILE, see workarounds.glsl.
     while (node != ~0u) {
         through *= 1.0 - texelFetch(shaded, int(node)).a;
         node = farther(node);

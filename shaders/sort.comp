@@ -1,5 +1,5 @@
-// sort: visibility samples ordered by material bin. Runs twice: COUNT, then SCATTER into `shade_order`.
-// Background and empty records are left out.
+// sort: sorts visibility samples by material bin. It runs twice: the first run counts the samples of each bin, the second one
+// (`scatter`) stores them in `shade_order`. Background and empty records are left out. An invocation takes a record.
 // Reads: records, the geometry. Writes: bins, shade_order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -19,7 +19,7 @@ void main() {
     uint id = i < count ? texelFetch(records, int(i)).y : 0u;
     uint bin = id == 0u ? ~0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     uint current = lanes_min(bin);
-    // One atomic a bin a subgroup.
+    // One atomic operation for each bin of the subgroup.
     do {
         bool some = current != ~0u;
         bool mine = some && bin == current;

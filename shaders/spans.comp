@@ -1,8 +1,10 @@
-// spans: rows of 8 pixels, listed by material bin, for `shade`. A span stands in the list of every bin it shows.
-// Runs twice: COUNT, then SCATTER into `shade_order`; for a single bin SCATTER alone, which then counts too.
-// Reads: ids, the geometry. Writes: bins, shade_order. Background stands in no list: its colour is filled in beforehand.
+// spans: lists spans, which are rows of 8 pixels, by material bin, for `shade`. A span is in the lists of all bins that it shows.
+// The pass runs twice: the first run counts the spans of each bin, the second one (`scatter`) stores them in `shade_order`. For
+// a single bin there is only the second run, which then counts, too.
+// Reads: ids, the geometry. Writes: bins, shade_order. Background is in no list: its colour is filled in beforehand.
 //
-// Neighbouring invocations take neighbouring pixels, 8 times; then each takes one of the spans so seen.
+// First an invocation looks up the bins of 8 pixels, so that neighbouring invocations take neighbouring pixels. Then each
+// invocation takes one of the spans that its subgroup has looked at.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -16,7 +18,7 @@ layout(constant_id = SPANS_CONSTANT_ONE_BIN) const bool ONE_BIN = false;
 
 const uint NONE = ~0u;
 
-// The least value of 8 neighbouring invocations, or of a subgroup of 4.
+// The least value of 8 neighbouring invocations, or of the whole subgroup if it has 4.
 uint octet_min(uint v) {
     v = min(v, subgroupShuffleXor(v, 1u));
     v = min(v, subgroupShuffleXor(v, 2u));
@@ -41,11 +43,11 @@ void main() {
         bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     }
 
-    // This invocation's span was seen in step `my_step`, or the STEPS_A_SPAN ones from there on, by the invocations from
+    // The pixels of this invocation's span were looked up in STEPS_A_SPAN steps from `my_step` on, by the invocations from
     // `my_source` on.
     const uint SPANS_A_STEP = LANES < 8u ? 1u : LANES / 8u, STEPS_A_SPAN = LANES < 8u ? 8u / LANES : 1u;
     uint my_step = lane / SPANS_A_STEP * STEPS_A_SPAN, my_source = lane % SPANS_A_STEP * 8u;
-    uint done = NONE;       // bins up to this one are listed; none at first
+    uint done = NONE;       // bins up to this one are done; NONE at first
     bool more;
     do {
         uint mine = NONE;
@@ -54,7 +56,7 @@ void main() {
             uint there = subgroupShuffle(next, my_source);
             mine = s - my_step < STEPS_A_SPAN ? min(mine, there) : mine;
         }
-        // The least bin of all spans goes first, so that each bin costs one atomic a subgroup.
+        // Each trip takes the least bin of all spans of the subgroup, so that a bin costs one atomic operation.
         uint current = lanes_min(mine);
         more = current != NONE;
         uvec4 together = subgroupBallot(more && mine == current);

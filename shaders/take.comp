@@ -1,4 +1,5 @@
-// take: a host's image, or a part of it, as what superpixels stand in: its colours in linear light, and the codes that detection compares.
+// take: reads the colours of a host's image, or of a part of it, into which superpixels are to be written. It stores them in
+// linear light, and as the codes that `detect` compares. An invocation takes a pixel.
 // Reads: the image. Writes: color, display.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// tally: what all tiles of a stretch need together, so that `schedule` takes stretches instead of tiles.
+// tally: sums the loads of all tiles of a stretch (see load.glsl), so that `schedule` can take whole stretches instead of tiles.
 // Reads: tiles (as `bin` left them), masks. Writes: loads of stretches.
 // A subgroup takes a stretch.
 #version 460

@@ -1,14 +1,15 @@
-// thin: pixels that a thin triangle crosses unseen become superpixels, although no pixel centre saw it: a rope or wire
-// narrower than a pixel, the tip of a leaf. Runs twice: SELECT lists thin triangles, then each is walked along its
-// longer side, pixel by pixel.
-// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here: short ones from the front,
-// long ones from the back).
+// thin: marks pixels that a thin triangle crosses without covering their centres, such as a rope or wire narrower than a pixel,
+// or the tip of a leaf. `detect` makes superpixels of them.
+// The pass runs in two steps. SELECT lists thin triangles; an invocation takes THIN_PER_INVOCATION triangles. Then each listed
+// triangle is followed along its longer side, pixel by pixel, by an invocation or, if it is long, by a workgroup.
+// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (here a list of thin triangles: short ones from
+// the front, long ones from the back).
 //
-// A pixel is marked where the triangle, all of it that lies in the pixel's column (in its row, if it is higher than wide),
-// is nearer than the surface at the pixel's centre by more than a pixel's width. On a dense mesh each small triangle lies
-// within its neighbours' surface, and marks nothing.
-// Where a triangle lies close to a surface, like paint on a road, depth can't tell: pixels where it may be nearer are
-// marked apart from the others, and become superpixels if `detect` finds them amid another triangle.
+// For a triangle that is wider than high, the part in a column of pixels is considered; otherwise, the part in a row. A pixel
+// that it crosses is marked if the whole part is nearer than the surface at the pixel's centre by more than a pixel's width.
+// On a dense mesh, small triangles lie within the surface of their neighbours, and mark nothing.
+// If a triangle lies close to a surface, like paint on a road, depths do not tell which is nearer. Pixels where some of it may be
+// nearer get marks of another kind, and become superpixels only if `detect` finds them amid another triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -23,10 +24,10 @@ layout(constant_id = THIN_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
 
 layout(set = SET_FRAME, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
-const float LONG = 64.0;            // pixels: a longer one is walked by a workgroup, not an invocation
+const float LONG = 64.0;            // in pixels: longer triangles are followed by a workgroup, not an invocation
 layout(push_constant) uniform Push {
-    uint long_;             // 1: of WALK, the long ones
-    float depth_factor;     // what raster's depth is multiplied by, and what is added then, so that it is that of triangles
+    uint long_;             // 1: follows the long triangles, not the short ones
+    float depth_factor;     // raster's depth * depth_factor + depth_constant = depth of triangles
     float depth_constant;
 } push;
 
@@ -50,7 +51,8 @@ void select_thin() {
     } while (++step_ < THIN_PER_INVOCATION);
 }
 
-// `depths`: the farthest and the nearest of the triangle there.
+// Marks a pixel if triangle `t` is not seen there and passes the tests above. `depths`: the triangle's farthest and nearest depth
+// there.
 void mark(ivec2 pixel, uint t, vec2 depths) {
     float drawn = texelFetch(raster_depth, ivec2(frame.seen_corner) + pixel, 0).x;
     float seen = push.depth_factor * drawn + push.depth_constant;
@@ -77,7 +79,7 @@ void walk() {
     Triangle k = triangle_at(t);
     vec3 p0 = projected(k.v0), p1 = projected(k.v1), p2 = projected(k.v2);
 
-    // Along the longer side; the coordinates are exchanged where that is y.
+    // The triangle is followed along its longer side. If that is along y, x and y are exchanged.
     vec2 extent = max(p0, max(p1, p2)).xy - min(p0, min(p1, p2)).xy;
     bool swap = extent.y > extent.x;
     if (swap) { p0 = p0.yxz; p1 = p1.yxz; p2 = p2.yxz; }

@@ -1,6 +1,7 @@
-// transform: positions of a host's vertices in clip space, from where and as it has them.
-// Reads: draws, the host's vertices, matrices. Writes: positions. OBJECT: a vertex is three floats, and each draw has its
-// own, multiplied by its matrix; otherwise it is four floats in clip space. Twin: `gpc::reference::transform`.
+// transform: computes the positions of a host's vertices in clip space. An invocation takes a position.
+// Reads: draws, the host's vertices, matrices. Writes: positions. Twin: `gpc::reference::transform`.
+// Positions of vertices are four floats in clip space, and are copied. With OBJECT they are three floats in object space; each
+// draw has positions of its own, which are multiplied by its matrix.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BY_POSITION
@@ -14,11 +15,11 @@ layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_VERTICES) readonly buf
 layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_MATRICES) readonly buffer Matrices { mat4 matrices[]; };
 layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_POSITIONS_OUT) writeonly buffer PositionsOut { uvec4 positions_out[]; };
 layout(push_constant) uniform Push {
-    uint first_position;    // of those of one mesh, that follow each other
+    uint first_position;    // first one of a mesh, whose positions follow each other
     uint position_count;
     uint draw_count;
-    uint first_word;        // of the first vertex
-    uint stride;            // in words
+    uint first_word;        // where the position of the first vertex begins
+    uint stride;            // from vertex to vertex, in words
 } push;
 
 void main() {

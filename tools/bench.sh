@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures what antialiasing costs and how exact it is, on the scenes of assets/ and, where they are, on larger ones.
+# Measures the cost and the accuracy of antialiasing, on the scenes in assets/ and on those larger scenes that are present.
 #
 #   tools/bench.sh [FOLDER [OPTION...]]
 #

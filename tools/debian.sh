@@ -1,10 +1,11 @@
-# Mesa's drivers of another Debian release, without installing them. Sourced by scripts that set `folder`, where packages are unpacked.
+# Mesa's drivers of another Debian release, without installing them. Scripts source this file, and set `folder`, where packages
+# are unpacked.
 #
-# apt fetches them from where the machine gets its own packages. That takes no rights.
+# apt fetches the packages from where the machine gets its own. This needs no root.
 
 release="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
 
-# apt with lists, status and cache of its own. The first argument is a folder with a sources.list, or nothing for the
+# Runs apt-get with lists, status and cache of its own in a folder. If the folder has a sources.list, this replaces the
 # machine's sources.
 private_apt() { # FOLDER COMMAND...
     local own="$1" options=()
@@ -20,8 +21,8 @@ private_apt() { # FOLDER COMMAND...
     apt-get "${options[@]}" "$@"
 }
 
-# Unpacks Mesa's Vulkan drivers of a release, with all that they need from the loader down, into $folder/RELEASE/root.
-# Prints why where it can't.
+# Unpacks Mesa's Vulkan drivers of a release into $folder/RELEASE/root, with the loader and all libraries that they need.
+# If it fails, prints why.
 fetch_release() { # RELEASE
     local own="$folder/$1" site keys package
     [ -e "$own/unpacked" ] && return
@@ -45,7 +46,7 @@ fetch_release() { # RELEASE
     : >"$own/unpacked"
 }
 
-# Writes a loader's manifest of a driver of a release, libvulkan_NAME.so, and prints its path.
+# Writes a manifest for the Vulkan loader of a release's driver, libvulkan_NAME.so, and prints the manifest's path.
 manifest_of_release() { # RELEASE NAME
     local manifest="$folder/$1/$2.json" library
     library="$(find "$folder/$1/root/usr/lib" -name "libvulkan_$2.so" | head -n 1)"
@@ -53,7 +54,8 @@ manifest_of_release() { # RELEASE NAME
     echo "$manifest"
 }
 
-# The command that runs a program with the C library of a release, for which its drivers were built.
+# Prints the words of a command, one a line, that runs a program with the C library of a release, for which its drivers were
+# built.
 runner_of_release() { # RELEASE
     local root="$folder/$1/root"
     find "$root" -name 'ld-linux-*.so.*' | head -n 1

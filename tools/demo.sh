@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Renders a scene without and with antialiasing, and says where the images are and what they cost.
+# Renders a scene without and with antialiasing, and prints the paths of the images and the times.
 #
 #   tools/demo.sh [SCENE [FOLDER]]
 set -euo pipefail
@@ -12,7 +12,7 @@ mkdir -p "$folder"
 
 gpc() { cargo run --release --quiet --bin gpc -- "$@"; }
 
-# The number under a key, or the one under a key of an object, in the command's JSON.
+# Prints a number from the command's JSON: the value of a key or, with two keys, of the second one in the object of the first.
 number() { # JSON KEY [KEY]
     local inside="${3:+\{[^\}]*\"$3\":}"
     tr -d ' \n' <<<"$1" | sed -nE "s/.*\"$2\":$inside([0-9.eE+-]+).*/\1/p"
@@ -21,7 +21,7 @@ number() { # JSON KEY [KEY]
 render() { # OUT OPTION...
     local image="$1"
     shift
-    # Warmed up, since drivers compile shaders during a first frame.
+    # With --repeat the time is that of warm frames: drivers compile shaders during the first frame.
     gpc render "$scene" -o "$image" --size 1280x720 --background '#87b5e0' --repeat 3 --json --quiet "$@"
 }
 

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Makes what a release holds, in out/dist:
+# Makes the files of a release, in out/dist:
 #
 #   gpc-VERSION-TRIPLE.tar.xz      the command with its window, stripped, manual pages, completions, licences, examples
 #   gpc-render_VERSION-1_ARCH.deb  the same as a package (by cargo-deb)
 #   libgpc-VERSION-TRIPLE.tar.xz   the C library: header, libraries, GLSL includes, files for pkg-config and CMake, manual, licences
 #
-# FEATURES=cli leaves the window out.
+# With FEATURES=cli, the command has no window.
 #
-# Archives unpack into a folder of their name, whose bin, lib, share and include belong below a prefix such as /usr/local.
+# An archive unpacks into a folder with its name. The folders bin, lib, share and include in there belong below a prefix such as
+# /usr/local.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -39,7 +40,7 @@ rm -r "$dist/manual"
 
 tools/licences.sh --features "$features" >"$doc/THIRD-PARTY.txt"
 install -m 644 LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md CITATION.cff "$doc/"
-# A scene to try, and what a golden-image workflow looks like.
+# Scenes to try, and an example of a workflow with golden images.
 install -m 644 assets/fence.glb assets/letters.glb examples/ci/golden-images.yml "$doc/"
 
 archive() { # NAME FOLDER
@@ -52,7 +53,7 @@ cargo deb --no-build --no-strip --locked --output "$dist/"
 # The C library.
 library="$dist/library"
 make --no-print-directory install PREFIX="$PWD/$library"
-# The prefix is wherever the archive is unpacked.
+# The prefix is relative to the file, since the archive may be unpacked anywhere.
 sed -i 's,^prefix=.*,prefix=${pcfiledir}/../..,' "$library/lib/pkgconfig/gpc.pc"
 strip --strip-debug "$library"/lib/libgpc.so."$version" "$library"/lib/libgpc.a
 install -d "$library/share/gpc/examples"

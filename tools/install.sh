@@ -4,7 +4,7 @@
 #
 #   tools/install.sh BUILT VERSION SONAME PREFIX [DESTDIR]
 #
-# BUILT is the folder with libgpc.so and libgpc.a. All go below PREFIX; where a package is being made, DESTDIR is the folder
+# BUILT is the folder with libgpc.so and libgpc.a. All files go below PREFIX. If a package is being made, DESTDIR is the folder
 # that stands for the root of the system.
 set -euo pipefail
 
@@ -20,7 +20,8 @@ ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
 install -m 644 docs/embedding.md docs/swapchains.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
 
-# The static library is one object, of which only the interface is visible: programs may have another library written in Rust.
+# The static library is a single object in which only the interface is visible, so that programs can be linked with another
+# library written in Rust, too.
 mapfile -t interface < <(nm --extern-only --defined-only "$built/libgpc.a" 2>/dev/null | sed -n 's/^.* T \(gpc_[a-z_]*\)$/-u\1/p' | sort)
 ld -r --gc-sections --force-group-allocation "${interface[@]}" -o "$work/gpc.o" "$built/libgpc.a"
 objcopy --wildcard --keep-global-symbol='gpc_*' --remove-section=.llvmbc --remove-section=.llvmcmd "$work/gpc.o"
@@ -28,7 +29,7 @@ rm -f "$root/lib/libgpc.a"
 ar rcs "$root/lib/libgpc.a" "$work/gpc.o"
 chmod 644 "$root/lib/libgpc.a"
 
-# What an application's shaders include, and what that includes.
+# The files that an application's shaders include, and the files that these include.
 for name in gpc_visibility gpc_texture gpc_position place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
 done
@@ -66,7 +67,7 @@ if(NOT TARGET gpc::gpc)
         INTERFACE_LINK_LIBRARIES "util;rt;pthread;m;dl")
 endif()
 END
-# A program that asks for an earlier version of the same binary interface gets this one.
+# A program that asks for an earlier version with the same major version gets this one.
 cat >"$root/lib/cmake/gpc/gpc-config-version.cmake" <<END
 set(PACKAGE_VERSION $version)
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR NOT PACKAGE_FIND_VERSION_MAJOR EQUAL ${version%%.*})

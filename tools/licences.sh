@@ -13,7 +13,7 @@ trap 'rm -r "$texts"' EXIT
 
 echo "Crates that are compiled into $(sed -n 's/^name = "\(.*\)"/\1/p' Cargo.toml | head -n 1), with their licences. The texts follow below."
 echo
-# Lines of name, version and licence; macros and build scripts run only while the program is built.
+# Lines of name, version and licence. Macros and build scripts are left out, since they are no part of the program.
 mapfile -t crates < <(cargo tree --locked --edges normal,no-proc-macro --prefix none --format '{p}	{l}' --no-dedupe "$@" |
     sed -nE 's/^([^ ]+) v([^ \t]+)( \(proc-macro\))?\t(.*)$/\1\t\2\t\4/p' | sort -u)
 for crate in "${crates[@]}"; do

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Measures everything that the documents have figures of, on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes hours.
+# Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes hours.
 #
 #   tools/measure.sh [KIND...]        quality, speed, motion, variants, growth; all if none is named
 #
-# The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, or else the best device's. Nothing else should run on
-# the machine. `make figures` writes the documents from the files.
+# The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, otherwise that of the best device. Nothing else should
+# run on the machine. `make figures` updates the documents from the files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tools/scenes.sh
@@ -22,7 +22,7 @@ commit="$(git rev-parse --short HEAD)"
 work="$(mktemp -d)"
 trap 'rm -r "$work"' EXIT
 
-# The driver's name as a part of a file's: "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)" is lavapipe-22.3.
+# Prints the driver's name for use in a file's name: lavapipe-22.3 for "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)".
 slug() { # CSV
     local driver
     driver="$(sed -n 's/^# driver: //p' "$1" | tr '[:upper:]' '[:lower:]')"
@@ -30,11 +30,11 @@ slug() { # CSV
     sed -E 's/\(.*//; s/([0-9]+\.[0-9]+)(\.[0-9]+)*/\1/g; s/[^a-z0-9.]+/-/g; s/^-|-$//g' <<<"$driver"
 }
 
-# Puts a CSV of a run into the folder of the documents, with the commit in its head.
+# Copies the CSV of a run to docs/bench, with the commit in its head.
 keep() { # KIND CSV
     local name
     name="docs/bench/$1-$(slug "$2").csv"
-    # What an earlier run left, in parts of the kind too.
+    # Removes the files of an earlier run, which may have measured the kind in several parts.
     rm -f "${name%.csv}"*.csv
     { echo "# commit: $commit" && cat "$2"; } >"$name"
     echo "$name"

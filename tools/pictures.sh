@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Renders the pictures of the README and of docs/gallery.md again, by the commands that are printed there. Look at each.
+# Renders the pictures of the README and of docs/gallery.md again, with the commands that are printed there. Look at each picture.
 #
-# Scenes that are not part of the repository (docs/scenes.md says where they come from) are looked for in ../shared/scenes;
-# pictures of scenes that are not there stay as they are. Enlarging needs ffmpeg. tools/window.sh makes those of the window.
+# Scenes that are not part of the repository (docs/scenes.md says where they come from) are expected in ../shared/scenes. If a
+# scene is missing, its pictures stay as they are. Enlarging needs ffmpeg. tools/window.sh makes the pictures of the window.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -13,7 +13,7 @@ out=docs/gallery
 work="$(mktemp -d)"
 trap 'rm -r "$work"' EXIT
 
-# A real scene: the whole frame, and a part of it without and with antialiasing, enlarged four times. CC0.
+# A detailed scene (CC0): the whole frame, and a part of it without and with antialiasing, enlarged four times.
 ship="$shared/DutchShip/dutch_ship_medium_1k.gltf"
 if [ -f "$ship" ]; then
     view=(--azimuth 10 --elevation 8 --zoom 1.45 --background '#b9cfe4' --quiet)
@@ -36,7 +36,7 @@ gpc zoom assets/letters.glb -o "$work/zoom.png" --size 480x300 --background '#70
     --center 225,222 --radius 60 --multiplicity 0.3 --transition smooth --steps
 for step in '' .original .locations .resampled .transition .direct; do cp "$work/zoom$step.png" $out; done
 
-# The same seen again in an ordinary way, without the scene.
+# The zoomed image turned back to an ordinary image, without the scene.
 gpc unzoom "$work/zoom.png" -o $out/unzoom.png --reference "$work/zoom.direct.png"
 
 # An image file without its scene: two regions.
@@ -44,7 +44,7 @@ gpc render assets/fence.glb -o "$work/view.jpg" --size 480x300 --background '#a8
 gpc zoom "$work/view.jpg" -o $out/image-zoom.png --center 135,140 --radius 28 --multiplicity 0.4 \
     --center 370,80 --radius 40,24 --multiplicity 0.5 --shape circle --shape rectangle
 
-# No pattern: the plane of a fence that recedes, sampled at equal steps along the fence.
+# Locations without a pattern: a fence that recedes, sampled at equal steps along it.
 awk 'BEGIN { print "u,v,row,col"; for (row = 0; row < 160; row++) for (col = 0; col < 480; col++) {
     d = 0.8 + 4 * col / 480
     print 253 - 253 / d "," 156.8 + (30 + 195 * row / 160) / d "," row "," col } }' > "$work/fence.csv"
@@ -56,7 +56,7 @@ for projection in equirectangular cylindrical fisheye; do
     gpc panorama assets/fence.glb -o $out/$projection.png --projection $projection --size 480x240 \
         --background '#a8c0d8'
 done
-# A rig of six pinholes, in a room, so that its cross shows. MIT.
+# A rig of six pinholes. In a room (MIT), all faces of the cube map show something.
 room="$shared/GodotRoom/room.glb"
 if [ -f "$room" ]; then
     gpc panorama "$room" -o $out/cubemap.png --projection cubemap --size 960x480 --background '#202830' \
@@ -71,14 +71,14 @@ gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300
     --weights --wall $out/wall.png
 cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
 
-# Lines: the edges of meshes.
+# Lines: edges of meshes.
 for aa in none superpixel; do
     gpc render assets/spheres.glb -o "$work/edges-$aa.png" --size 480x300 --background '#a8c0d8' --edges 1.5 --aa $aa --quiet
 done
 cp "$work/edges-none.png" $out
 cp "$work/edges-superpixel.png" $out/edges.png
 
-# Shadows: what is seen, on the planes of the lights.
+# Exact shadows.
 for scene in letters fence; do
     gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact --quiet
 done

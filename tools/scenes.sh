@@ -1,9 +1,9 @@
-# The scenes of the benchmark, to be sourced at the root of the repository: docs/scenes.md says where they come from. Those
-# that are not there are left out, with a message.
+# Lists of the benchmark's scenes. Scripts source this file at the root of the repository. docs/scenes.md says where the scenes
+# come from. Missing scenes are left out, with a message.
 
 shared=../shared/scenes
 
-# Adds the scenes of a list that are there to the array of a name.
+# Adds those scenes of a list that exist to the array with a name.
 _add() { # ARRAY SCENE...
     local -n _array="$1"
     shift

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs what the named parts of the build need and the machine lacks.
+# Installs the packages that the named parts of the build need, if they are missing.
 #
 #   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display|pictures ...
 #
-# Where everything is there, it changes nothing and asks for no rights. Packages come from apt, as root or through
-# sudo without a password; elsewhere the script prints what to install and fails.
+# If nothing is missing, the script changes nothing and needs no root. Packages are installed with apt, as root or through sudo
+# without a password. If that is not possible, the script prints what to install and fails.
 set -euo pipefail
 
 missing=()  # what is missing, in words
@@ -18,7 +18,7 @@ lacks() { # WORDS PACKAGE...
 
 has() { command -v "$1" >/dev/null 2>&1; }
 
-# Succeeds if a Vulkan driver's manifest whose name matches the pattern is where the loader looks for one.
+# Succeeds if the Vulkan loader finds a driver's manifest whose name matches the pattern.
 has_driver() {
     local named="${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}"
     if [ -n "$named" ]; then
@@ -75,7 +75,7 @@ needs_validation() {
         || lacks "the Vulkan validation layer (VK_LAYER_KHRONOS_validation)" vulkan-validationlayers
 }
 
-# Programs in C and C++ that use the library.
+# For building programs in C and C++ that use the library.
 needs_c() {
     needs_build
     has pkg-config || lacks "pkg-config" pkg-config
@@ -90,7 +90,7 @@ needs_shaders() {
     has git || lacks "git" git
 }
 
-# Windows load their libraries when they open; those of Wayland come with any desktop that uses it.
+# Libraries that are loaded when a window opens. Desktops with Wayland have its libraries anyway.
 needs_window() {
     local name package
     while read -r name package; do
@@ -104,7 +104,7 @@ libxkbcommon-x11.so.0 libxkbcommon-x11-0
 END
 }
 
-# A display without a screen, and a mouse without a hand; two monitors of Wayland without a screen, and what grabs them.
+# For tests of the window: a virtual X11 display and simulated input; virtual Wayland monitors and screenshots of them.
 needs_display() {
     has Xvfb || lacks "Xvfb" xvfb
     has xdotool || lacks "xdotool" xdotool
@@ -112,7 +112,7 @@ needs_display() {
     has grim || lacks "grim" grim
 }
 
-# What enlarges pictures.
+# For enlarging pictures.
 needs_pictures() {
     has ffmpeg || lacks "ffmpeg" ffmpeg
 }

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Compiles the kernels with the compilers of GPU drivers, without a GPU; prints what they made of each kernel, and how many
-# commands a frame has; fails if a figure passes a bound of tools/compilers/bounds.txt.
+# Compiles the kernels with the compilers of GPU drivers, without a GPU. Prints the compilers' statistics of each kernel, and the
+# number of commands of a frame. Fails if a figure violates a bound of tools/compilers/bounds.txt.
 #
-#   tools/test-compilers.sh [NAME...]     the hardware of these names alone; see `hardware` below
+#   tools/test-compilers.sh [NAME...]     only hardware with these names; see `hardware` below
 #
-# The command renders over a layer (tools/compilers/layer.cpp) on drivers that compile for hardware that is not there. Nothing
-# runs on that hardware, so that no time of a frame is known. What the layer reported is in out/compilers.
+# The command renders with drivers that compile for absent hardware, through a layer (tools/compilers/layer.cpp) that answers for
+# this hardware. Nothing is executed there, so times of frames are not known. The layer's reports are in out/compilers.
 #
-# AMD's drivers need nothing else (tools/debian.sh). Intel's and NVIDIA's need a shim in the place of the kernel, which is built
-# from Mesa's sources with Meson 1.1 or later; where that is missing, the script says so. NVIDIA's kernels are compiled by Mesa's
-# own compiler, and not by NVIDIA's.
+# AMD's drivers need only what tools/debian.sh fetches. Intel's and NVIDIA's also need a shim that replaces the kernel's driver.
+# It is built from Mesa's sources with Meson 1.1 or later; if this is missing, the script says so. For NVIDIA, kernels are
+# compiled by Mesa's compiler, not by NVIDIA's.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +19,7 @@ folder="$(realpath "$folder")"
 gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
 . tools/debian.sh
 
-# Name, Debian release of the driver, its name in Mesa, what makes it compile for the hardware, and what the hardware is.
+# Name, Debian release of the driver, the driver's name in Mesa, variables that make it compile for the hardware, description.
 hardware="
 VEGA10 |bookworm|radeon |RADV_FORCE_FAMILY=VEGA10                                       |AMD GFX9
 NAVI21 |bookworm|radeon |RADV_FORCE_FAMILY=NAVI21                                       |AMD GFX10.3
@@ -29,7 +29,7 @@ LNL    |trixie  |intel  |INTEL_STUB_GPU_PLATFORM=lnl                            
 GA102  |trixie  |nouveau|NOUVEAU_CHIPSET=172 NVK_I_WANT_A_BROKEN_VULKAN_DRIVER=1        |NVIDIA Ampere
 "
 
-# Name, and the options of a command. Together they need every kernel of the command.
+# Name, and the arguments of `gpc`. Together these frames need every kernel.
 frames="
 fence-none   |render assets/fence.glb --aa none
 fence-64     |render assets/fence.glb --samples 64
@@ -47,7 +47,7 @@ edges        |render assets/letters.glb --edges 2
 layers       |render assets/foliage.glb --aov depth,id,normal
 "
 
-# Builds a shim for a kernel driver from Mesa's sources of a release. Prints why where it can't.
+# Builds a shim for a kernel driver from Mesa's sources of a release. If it fails, prints why.
 build_shim() { # RELEASE intel|nouveau
     local own="$folder/$1" target source version build="$folder/$1/shim-$2"
     case "$2" in
@@ -70,7 +70,7 @@ build_shim() { # RELEASE intel|nouveau
         { echo "its shim does not build: see $own/log"; return 1; }
 }
 
-# Makes a driver ready: sets `environment` and `runner` for the command. Prints why where it can't.
+# Prepares a driver: sets `environment` and `runner` for the command. If it fails, prints why.
 prepare() { # RELEASE DRIVER SETTINGS
     local manifest shim
     runner=()

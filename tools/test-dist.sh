@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs what tools/dist.sh made in empty Debian 12 and 13 systems, and runs it there. Needs root, debootstrap, and the
-# sources of packages that the machine's apt has.
+# Installs the packages of tools/dist.sh in empty Debian 12 and 13 systems, and runs them there. Needs root, debootstrap, and
+# access to Debian's packages.
 #
-#   tools/test-dist.sh [FOLDER [RELEASE...]]     out/dist, bookworm and trixie if not given
+#   tools/test-dist.sh [FOLDER [RELEASE...]]     by default out/dist, bookworm and trixie
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -13,7 +13,7 @@ releases=("$@")
 [ "$(id -u)" -eq 0 ] || { echo "this needs root, for debootstrap and chroot" >&2; exit 1; }
 command -v debootstrap >/dev/null || { echo "debootstrap is not installed" >&2; exit 1; }
 
-# Where the machine gets Debian's packages from.
+# The site from which the machine's apt gets Debian's packages.
 site="$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' | head -n 1)"
 [ -n "$site" ] || site=http://deb.debian.org/debian
 

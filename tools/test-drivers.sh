@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs the tests of the passes (tests/gpu) on every driver that the machine can run, and says which it could not.
+# Runs the tests of the passes (tests/gpu) with every driver that works on this machine, and says which ones do not.
 #
-#   tools/test-drivers.sh [NAME...]       the drivers of these names alone; see `drivers` below
-#   FILTER=... tools/test-drivers.sh      only tests whose names hold this
+#   tools/test-drivers.sh [NAME...]       only drivers with these names; see `drivers` below
+#   FILTER=... tools/test-drivers.sh      only tests whose names contain this text
 #
-# Packages that are not installed are fetched by apt, from where the machine gets its own, and unpacked below the build's
-# folder. That takes no rights. What each test printed is in out/drivers.
+# Drivers that are not installed are fetched by apt, from where the machine gets its own packages, and unpacked in the build
+# folder. This needs no root. The output of the tests is in out/drivers.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,7 +15,7 @@ folder="$(realpath "$folder")"
 gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
 scene=assets/fence.glb
 
-# Name, and what it is. Subgroups have as many invocations as 32 bits fit in a vector.
+# Name, and description. Lavapipe's subgroups have an invocation for each 32 bits of a vector.
 drivers="
 lavapipe      |the installed lavapipe
 lavapipe-128  |the installed lavapipe, vectors of 128 bits
@@ -48,7 +48,7 @@ manifest_of_swiftshader() {
     find "$folder/swiftshader" -name vk_swiftshader_icd.json 2>/dev/null | head -n 1
 }
 
-# Makes a driver ready: sets `environment`, `runner` and `kibibytes` for its programs. Prints why where it can't.
+# Prepares a driver: sets `environment`, `runner` and `kibibytes` for its programs. If it fails, prints why.
 prepare() { # NAME
     local json
     environment=(VK_DRIVER_FILES= VK_ICD_FILENAMES=)
@@ -80,7 +80,7 @@ prepare() { # NAME
             return
             ;;
     esac
-    # Mesa's cache does not tell widths of vectors apart.
+    # Each driver has a shader cache of its own, since Mesa's cache does not distinguish widths of vectors.
     environment+=("VK_DRIVER_FILES=$json" "VK_ICD_FILENAMES=$json" "MESA_SHADER_CACHE_DIR=$folder/cache-$1")
     case "$1" in
         *-128) environment+=(LP_NATIVE_VECTOR_WIDTH=128) ;;
@@ -88,7 +88,7 @@ prepare() { # NAME
     esac
 }
 
-# Runs a program on the driver; one that takes too long, or on a CPU too much memory, is ended.
+# Runs a program on the driver. It is ended if it takes too long, or (except on a GPU) too much memory.
 run() { (ulimit -v "$kibibytes" && env "${environment[@]}" timeout "${LIMIT:-3600}" "${runner[@]}" "$@"); }
 
 cargo build --release --bin gpc || exit 1
@@ -109,7 +109,7 @@ while IFS='|' read -r name what; do
     prepare "$name"
     run "$gpc" devices | grep -B 1 -A 1 ', Vulkan ' | sed 's/^ */   /'
     image="out/drivers/$name.png"
-    # A driver that can't do this much is broken.
+    # A driver that can't render a small image is not tested.
     if ! LIMIT=600 run "$gpc" render "$scene" --size 320x180 -o "$image" --quiet 2>/dev/null; then
         echo "   not tested: it crashes, or takes more than ten minutes or 8 GiB, on an image of $scene"
         continue

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes docs/window.png, the picture of the window in the README, and docs/window.webp, the animation in the gallery. Needs
-# ffmpeg beside what tools/setup.sh window display installs.
+# ffmpeg, and the packages that `tools/setup.sh window display` installs.
 set -eu
 cd "$(dirname "$0")/.."
 gpc=${GPC:-target/release/gpc}
@@ -15,37 +15,37 @@ until [ -s "$work/display" ]; do sleep 0.1; done
 DISPLAY=:$(cat "$work/display")
 export DISPLAY
 
-# How often the viewer has said something.
+# Prints how many lines of the viewer's output contain a text.
 count() { grep -c "$1" "$work/said" || true; }
 
-# Opens the window on the fences, of a size.
+# Opens the window with the scene of fences, in a size.
 open() {
     RUST_LOG=gpc=debug "$gpc" view assets/fence.glb --size "$1" --samples 64 --background '#a8c0d8' 2>"$work/said" &
     viewer=$!
     xdotool search --sync --name 'gpc$' windowfocus
     until [ "$(count 'at rest')" -gt 0 ]; do sleep 0.2; done
-    # The window takes keys once it has the focus.
+    # Keys reach the window only when it has the focus.
     until [ "$(count copied)" -gt 0 ]; do
         xdotool key ctrl+c
         sleep 1
     done
 }
 
-# Sends input, and waits for the picture at rest.
+# Sends input, and waits until the picture is finished.
 settle() {
     said=$(count 'at rest')
     xdotool "$@"
     until [ "$(count 'at rest')" -gt "$said" ]; do sleep 0.2; done
 }
 
-# Writes what is seen, without the pointer, to a file.
+# Writes a screenshot without the pointer to a file.
 grab() { ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size "$1" -i "$DISPLAY" -frames:v 1 "$2"; }
 
-# Superpixels left of the line, none right of it, and both under the magnifier.
+# Split view: superpixels on the left of the line, no antialiasing on the right, and the magnifier over both.
 open 960x540
 settle key x
 xdotool mousemove 480 270 mousedown 1 mousemove 500 270 mousemove 640 270 mouseup 1 mousemove 640 300 key l
-# What was said by then goes after a while.
+# Notes disappear after a few seconds.
 sleep 7
 grab 960x540 docs/window.png
 xdotool key q
@@ -57,7 +57,7 @@ frame() {
     frames=$((frames + 1))
     grab 640x400 "$work/$(printf %03d $frames).png"
 }
-# Shows what is seen for so many steps.
+# Repeats the current picture for a number of steps.
 hold() {
     frame
     last="$work/$(printf %03d $frames).png"
@@ -66,7 +66,7 @@ hold() {
         cp "$last" "$work/$(printf %03d $frames).png"
     done
 }
-# Moves the pointer from a place by steps, each of them a picture.
+# Moves the pointer from a place in steps, with a picture for each step.
 move() { # X Y DX DY STEPS
     for step in $(seq 1 "$5"); do
         xdotool mousemove $(($1 + step * $3)) $(($2 + step * $4))
@@ -78,21 +78,21 @@ open 640x400
 xdotool key p
 sleep 7
 hold 6
-# Along the fences, refined at the end.
+# Zooms in along the fences; the picture is refined at the end.
 xdotool mousemove 320 210
 for _ in 1 2 3; do
     settle click 4
     frame
 done
 hold 5
-# The line between superpixels and none.
+# Moves the line between superpixels and no antialiasing.
 settle key x
 xdotool mousemove 320 200 mousedown 1
 move 320 200 16 0 8
 move 448 200 -32 0 8
 move 192 200 28 0 8
 xdotool mouseup 1
-# The magnifier along it.
+# Moves the magnifier along the line.
 xdotool key l
 move 416 150 0 10 10
 xdotool key l key l key l

@@ -1,4 +1,4 @@
-// What a Vulkan program has anyway: a device with one queue, and memory that frees itself.
+// What every Vulkan program has: a device with one queue, and memory that frees itself.
 #pragma once
 
 #include <gpc.h>
@@ -18,7 +18,7 @@ inline void check(GpcResult result) {
     if (result != GPC_RESULT_SUCCESS) throw std::runtime_error(gpc_last_error());
 }
 
-// Failures end the program; what was made before them then leaks.
+// A device. Failures end the program, so that objects that were made before may leak.
 struct Device {
     VkInstance instance{};
     VkPhysicalDevice physical{};
@@ -50,7 +50,7 @@ struct Device {
 
         VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
         check(gpc_require_features(&features13));
-        // Rounds of superpixels that are not needed are skipped where the device can skip them.
+        // With conditional rendering, the library skips rounds of superpixels that are not needed.
         VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional{
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT};
         const char *extension = VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME;
@@ -61,7 +61,7 @@ struct Device {
         }
         conditional.inheritedConditionalRendering = VK_FALSE;
         VkPhysicalDeviceFeatures features{};
-        features.geometryShader = VK_TRUE; // The renderer's own: gl_PrimitiveID in a fragment shader.
+        features.geometryShader = VK_TRUE; // For gl_PrimitiveID in the renderer's own fragment shader.
         const float priority = 1;
         VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
         queue_info.queueFamilyIndex = family;
@@ -110,7 +110,7 @@ struct Device {
         return false;
     }
 
-    // What the library is lent.
+    // The handles that are lent to the library.
     GpcDevice lent() const {
         GpcDevice device;
         check(gpc_init_device(&device, sizeof device));

@@ -5,10 +5,10 @@
 //     c++ -std=c++17 -O2 examples/forward/forward.cpp -o out/forward $(pkg-config --cflags --libs gpc vulkan)
 //     out/forward examples/forward/shaders/spirv out/forward.ppm
 //
-// What the library added to it: an attachment of triangle IDs, positions that its vertex shader computes by the library's
-// function, a compute shader that shades the library's samples, and what is marked by `gpc` below. Frames are drawn into a ring of
-// three images, as a swapchain has them, and into larger ones. At the end, the picture is compared with the renderer's own brute
-// force.
+// For the library, the renderer got an attachment of triangle IDs, a vertex shader that computes positions by the library's
+// function, a compute shader that shades the library's samples, and the code that is marked by `gpc` below. Frames are drawn into
+// a ring of three images, as in a swapchain, then into larger ones. At the end, the picture is compared with the renderer's own
+// brute force.
 
 #include "device.hpp"
 #include "world.hpp"
@@ -21,9 +21,9 @@
 namespace {
 
 constexpr VkExtent2D SIZE{240, 135};
-// Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
+// Samples along a pixel's side: BRUTE for brute force with as many samples as the library takes.
 constexpr uint32_t BRUTE = 8, REFERENCE = 32;
-// Images of colours that the antialiased frames take turns with, as those of a swapchain do.
+// Number of colour images that antialiased frames are drawn into by turns, as in a swapchain.
 constexpr size_t RING = 3;
 constexpr VkFormat COLOR = VK_FORMAT_R8G8B8A8_SRGB, IDS = VK_FORMAT_R32_UINT, DEPTH = VK_FORMAT_D32_SFLOAT_S8_UINT;
 constexpr VkImageAspectFlags DEPTH_STENCIL = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
@@ -31,7 +31,7 @@ constexpr VkImageAspectFlags DEPTH_STENCIL = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAG
 constexpr float SKY[3] = {0.25f, 0.45f, 0.75f};
 constexpr float EYE[3] = {0.4f, 1.5f, 4.2f};
 
-// As in shaders/host.glsl.
+// Push constants, as in shaders/host.glsl.
 struct Push {
     float eye[4];
     uint32_t object, first_triangle;
@@ -52,7 +52,7 @@ class Pipelines {
   public:
     const Device &device;
     VkDescriptorSetLayout set_layout{};
-    // Of the renderer's own passes: its set. Of shading samples: gpc's set, and the renderer's.
+    // The layout of the renderer's own passes has its set. The layout for shading samples has gpc's set, and the renderer's.
     VkPipelineLayout layout{}, samples_layout{};
     VkPipeline forward[KEYS]{}, samples[KEYS]{};
 
@@ -103,7 +103,7 @@ class Pipelines {
         if (!file) throw std::runtime_error(path + " can't be read");
         std::vector<uint32_t> words(size_t(file.tellg()) / 4);
         file.seekg(0).read(reinterpret_cast<char *>(words.data()), std::streamsize(4 * words.size()));
-        // gpc: the shader of samples was compiled with includes that the library takes.
+        // gpc: checks that the library supports the version of the includes that the shader of samples was compiled with.
         if (name == "samples") check(gpc_check_shader(words.data(), 4 * words.size()));
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = 4 * words.size();
@@ -113,7 +113,7 @@ class Pipelines {
         return module;
     }
 
-    // A stage whose constant 0, if it has one, is the key.
+    // A stage; its specialisation constant 0, if it has one, is the key.
     struct Stage {
         VkSpecializationMapEntry entry{0, 0, 4};
         uint32_t key;
@@ -213,7 +213,7 @@ struct Meshes {
           indices(device, world.indices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT) {}
 };
 
-// What a renderer draws into: a ring of images of colours, as a swapchain has them, and what goes with the one at hand.
+// The images that a renderer draws into: a ring of colour images, as in a swapchain; IDs and depth; a buffer for reading back.
 struct Targets {
     std::vector<std::unique_ptr<Image>> colors;
     Image ids, depth;
@@ -232,7 +232,7 @@ struct Targets {
     }
 };
 
-// sRGB codes from 0 to 1, three a pixel.
+// A picture: three sRGB codes from 0 to 1 for each pixel.
 using Picture = std::vector<double>;
 
 double encoded(double linear) {
@@ -243,11 +243,11 @@ double decoded(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-// Draws into images of one size, with the library or alone.
+// A renderer, which draws into images of one size, with or without the library.
 class Renderer {
   public:
-    // For images of `side` times the width and height; with an antialiaser, its samples lie in a pattern, and some or all of
-    // them are shaded.
+    // Makes a renderer for images of `side` times the usual width and height. `pattern` and `shading` are options for the
+    // antialiaser, if there is one.
     Renderer(const Device &device, const World &world, const Meshes &meshes, const Pipelines &pipelines, uint32_t side,
              const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading)
         : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
@@ -287,19 +287,19 @@ class Renderer {
         vkFreeCommandBuffers(device.raw, device.pool, 1, &commands);
     }
 
-    // gpc: goes on in images of another size. Nothing is in flight.
+    // gpc: replaces the images by images of another size. No commands may be in flight.
     void resize(VkExtent2D to) {
         targets = std::make_unique<Targets>(device, to, RING);
         size = to;
         check(gpc_frame_resize(frame, size.width, size.height));
     }
 
-    // Bytes that the library takes for this renderer's frame, and those of them that all frames share.
+    // Bytes that the library takes for this renderer's frame, and how many of these all frames share.
     std::pair<uint64_t, uint64_t> memory() const {
         return {gpc_frame_memory_bytes(frame), gpc_frame_shared_memory_bytes(frame)};
     }
 
-    // Draws a moment into the next image of the ring and waits for it.
+    // Draws the scene at a time into the next image of the ring, and waits for it.
     void draw(float time) {
         ++drawn;
         const Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
@@ -320,7 +320,7 @@ class Renderer {
         check(vkQueueWaitIdle(device.queue), "vkQueueWaitIdle");
     }
 
-    // What the library did.
+    // Statistics of the library's last frame.
     GpcOutcome outcome() const {
         GpcOutcome outcome;
         check(gpc_init_outcome(&outcome, sizeof outcome));
@@ -328,7 +328,7 @@ class Renderer {
         return outcome;
     }
 
-    // What was drawn, means of `side` x `side` pixels in linear light.
+    // The picture that was drawn; each of its pixels is the mean of `side` x `side` pixels in linear light.
     Picture picture(uint32_t side) const {
         double linear[256];
         for (int code = 0; code < 256; ++code) linear[code] = decoded(code / 255.0);
@@ -360,12 +360,12 @@ class Renderer {
     VkDescriptorSet set{};
     GpcFrame *frame{};
 
-    // The image of colours at hand.
+    // The current colour image.
     const Image &canvas() const {
         return *targets->colors[drawn % targets->colors.size()];
     }
 
-    // gpc: what is lent in every frame, once.
+    // gpc: makes the library's frame, with what it is lent in all frames.
     void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading) {
         GpcGeometry geometry;
         check(gpc_init_geometry(&geometry, sizeof geometry));
@@ -391,12 +391,12 @@ class Renderer {
         options.height = size.height;
         options.pattern = pattern;
         options.shading = shading;
-        // Next to no contrast is left where all is shaded.
+        // If all samples are shaded, even low contrasts are sampled.
         if (shading == GPC_SHADING_SAMPLE) options.contrast = 2;
         check(gpc_frame_create(antialiaser, &geometry, &kinds, &options, &frame));
     }
 
-    // gpc: the draws of this frame, in the order of their IDs.
+    // gpc: records antialiasing. The draws of the frame are listed in the order of their IDs.
     void record_antialiasing(const std::vector<Object> &shown, const Mat4 &projection) {
         std::vector<GpcDraw> draws;
         for (const Part &part : world.parts) {
@@ -429,7 +429,7 @@ class Renderer {
         check(gpc_frame_record(frame, commands, &images, &scenery, shade, this));
     }
 
-    // gpc: shading of samples by the renderer's materials.
+    // gpc: records the shading of samples with the renderer's materials.
     void record_samples(const GpcVisibilitySamples &found) const noexcept {
         if (found.condition) {
             VkConditionalRenderingBeginInfoEXT info{VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT};
@@ -455,7 +455,7 @@ class Renderer {
         vkCmdBindDescriptorSets(commands, point, pipelines.layout, 0, 1, &set, 0, nullptr);
     }
 
-    // Colours and, for gpc, IDs of triangles.
+    // Records the drawing of colours and, for gpc, of triangle IDs.
     void record_forward() const {
         const Image &color = canvas(), &ids = targets->ids, &depth = targets->depth;
         change(color, UNDEFINED, COLOR_DRAWN);
@@ -530,13 +530,13 @@ class Renderer {
     }
 };
 
-// In codes of 8 bits, as an image holds them.
+// A picture rounded to 8-bit codes, as in an image.
 Picture rounded(Picture picture) {
     for (double &code : picture) code = std::round(255 * code) / 255;
     return picture;
 }
 
-// Root of the mean square difference of sRGB codes, of 0 to 1.
+// Root mean squared difference of sRGB codes from 0 to 1.
 double error(const Picture &picture, const Picture &truth) {
     double sum = 0;
     for (size_t i = 0; i < picture.size(); ++i) sum += (picture[i] - truth[i]) * (picture[i] - truth[i]);

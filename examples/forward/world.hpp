@@ -1,4 +1,4 @@
-// What the renderer shows: meshes in its own vertex format, and objects that move.
+// The scene of the renderer: meshes in its own vertex format, and objects that move.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 using Vec3 = std::array<float, 3>;
 
-// In columns, as shaders have it.
+// A matrix as an array of columns, as in shaders.
 using Mat4 = std::array<std::array<float, 4>, 4>;
 
 inline Mat4 operator*(const Mat4 &a, const Mat4 &b) {
@@ -30,7 +30,7 @@ inline Vec3 normalized(Vec3 v) {
     return {v[0] / length, v[1] / length, v[2] / length};
 }
 
-// To a place, turned around the x axis and then around the y axis, in three sizes.
+// The matrix that scales along the three axes, turns around the x axis and then around the y axis, and moves to a place.
 inline Mat4 placed(Vec3 at, float around_x, float around_y, Vec3 scale) {
     const float cx = std::cos(around_x), sx = std::sin(around_x), cy = std::cos(around_y), sy = std::sin(around_y);
     return {{{scale[0] * cy, 0, -scale[0] * sy, 0},
@@ -48,7 +48,7 @@ inline Mat4 looking(Vec3 from, Vec3 at) {
              {-dot(right, from), -dot(up, from), -dot(back, from), 1}}};
 }
 
-// As Vulkan has it: y down, depth from 0 near to 1 far.
+// A perspective projection with Vulkan's conventions: y down, depth from 0 (near) to 1 (far).
 inline Mat4 perspective(float height_angle, float aspect, float near, float far) {
     const float f = 1 / std::tan(0.5f * height_angle);
     return {{{f / aspect, 0, 0, 0}, {0, -f, 0, 0}, {0, 0, far / (near - far), -1}, {0, 0, near * far / (near - far), 0}}};
@@ -60,7 +60,7 @@ struct Vertex {
     int8_t normal[4];
 };
 
-// As in shaders/host.glsl.
+// An object, laid out as in shaders/host.glsl.
 struct Object {
     Mat4 to_clip, to_world;
     float color[4];
@@ -72,7 +72,7 @@ struct Mesh {
 
 enum Key : uint32_t { CHECKERS, GLOSS, KEYS };
 
-// One of what is shown: its mesh, material and colour.
+// A part of the scene: its mesh, material and colour.
 struct Part {
     Mesh mesh;
     Key key;
@@ -83,7 +83,7 @@ struct World {
     std::vector<Vertex> vertices;
     std::vector<uint16_t> indices;
     std::vector<Part> parts;
-    // Of all parts.
+    // Totals of all parts.
     uint32_t vertex_count = 0, triangle_count = 0;
 
     World() {
@@ -106,7 +106,7 @@ struct World {
         for (int i = 0; i < RODS; ++i) add({rod, GLOSS, {0.9f, 0.6f, 0.15f}});
     }
 
-    // Where each part is at a time, in seconds.
+    // The objects of all parts at a time in seconds.
     std::vector<Object> objects(float time, const Mat4 &to_clip) const {
         std::vector<Object> objects;
         for (uint32_t number = 0; number < parts.size(); ++number) {
@@ -138,8 +138,7 @@ struct World {
         triangle_count += part.mesh.triangle_count;
     }
 
-    // A mesh over a grid; `at` gives position and normal at u and v from 0 to 1. Front faces are seen from where the normal
-    // points to.
+    // Adds a mesh over a grid; `at` gives position and normal for u and v from 0 to 1. Front faces are on the side of the normal.
     template <typename F> Mesh grid(uint32_t columns, uint32_t rows, F at) {
         Mesh mesh{uint32_t(vertices.size()), (columns + 1) * (rows + 1), uint32_t(indices.size()), 2 * columns * rows};
         for (uint32_t row = 0; row <= rows; ++row) {

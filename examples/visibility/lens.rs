@@ -20,7 +20,7 @@ struct Push {
     first_row: u32,
 }
 
-/// Shader that writes the locations, and the scene that they show, as a slot last posed it.
+/// Shader that writes the locations, and the scene that they show, in the pose that a slot last gave it.
 pub struct Lens<'a> {
     device: &'a Device,
     antialiaser: &'a Antialiaser,

@@ -7,7 +7,7 @@
 //! The host poses its meshes by a compute shader into clip space, draws triangle IDs and depth, and shades the centres of
 //! pixels from these. The library then samples the pixels that alias, and has the host shade what the samples see. Two
 //! frames are in flight, and half way through the images change their size. At the end, the last frame is compared with
-//! the host's own brute force. Told where to write it, the host then shows the same scene through a magnifying glass: it
+//! the host's own brute force. With a second path, the host then shows the same scene through a magnifying glass: it
 //! writes the locations that are seen, has the library sample these, and compares the picture in the same way.
 
 #[path = "../common/arguments.rs"]
@@ -37,7 +37,7 @@ const SIZE: [u32; 2] = [320, 180];
 const FIRST_SIZE: [u32; 2] = [200, 150];
 const FRAMES: usize = 6;
 const IN_FLIGHT: usize = 2;
-/// Samples along a pixel's side: of supersampling with as many samples as the library takes, and of the reference.
+/// Samples along a pixel's side: `BRUTE` for supersampling with as many samples as the library takes.
 const BRUTE: u32 = 8;
 const REFERENCE: u32 = 32;
 /// Pictures that are compared with the reference, for each view.

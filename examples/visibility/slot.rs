@@ -46,9 +46,9 @@ struct Targets<'a> {
 pub struct Shown {
     pub image: vk::Image,
     pub size: [u32; 2],
-    /// Signalled when it may be written.
+    /// Semaphore that is signalled when the image may be written.
     pub free: vk::Semaphore,
-    /// To signal when it is written.
+    /// Semaphore to signal when the image is written.
     pub written: vk::Semaphore,
 }
 
@@ -76,7 +76,7 @@ const KINDS: ImageKinds = ImageKinds {
     color_format: COLOR,
     color_encoded: false,
 };
-/// The background that the host draws, and tells the lens, which has no image of it.
+/// Background that the host draws. The lens, which has no image with a background, gets it as an option.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 
 /// State of an image that the host has drawn and samples.
@@ -87,7 +87,7 @@ const SHOWN: ImageState = ImageState {
 };
 
 impl<'a> Slot<'a> {
-    /// Makes a slot for images in the size of the options. Without the library, the host draws alone.
+    /// Makes a slot for images in the size of the options. Without an antialiaser, the host draws alone.
     pub fn new(
         device: &'a Device,
         world: &World<'a>,
@@ -191,7 +191,7 @@ impl<'a> Slot<'a> {
         Ok(slot)
     }
 
-    /// Goes on with images of another size. The slot's previous commands must have run.
+    /// Replaces the images by images of another size. The slot's previous commands must have run.
     pub fn resize(&mut self, pipelines: &Pipelines<'_>, size: [u32; 2]) -> Result<(), Failure> {
         let targets = Targets::new(self.device, size)?;
         if let Some(antialiasing) = &mut self.antialiasing {
@@ -301,7 +301,7 @@ impl<'a> Slot<'a> {
         self.submit_to(world, pipelines, None)
     }
 
-    /// The same, shown in an image of a window, if there is one.
+    /// Records and submits the host's frame, like [`Self::submit`]. With an image of a window, shows the frame in it.
     pub fn submit_to(
         &mut self,
         world: &World<'_>,
@@ -359,7 +359,7 @@ impl<'a> Slot<'a> {
         Ok(())
     }
 
-    /// Picture of the slot's colours; each of its pixels is the mean of `side` x `side` of them.
+    /// Picture of the slot's colours. Each of its pixels is the mean of `side` x `side` colours.
     pub fn pixels(&self, side: u32) -> Result<Image, Failure> {
         let size = self.size.map(|pixels| pixels / side);
         Ok(Image::means(self.targets.read_back.colors()?, size, side))

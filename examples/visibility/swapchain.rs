@@ -8,10 +8,10 @@ use std::ffi::CStr;
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
-/// Frames in flight that ask for images.
+/// Number of frames in flight.
 const IN_FLIGHT: usize = 2;
 
-/// What shows images in a window.
+/// A window's surface.
 pub struct Surface<'a> {
     device: &'a Device,
     raw: vk::SurfaceKHR,
@@ -24,14 +24,14 @@ impl<'a> Surface<'a> {
     pub fn extensions(window: &Window) -> Result<Vec<&'static CStr>, Failure> {
         let display = window.display_handle()?.as_raw();
         let names = ash_window::enumerate_required_extensions(display)?;
-        // SAFETY: they are constants.
+        // SAFETY: the names are constants of the Vulkan bindings.
         Ok(names
             .iter()
             .map(|name| unsafe { CStr::from_ptr(*name) })
             .collect())
     }
 
-    /// That of a window, which outlives it.
+    /// Makes the surface of a window, which must outlive it.
     pub fn new(device: &'a Device, window: &Window) -> Result<Self, Failure> {
         let (display, handle) = (window.display_handle()?, window.window_handle()?);
         let (display, handle) = (display.as_raw(), handle.as_raw());
@@ -62,20 +62,20 @@ impl Drop for Surface<'_> {
     }
 }
 
-/// A window's images in its present size.
+/// A window's images, in its current size.
 pub struct Swapchain<'a> {
     surface: &'a Surface<'a>,
     raw: vk::SwapchainKHR,
     pub size: [u32; 2],
-    /// Each with a semaphore to signal when it is written.
+    /// Images, each with a semaphore to signal when it is written.
     images: Vec<(vk::Image, vk::Semaphore)>,
-    /// Of each frame in flight, signalled when its image may be written.
+    /// Semaphores of the frames in flight, signalled when a frame's image may be written.
     free: [vk::Semaphore; IN_FLIGHT],
 }
 
 impl<'a> Swapchain<'a> {
-    /// Makes the images of a window, which take the place of an older swapchain. Handles that were made before a failure leak, but the
-    /// program ends then.
+    /// Makes the images of a window. They replace those of an older swapchain. Handles that were made before a failure
+    /// leak, but the program ends then.
     pub fn new(
         surface: &'a Surface<'a>,
         size: [u32; 2],
@@ -90,7 +90,7 @@ impl<'a> Swapchain<'a> {
                 functions.get_physical_device_surface_capabilities(device.physical, surface.raw)?;
             let formats =
                 functions.get_physical_device_surface_formats(device.physical, surface.raw)?;
-            // Copies to it encode light.
+            // Copies to an sRGB image encode linear light.
             let encodes = |format: &&vk::SurfaceFormatKHR| {
                 [vk::Format::B8G8R8A8_SRGB, vk::Format::R8G8B8A8_SRGB].contains(&format.format)
             };
@@ -141,7 +141,7 @@ impl<'a> Swapchain<'a> {
         }
     }
 
-    /// The next image for a frame in flight, whose commands have run; `None` if the window has another size.
+    /// Acquires the next image for a frame in flight whose commands have run; `None` if the window has another size.
     pub fn acquire(&self, in_flight: usize) -> Result<Option<Shown>, Failure> {
         let (free, none) = (self.free[in_flight], vk::Fence::null());
         let functions = &self.surface.functions;
@@ -161,7 +161,7 @@ impl<'a> Swapchain<'a> {
         }
     }
 
-    /// Shows an image that was submitted. False if the window has another size.
+    /// Presents an image whose commands were submitted. Returns false if the window has another size.
     pub fn present(&self, shown: &Shown) -> Result<bool, Failure> {
         let index = self
             .images

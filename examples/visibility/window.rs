@@ -1,10 +1,10 @@
-//! The host of `visibility` in a window: two frames in flight for however many images the window has.
+//! The host of `visibility` in a window: two frames in flight, whatever the number of the window's images.
 //!
 //! ```text
 //! cargo run --release --features view --example window
 //! ```
 //!
-//! It ends when the window is closed, or with the key Escape.
+//! The program ends when the window is closed, or with the key Escape.
 
 #[allow(dead_code, reason = "pictures in files are of the other example")]
 mod device;
@@ -41,7 +41,7 @@ type Failure = Box<dyn std::error::Error>;
 const SIZE: [u32; 2] = [320, 180];
 const IN_FLIGHT: usize = 2;
 
-/// The window, and what it was told.
+/// The window, and the events that it got.
 #[derive(Default)]
 struct Shell {
     window: Option<Window>,
@@ -98,12 +98,12 @@ fn main() -> Result<(), Failure> {
         if matches!(status, PumpStatus::Exit(_)) {
             break;
         }
-        // Drivers need not say that a window has another size.
+        // Drivers may present to a window of another size without an error.
         if std::mem::take(&mut shell.resized) {
             swapchain = Swapchain::new(&surface, size_of(&window), Some(swapchain))?;
         }
         let index = frame % IN_FLIGHT;
-        // The slot's fence says that its frame, its set and its semaphore are free again.
+        // After the slot's fence, its frame, its set and its semaphore are free again.
         match slots.get_mut(index) {
             Some(slot) => slot.wait()?,
             None => {
@@ -120,7 +120,7 @@ fn main() -> Result<(), Failure> {
         }
         let slot = &mut slots[index];
         let Some(shown) = swapchain.acquire(index)? else {
-            // The window has another size: all commands are done when its images go.
+            // The window has another size. A new swapchain waits for all commands before the old images go.
             swapchain = Swapchain::new(&surface, size_of(&window), Some(swapchain))?;
             continue;
         };

@@ -1,21 +1,22 @@
-// The alpha test of MASK materials, at any position of any triangle: the alpha channel of each base colour
-// texture lies in one buffer, since a descriptor can't be indexed by a value that differs within a subgroup.
+// The alpha test of MASK materials, at any position of any triangle. Invocations of a subgroup may test triangles with
+// different textures, but can't index an array of textures by values that differ. So the alpha channels of all base colour
+// textures are stored in one buffer, the alpha atlas.
 //
-// A word holds the 2 x 2 texels that a bilinear lookup at its place needs, wrapping applied:
+// A word of the atlas holds the 2 x 2 texels of one bilinear lookup, wrapping applied:
 // (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) from the low byte up. The grid of words is one wider and
-// higher than the image, as lookups start half a texel outside of it. A table of the first word of each level comes
-// before the levels.
+// higher than the image, since lookups begin half a texel outside of it. In front of a texture's levels stands a table with
+// the first word of each level.
 #ifndef ALPHA_GLSL
 #define ALPHA_GLSL
 #include "finite.glsl"
 #include "material.glsl"
 #include "triangle.glsl"
 
-// A triangle's alpha over positions relative to some centre. The planes are to be divided by `weight`, which is
-// linear in the position as they are.
+// What the alpha test of one triangle needs. `weight`, `u`, `v` and `opacity` are linear functions (planes) of the position
+// relative to a centre. Texture coordinates and alpha are the values of the latter three divided by that of `weight`.
 struct AlphaTest {
     vec3 weight, u, v, opacity;
-    uvec2 first;            // first words of the finer and coarser level used
+    uvec2 first;            // first words of the two levels between which is interpolated, the finer one first
     uvec2 size_low, size_high;
     float level_blend;
     bool nearest;
@@ -23,8 +24,8 @@ struct AlphaTest {
     float cutoff;
 };
 
-// The test of triangle `t` around `center`; its mipmap level is that of a parallelogram at `at`, relative to it, whose
-// sides are the columns of `pixel`.
+// The test of triangle `t`, for positions relative to `center`. Its mipmap level is chosen for a footprint at `at`: a
+// parallelogram whose sides are the columns of `pixel`.
 AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
     Triangle k = triangle_at(t);
     ivec3 v = k.vertices;
@@ -86,7 +87,8 @@ float alpha_wrap(float u, uint mode) {
     return clamp(folded, 0.0, 1.0);
 }
 
-// Whether the triangle covers position `p` by its alpha: factor, vertex colour and texture against the cutoff.
+// Whether the triangle passes the alpha test at `p`: whether the product of the alphas of factor, vertex colour and texture
+// reaches the cutoff.
 bool alpha_passes(AlphaTest test, vec2 p) {
     vec3 at = vec3(p, 1.0);
     float w = 1.0 / dot(test.weight, at);

@@ -1,9 +1,9 @@
-// KHR_materials_anisotropy: reflections drawn out along a direction of the surface, by an anisotropic GGX (Heitz,
-// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014).
+// KHR_materials_anisotropy: reflections stretched along a direction of the surface, with the anisotropic GGX distribution
+// (Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014).
 #ifndef ANISOTROPY_GLSL
 #define ANISOTROPY_GLSL
 
-// Sets the axes of a surface with these tangents, and how rough it is along them.
+// Sets the axes of a surface's reflection, and its roughness along the first axis.
 void draw_out(inout Surface s, Place place, vec3 tangent, vec3 bitangent) {
     vec4 given = material_vector(place.material, MATERIAL_ANISOTROPY);
     vec4 texel = READ(ANISOTROPY_TEXTURE, place);
@@ -29,8 +29,8 @@ float ggx_anisotropic(Surface s, vec3 v, vec3 l, vec3 h, float n_h, float n_l, f
     return distribution * 0.5 / (n_l * to_eye + n_v * to_light + 1e-7);
 }
 
-// The normal that mirrors an environment about where a lobe that is drawn out looks: bent along the direction, by as much
-// as the lobe is longer than wide.
+// The normal at which the view is mirrored to look up the environment. It is bent towards the direction that results from
+// removing from `v` its part along `s.along`. The more the lobe is stretched, the more it is bent.
 vec3 bent_normal(Surface s, vec3 v) {
     vec3 bent = safe_normalize(cross(cross(s.along, v), s.along), s.normal);
     float share = clamp((s.alpha_along - s.alpha) / max(s.alpha_along + s.alpha, 1e-4), 0.0, 1.0);

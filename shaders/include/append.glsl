@@ -1,10 +1,12 @@
-// Places at the end of a list, as a counter has its length: a subgroup counts once. All its invocations call this together.
+// Appending to a list whose length is a counter, with one atomic addition per subgroup. All invocations of the subgroup have
+// to call `append` together.
 #ifndef APPEND_GLSL
 #define APPEND_GLSL
 
-// What the first invocation of a subgroup has. A shuffle is one instruction on CPU devices, and a broadcast a loop.
+// The value that the first invocation of the subgroup has. On CPU devices a shuffle is one instruction, and a broadcast a loop.
 uint of_first(uint v) { return subgroupShuffle(v, 0u); }
 
+// Makes room for the entries of the invocations with `wanted`, and returns the index of this invocation's entry.
 uint append(uint counter, bool wanted) {
     uvec4 together = subgroupBallot(wanted);
     uint count = subgroupBallotBitCount(together), base = 0u;

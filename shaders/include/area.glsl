@@ -6,7 +6,8 @@
 #ifndef AREA_GLSL
 #define AREA_GLSL
 
-// Clips the line of points `distance_` along -`normal` to the half-plane n . p + d >= 0.
+// Clips the line normal . p + distance_ = 0 to the half-plane n . p + d >= 0. `from` and `to` bound the part of the line that
+// is left, as coordinates along it. A half-plane does not clip its `own` border.
 void clip_line(vec2 normal, float distance_, vec2 n, float d, bool own, inout float from, inout float to, inout bool empty) {
     float along = n.y * normal.x - n.x * normal.y;      // the line runs along (-normal.y, normal.x)
     float before = distance_ * dot(n, normal) - d;
@@ -16,14 +17,14 @@ void clip_line(vec2 normal, float distance_, vec2 n, float d, bool own, inout fl
     empty = empty || (!own && along == 0.0 && before > 0.0);
 }
 
-// Samples that an area to be trusted is worth. Where a smaller one shares what is left with another surface, none is
-// trusted: samples that are lost to one piece of a thin thing are gained by the next, and areas of some pieces alone would
-// upset that balance.
+// The least area that replaces a count of samples, in samples. If a triangle has a smaller area, and other surfaces share the
+// rest of the cell, the whole cell goes by samples: what samples miss of one piece of a thin object they gain at the next
+// piece, and the exact areas of only some pieces would upset that balance.
 const float FEWEST = 6.0;
-const float AGREEMENT = 0.1;                            // of areas and samples, in cells
+const float AGREEMENT = 0.1;                            // the largest difference between areas and samples, in cells
 
-// Areas are sums of integers, so that the order of vertices and triangles does not show.
-const float AREA_UNIT = 1048576.0;      // of a cell
+// Areas are sums of integers, so that they do not depend on the order of vertices and triangles.
+const float AREA_UNIT = 1048576.0;      // units of area in a cell
 
 // What line number `line` of the seven adds to the area: those of the triangle, then those of the square. `a`, `b` and `c`
 // are the triangle's edge functions around the cell's centre, positive inside and of unit length.
@@ -40,7 +41,7 @@ float part_of_line(int line, vec2 normal, float distance_, vec3 a, vec3 b, vec3 
     return empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
 }
 
-// The same as an integer.
+// What line number `line` adds to the area, in units of area.
 int units_of_line(uint line, vec3 a, vec3 b, vec3 c) {
     uint side = line - 3u;
     vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
@@ -49,7 +50,7 @@ int units_of_line(uint line, vec3 a, vec3 b, vec3 c) {
     return int(round(part_of_line(int(line), normal, distance_, a, b, c) * AREA_UNIT));
 }
 
-// Makes edge functions of unit length.
+// Scales edge functions to gradients of unit length.
 void normalize_edges(inout vec3 a, inout vec3 b, inout vec3 c) {
     vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
     a *= inverse;
@@ -57,7 +58,7 @@ void normalize_edges(inout vec3 a, inout vec3 b, inout vec3 c) {
     c *= inverse;
 }
 
-// The area of a triangle that is the same for all invocations of the subgroup: each takes a line, or two.
+// The area of one triangle, computed by the whole subgroup: each invocation takes one of the lines, or two.
 int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
     normalize_edges(a, b, c);
     int units = units_of_line(lane, a, b, c);
@@ -65,7 +66,7 @@ int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
     return clamp(lanes_add(units), 0, int(AREA_UNIT));
 }
 
-// The same for the triangle of each invocation, in a cell of its own.
+// The area of a triangle of this invocation, in a cell of its own.
 int area_in_own_cell(vec3 a, vec3 b, vec3 c) {
     normalize_edges(a, b, c);
     int area = 0;

@@ -10,7 +10,8 @@ struct Barycentric {
     bool facing; // a front face is seen
 };
 
-// The vertices are taken relative to `p`, so that the edge functions there are their constants alone.
+// Barycentric coordinates at pixel position `p` of a triangle with vertices (pixel x * w, pixel y * w, z, w). Vertices are
+// first made relative to `p`, so that the value of an edge function at `p` is its constant term.
 Barycentric barycentric(vec4 c0, vec4 c1, vec4 c2, vec2 p) {
     vec3 v0 = vec3(c0.xy - p * c0.w, c0.w);
     vec3 v1 = vec3(c1.xy - p * c1.w, c1.w);
@@ -20,12 +21,12 @@ Barycentric barycentric(vec4 c0, vec4 c1, vec4 c2, vec2 p) {
     float sum = c.x + c.y + c.z;
     float inverse = 1.0 / sum;
     Barycentric r;
-    r.facing = sum < 0.0;   // the determinant over w
+    r.facing = sum < 0.0;   // the sum is the triangle's determinant over w
     r.at = c * inverse;
     r.dx = (a - r.at * (a.x + a.y + a.z)) * inverse;
     r.dy = (b - r.at * (b.x + b.y + b.z)) * inverse;
     // A shading position can lie just outside of its triangle (a centroid over a sliver, a pixel centre under
-    // MSAA): attributes stay within the triangle's range.
+    // MSAA). The clamp keeps attributes within the triangle's range.
     r.at = clamp(r.at, vec3(0.0), vec3(1.0));
     r.at /= r.at.x + r.at.y + r.at.z;
     bool broken = !is_finite(inverse) || is_nan(r.at.x + r.at.y + r.at.z);

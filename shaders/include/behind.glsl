@@ -1,9 +1,9 @@
-// What a host has drawn behind its triangles. Twin: src/reference/behind.rs.
+// The host's background in a pixel whose centre may see a triangle. Twin: src/reference/behind.rs.
 #ifndef BEHIND_GLSL
 #define BEHIND_GLSL
 #include "host_image.glsl"
 
-// Offsets of a pixel and of the 24 around it, nearest first; of the equally near ones the uppermost, then the leftmost.
+// Offsets of a pixel and of the 24 around it, nearest first. Of equally near ones the uppermost comes first, then the leftmost.
 const ivec2 BEHIND_ORDER[25] = ivec2[](
     ivec2(0, 0),
     ivec2(0, -1), ivec2(-1, 0), ivec2(1, 0), ivec2(0, 1), ivec2(-1, -1), ivec2(1, -1), ivec2(-1, 1), ivec2(1, 1),
@@ -11,7 +11,8 @@ const ivec2 BEHIND_ORDER[25] = ivec2[](
     ivec2(-1, -2), ivec2(1, -2), ivec2(-2, -1), ivec2(2, -1), ivec2(-2, 1), ivec2(2, 1), ivec2(-1, 2), ivec2(1, 2),
     ivec2(-2, -2), ivec2(2, -2), ivec2(-2, 2), ivec2(2, 2));
 
-// The colour of the nearest of these pixels whose centre saw no triangle; the background where each of them saw one.
+// What the host has drawn at the nearest of these pixels whose centre sees no triangle; the frame's background if all centres
+// see one.
 vec4 behind(uvec2 pixel) {
     int i = 0;
     ivec2 there = ivec2(pixel);

@@ -1,46 +1,47 @@
-// The samples of a block of a cell: an invocation holds ROWS of them, and what each one sees in registers.
+// A block: a run of ROWS x LANES samples of a cell, which a subgroup tests at once. An invocation holds ROWS of them, and
+// what each one sees, in registers.
 //
-// Patterns order samples so that neighbours in the list are neighbours in the cell: those of a block lie close together,
-// and candidates are tested against the block's rectangle before its samples.
+// Patterns order samples so that neighbours in the list are neighbours in the cell. The samples of a block thus lie close
+// together, and a candidate is tested against the block's rectangle before its samples.
 #ifndef BLOCK_GLSL
 #define BLOCK_GLSL
 #include "owners.glsl"
 #include "place.glsl"
 
-const uint BLOCK = ROWS * LANES;                        // samples of one
+const uint BLOCK = ROWS * LANES;                        // samples of a block
 
-// The cell at hand.
+// The cell that the subgroup works on.
 struct Cell {
-    uint first;             // candidate of its tile
-    vec2 center;            // of its tile
-    uint member;            // invocation that holds its short list
-    bool complete;          // the short list has all
-    uint entries;           // of the short list, or of the tile
-    float hidden;           // nothing farther than this shows
-    uint bit;               // of its tile
-    vec2 at, half_side;     // its middle from the tile's centre, and half its sides
-    mat2 pixel;             // its axes: how far a sample's offsets of 1 take it
-    uint location;          // its index or, of POINTS, where in their order those in the block begin
-    uint samples;           // in the block
+    uint first;             // first candidate of its tile
+    vec2 center;            // centre of its tile
+    uint member;            // invocation that holds the cell's short list
+    bool complete;          // whether the short list has room for all candidates of the cell
+    uint entries;           // number of candidates to try: of the short list if that is complete, or else of the tile
+    float hidden;           // depth: a surface at this depth covers the whole cell, and hides what lies farther
+    uint bit;               // the cell's bit in words of its tile
+    vec2 at, half_side;     // its middle relative to the tile's centre, and half its sides
+    mat2 pixel;             // its axes, which offsets of samples are multiplied by
+    uint location;          // index of its location; POINTS: place in the order where the block's locations begin
+    uint samples;           // number of its samples in the block
 };
 
-vec2 offset[ROWS];          // of the samples, the same in every cell
-vec2 place[ROWS];           // of samples of LOCATIONS, from the tile's centre
-vec2 block_middle, block_reach;      // the rectangle that holds them
-float depth[ROWS];          // seen so far, 0 for nothing
+vec2 offset[ROWS];          // offsets of the samples from a cell's middle, the same in every cell
+vec2 place[ROWS];           // LOCATIONS: positions of the samples relative to the tile's centre
+vec2 block_middle, block_reach;      // the rectangle around the offsets: middle, half of the sides
+float depth[ROWS];          // depth of the nearest surface so far, larger is nearer; 0 for none
 uint id[ROWS];
-uint own[ROWS];             // the triangle that OCCLUDERS lie on
+uint own[ROWS];             // OCCLUDERS: the triangle that the sample lies on, which can't hide it
 
-// What EXACT_AREAS need: an invocation holds a triangle that may show, and the number of samples that it covers.
+// For EXACT_AREAS, an invocation holds one of the triangles near the cell, and the number of samples that it covers.
 Candidate nearby;
 float nearby_covered;
 uint nearby_count;
 
-// What LAYERED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those from the 32nd on
-// share one.
+// For LAYERED samples: a bit for each batch of LANES candidates, set if BLEND triangles of the batch may show. Batches from
+// the 32nd on share a bit.
 uint blend_batches;
 
-uint trips;                 // of loops, by this invocation
+uint trips;                 // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
 
 uint sample_of(int g) {
     return uint(g) * LANES + gl_SubgroupInvocationID;
@@ -55,12 +56,12 @@ uint location_of(Cell cell, int g) {
     return location_at(cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u));
 }
 
-// The Jacobian at a sample: that of its location where cells hold several.
+// The Jacobian at a sample. POINTS: that of the sample's own location.
 mat2 pixel_of(Cell cell, int g) {
     return POINTS ? location_jacobian(location_of(cell, g)) : cell.pixel;
 }
 
-// Loads the pattern's offsets from number `first` on, at most up to `last`, and their rectangle.
+// Loads the pattern's offsets from number `first` on, up to `last` at most, and computes the rectangle around them.
 void load_offsets(uint first, uint last) {
     [[unroll]] for (int g = 0; g < ROWS; g++)
         offset[g] = POINTS ? vec2(0.0) : texelFetch(pattern_offsets, int(min(first + sample_of(g), last))).xy;
@@ -75,13 +76,13 @@ void load_offsets(uint first, uint last) {
     block_reach = 0.5 * (high - low) + ROUNDING;
 }
 
-// The rectangle of a cell's samples that are in the block.
+// The rectangle around a cell's samples that are in the block.
 void rectangle_of_block(Cell cell, out vec2 middle, out vec2 half_side) {
     middle = cell.at + cell.pixel * block_middle;
     half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (LOCATIONS ? ROUNDING * cell.half_side : vec2(0.0));
 }
 
-// Moves the samples to a cell, where they have seen nothing yet.
+// Moves the samples to a cell, and resets what they have seen.
 void begin_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         depth[g] = 0.0;
@@ -100,24 +101,24 @@ void begin_cell(Cell cell) {
     nearby_count = 0u;
 }
 
-// Forgets what places beyond the last sample saw.
+// Resets what rows beyond the cell's last sample have seen.
 void end_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
 }
 
 #ifndef UNLISTED
-// Whether a candidate may touch the cell of a bit of its tile.
+// Whether a candidate may touch the pixel with this bit of its tile. Locations have no such bits, and are tested later.
 bool may_touch(Candidate k, uint bit) {
     return LOCATIONS || (k.pixels >> bit & 1u) != 0u;
 }
 
-// Number of the candidate that is entry `i` of what is kept of a cell.
+// The tile's candidate that entry `i` of a cell's short list names.
 uint kept_candidate(Cell cell, uint i) {
     uint at = cell.member * KEPT + min(i, KEPT - 1u);
     return APART ? kept[at] : kept[at / 2u] >> 16u * (at & 1u) & 0xffffu;
 }
 
-// Entry `i` of a cell's candidates.
+// Candidate number `i` of a cell.
 Candidate entry_of(Cell cell, uint i) {
     uint clamped = min(i, max(cell.entries, 1u) - 1u);
     uint index = cell.complete ? kept_candidate(cell, clamped) : clamped;
@@ -125,7 +126,7 @@ Candidate entry_of(Cell cell, uint i) {
 }
 #endif
 
-// What `inside` and `area_in_cell` need of one of two candidates.
+// One of two candidates, in the members that `inside` and `area_in_cell` need.
 Candidate choose(bool first, Candidate a, Candidate b) {
     Candidate r = b;
     r.a = mix(b.a, a.a, bvec3(first));
@@ -135,6 +136,7 @@ Candidate choose(bool first, Candidate a, Candidate b) {
     return r;
 }
 
+// Gives a triangle near the cell to the next invocation that holds none.
 void hold_nearby(Candidate t, bool some, float covered) {
     bool mine = some && nearby_count == gl_SubgroupInvocationID;
     nearby = choose(mine, t, nearby);
@@ -142,7 +144,7 @@ void hold_nearby(Candidate t, bool some, float covered) {
     nearby_count += some ? 1u : 0u;
 }
 
-// The place that stands for some samples of a cell.
+// The place at which some samples of a cell are shaded together.
 uint place_of_part(vec2 sum_of_offsets, float samples, bool wide) {
     return place_of_samples(sum_of_offsets, samples, float(RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count), wide);
 }
@@ -152,10 +154,10 @@ uint place_of(vec2 sum_of_offsets, float samples) {
 }
 
 #ifdef UNLISTED
-uint layers[ROWS];          // of BLEND before what samples see, and where these lie in their order
+uint layers[ROWS];          // number of BLEND layers before what each sample sees, and the place where they begin
 uint first_layer[ROWS];
 
-// What the samples see by what `scatter` found, from owner `first` on.
+// Loads what `scatter` has found that the samples see, from owner number `first` on.
 void see_owners(Cell cell, uint first) {
     uint last = max(cell.samples, 1u) - 1u;
     bool fits = first + last < owners_room();
@@ -172,6 +174,7 @@ void see_owners(Cell cell, uint first) {
     nearby_count = 0u;
 }
 #else
+// Whether triangle `by` at depth `d` is seen in place of what row `g` has seen so far.
 bool wins(float d, uint by, int g) {
     return (!OCCLUDERS || by != own[g]) && (d > depth[g] || (d == depth[g] && by < id[g]));
 }
@@ -191,7 +194,8 @@ void show_opaque(Cell cell, Candidate t, bool some) {
     if (EXACT_AREAS) hold_nearby(t, some, lanes_add(covered));
 }
 
-// The alpha test is dear, and goes to rows that may see the triangle.
+// Shows an alpha-tested triangle to the samples. The alpha test is expensive: rows in which no sample may see the triangle are
+// left out.
 void show_masked(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
     AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, frame.sample_footprint * cell.pixel);
@@ -227,7 +231,7 @@ void show_masked(Cell cell, Candidate t, bool some) {
 // Shows the cell's opaque and alpha-tested candidates to the samples.
 void show_candidates(Cell cell) {
     vec2 middle = cell.at, half_side = cell.half_side;
-    // Areas count all triangles near the cell, in any order of candidates.
+    // EXACT_AREAS have to know all triangles that touch the cell, not only those that touch the block.
     if (!POINTS && !EXACT_AREAS) rectangle_of_block(cell, middle, half_side);
     uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
     float hidden = cell.hidden;

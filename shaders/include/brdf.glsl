@@ -8,12 +8,12 @@ const float PI = 3.14159265359;
 struct Surface {
     vec3 normal;
     vec3 diffuse;       // albedo of the base
-    vec3 through;       // the same of light from behind
+    vec3 through;       // albedo of the base for light from behind
     vec3 f0;            // reflectance at normal incidence
-    float f90;          // and at grazing incidence
+    float f90;          // reflectance at grazing incidence
     float alpha;        // squared perceptual roughness
     float roughness;    // perceptual
-    vec3 along, across; // ANISOTROPY: axes of the reflection, which is drawn out along the first
+    vec3 along, across; // ANISOTROPY: axes of the reflection, which is stretched along the first
     float alpha_along;
     vec3 emissive;
     float occlusion;
@@ -28,7 +28,7 @@ float greatest(vec3 v) {
     return max(max(v.x, v.y), v.z);
 }
 
-// Schlick's weight of what is reflected at grazing incidence.
+// Schlick's weight of the reflectance at grazing incidence.
 float schlick(float cosine) {
     float m = 1.0 - clamp(cosine, 0.0, 1.0);
     float m2 = m * m;
@@ -39,12 +39,13 @@ vec3 fresnel(Surface s, float v_dot_h) {
     return s.f0 + (s.f90 - s.f0) * schlick(v_dot_h);
 }
 
-// What is left of diffuse light where `reflected` is a dielectric's: a tinted reflection does not tint what remains.
+// The share of light that is left for the diffuse base if the surface reflects the share `reflected`. With materials that tint
+// reflections, the strongest channel counts for all, so that the base does not get the complementary tint.
 vec3 remaining(vec3 reflected) {
     return SPECULAR || SPECULAR_GLOSSINESS ? vec3(1.0 - greatest(reflected)) : 1.0 - reflected;
 }
 
-// Distribution of GGX times visibility.
+// The GGX distribution times the visibility term.
 float ggx(float alpha, float n_h, float n_l, float n_v) {
     float a2 = alpha * alpha;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;
@@ -63,7 +64,8 @@ vec2 environment_brdf(float roughness, float n_v) {
 
 #include "anisotropy.glsl"
 
-// Radiance reflected to `v` of light from `l` with irradiance `e` on a surface facing it; what comes from behind passes.
+// The radiance towards `v` due to a light in direction `l`, whose irradiance on a surface that faces it is `e`. Light from
+// behind is transmitted, with DIFFUSE_TRANSMISSION.
 vec3 reflect_light(Surface s, vec3 v, vec3 l, vec3 e) {
     vec3 h = normalize(v + l);
     float toward = dot(s.normal, l), n_l = max(toward, 0.0), n_v = max(dot(s.normal, v), 1e-4);

@@ -1,16 +1,17 @@
-// Candidates of a tile: triangles that may cover samples there, their edge functions and depth around the tile's centre.
+// A candidate of a tile: a triangle that may cover samples there, as edge functions E = a x + b y + c and a depth plane
+// relative to the tile's centre.
 #ifndef CANDIDATE_GLSL
 #define CANDIDATE_GLSL
 #include "tiles.glsl"
 #include "triangle.glsl"
 
-const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
+const float OUTSIDE = 1.1754944e-38;                    // the least E inside of an edge whose points the triangle does not own
 
 struct Candidate {
     vec3 a, b, c, depth;
-    float near, far;
+    float near, far;        // bounds of its depth, larger is nearer
     uint id;
-    uint pixels;            // of the tile that it may touch, a bit each
+    uint pixels;            // pixels of the tile that it may touch, a bit each
 };
 
 Candidate load_candidate(uint first, uint index, vec2 center) {
@@ -37,7 +38,8 @@ Candidate shuffle_candidate(Candidate k, uint lane) {
     return r;
 }
 
-// Least value of each edge function inside: the owning side of an edge includes E = 0.
+// The least value of each edge function at which a sample is inside. Of the two triangles at an edge, one owns the points where
+// E = 0.
 vec3 thresholds(Candidate k) {
     return vec3(
         k.a.x > 0.0 || (k.a.x == 0.0 && k.b.x > 0.0) ? 0.0 : OUTSIDE,
@@ -45,7 +47,7 @@ vec3 thresholds(Candidate k) {
         k.a.z > 0.0 || (k.a.z == 0.0 && k.b.z > 0.0) ? 0.0 : OUTSIDE);
 }
 
-// A sum that the driver does not see through: REASSOCIATED of workarounds.glsl.
+// A sum that the driver can't reassociate: REASSOCIATED of workarounds.glsl.
 vec3 sum_of(vec3 x, vec3 y) {
     precise vec3 sum = x + y;
     return uintBitsToFloat(floatBitsToUint(sum) ^ uvec3(gl_NumSubgroups >> 20));
@@ -73,11 +75,11 @@ bool covers(Candidate k, vec3 least, vec2 p, out float depth) {
     return inside(k, least, p) && depth <= 1.0;
 }
 
-// A candidate against a rectangle.
+// The result of testing a candidate against a rectangle.
 struct RectangleTest {
     bool touches;
-    float near;     // its nearest depth there
-    float hides;    // where it covers all of it with an opaque surface: its farthest depth there, otherwise 0
+    float near;     // the candidate's nearest depth in the rectangle
+    float hides;    // its farthest depth there if it is opaque and covers the whole rectangle, otherwise 0
 };
 
 RectangleTest test_rectangle(Candidate k, vec2 middle, vec2 half_side, bool has_mask) {

@@ -1,5 +1,5 @@
-// KHR_materials_clearcoat: a layer of varnish over everything else, which takes from what lies below the share that it
-// reflects.
+// KHR_materials_clearcoat: a layer of varnish over everything else. What the varnish reflects is missing from the light of what
+// lies below.
 #ifndef CLEARCOAT_GLSL
 #define CLEARCOAT_GLSL
 
@@ -9,7 +9,7 @@ struct Coat {
     float weight;       // share of the light towards the eye that is the coat's
 };
 
-// `texel` of the normal texture; the tangents and the normal are the mesh's.
+// The coat at a place. The tangent, bitangent and normal are those of the mesh: the base's normal texture does not turn them.
 Coat read_coat(Place place, vec3 tangent, vec3 bitangent, vec3 normal, vec3 v) {
     vec4 given = material_vector(place.material, MATERIAL_CLEARCOAT);
     Coat coat;
@@ -31,7 +31,7 @@ vec3 coat_light(Coat coat, vec3 v, vec3 l, vec3 e) {
     return ggx(coat.alpha, max(dot(coat.normal, h), 0.0), n_l, max(dot(coat.normal, v), 1e-4)) * n_l * e;
 }
 
-// Radiance that it reflects of the environment.
+// Radiance that a coat of weight 1 reflects of the environment.
 vec3 coat_environment(Coat coat, vec3 v) {
     vec2 split = environment_brdf(coat.roughness, max(dot(coat.normal, v), 1e-4));
     return min(split.x + split.y, 1.0) * environment_reflection(reflect(-v, coat.normal), coat.roughness);

@@ -28,12 +28,12 @@ vec4 tonemap(vec4 c) {
 layout(constant_id = CONSTANT_TONEMAP) const bool TONEMAP = true;         // the output is display-referred
 layout(constant_id = CONSTANT_TONEMAP_CODES) const bool TONEMAP_CODES = true;   // detection compares tone-mapped colours
 
-// Premultiplied radiance as it stands in the output.
+// Converts premultiplied radiance to what the output holds.
 vec4 to_output(vec4 c) {
     return TONEMAP ? tonemap(c) : c;
 }
 
-// What detection compares of a colour in the output: 8-bit sRGB codes, and alpha.
+// What `detect` compares: the 8-bit sRGB codes of a colour of the output, and its alpha.
 uint display_code(vec4 c) {
     c = TONEMAP_CODES && !TONEMAP ? tonemap(c) : c;
     return packUnorm4x8(vec4(srgb_encode(c.rgb), c.a));

@@ -4,7 +4,7 @@
 #include "layer_list.glsl"
 #include "tint.glsl"
 
-// The surfaces of a list of layers, from the record of the nearest one on.
+// The colour of a list of layers. `node` is the record of the nearest one.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
     vec3 through = vec3(1.0);
@@ -15,7 +15,7 @@ vec4 composite(uint node) {
         through *= TINTED ? unpack_tint(layer.a) : vec3(1.0 - layer.a);
         node = farther(node);
     }
-    // What is behind shows as much as channels let it through on average.
+    // The background's alpha is weighted by the mean of what the channels let through.
     float left = TINTED ? dot(through, vec3(1.0 / 3.0)) : through.x;
     return to_output(vec4(light + through * frame.background.rgb, 1.0 - left * (1.0 - frame.background.a)));
 }

@@ -1,22 +1,22 @@
-// A host's draws, and which of them a triangle or a position is of.
+// A host's draws, and a search for the draw of a triangle or of a position.
 #ifndef DRAWS_GLSL
 #define DRAWS_GLSL
 #include "interface.glsl"
 
 struct Draw {
-    uint first_triangle;    // among those of all draws
+    uint first_triangle;    // among the triangles of all draws
     uint first_index;
     uint vertex_offset;     // added to each index, modulo 2^32
     uint word;              // the triangles' last word: see frame.glsl
-    uint first_position;    // among those in clip space
-    uint last_position;     // of its own, counted from the first
-    uint shift;             // from a position to the host's vertex, modulo 2^32
-    uint material;          // the host's number
+    uint first_position;    // among the positions in clip space
+    uint last_position;     // index of the draw's last position, counted from its first
+    uint shift;             // added to the index of a position, modulo 2^32: the index of the host's vertex
+    uint material;          // the host's number of its material
 };
 
 layout(std430, set = SET_OWN, binding = BINDING_DRAWS) readonly buffer Draws { Draw draws[]; };
 
-// The last draw of `count` that begins at a triangle or before it; BY_POSITION: at a position.
+// Binary search: of the `count` draws, the last one that begins at triangle `at` or before it. BY_POSITION: at position `at`.
 uint draw_of(uint at, uint count) {
     uint d = 0u, step_ = 1u << uint(findMSB(count));
     do {

@@ -5,20 +5,21 @@
 #include "studio.glsl"
 
 layout(constant_id = CONSTANT_ENVIRONMENT) const bool ENVIRONMENT = false;
-layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAP) uniform samplerCube environment_map;   // a level for each roughness, see `Environment`
+layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAP) uniform samplerCube environment_map;   // a level for each roughness
 
-// A world direction as the map has it.
+// Turns a direction of the world into the axes of the environment map.
 vec3 to_environment(vec3 d) {
     return vec3(dot(frame.environment[0].xyz, d), dot(frame.environment[1].xyz, d), dot(frame.environment[2].xyz, d));
 }
 
-// Radiance reflected towards `r` by a lobe of that perceptual roughness.
+// The environment's radiance around direction `r`, averaged over a specular lobe of this perceptual roughness.
 vec3 environment_reflection(vec3 r, float roughness) {
     if (!ENVIRONMENT) return studio_reflection(r, roughness * roughness);
     return textureLod(environment_map, to_environment(r), roughness * frame.environment[1].w).rgb * frame.environment[0].w;
 }
 
-// Irradiance over pi at a surface with normal `n`: the sum of spherical harmonics, which small lights may drive below 0.
+// Irradiance over pi at a surface with normal `n`, from spherical harmonics. Small bright lights can make the sum negative, so
+// it is clamped.
 vec3 environment_irradiance(vec3 n) {
     if (!ENVIRONMENT) return studio_irradiance(n);
     vec3 d = to_environment(n);

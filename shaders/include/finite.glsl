@@ -1,5 +1,5 @@
-// What numbers are, by their bits: compilers may take for granted that arithmetic makes neither infinity nor NaN, and drop
-// what asks `isnan` or `isinf`.
+// Tests for NaN and infinity by the bits of a number. Compilers may assume that arithmetic yields neither, and then remove
+// calls of `isnan` and `isinf`.
 #ifndef FINITE_GLSL
 #define FINITE_GLSL
 

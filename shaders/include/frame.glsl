@@ -1,5 +1,5 @@
-// What every pass of one frame reads and writes: one uniform block, one descriptor set.
-// Bindings have their numbers in interface.glsl, and the host its structure of the block by `make shaders`.
+// The descriptor set that all passes of a frame share, and its uniform block.
+// Numbers of bindings are in interface.glsl. `make shaders` writes the host's structure for the block.
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -9,14 +9,14 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "interface.glsl"
 
-// Pixel positions are relative to the screen's centre, x right, y down. A region is the part of
-// the screen at hand; pixel (0, 0) is its upper left one.
+// Pixel positions are relative to the screen's centre, x right, y down. A region is the part of the screen that this frame
+// renders; pixel (0, 0) is its upper left one.
 layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
     mat4 transform;         // position -> (pixel x * w, pixel y * w, z, w)
     vec4 eye;               // xyz relative to the geometry's origin
     vec4 view_direction;    // xyz unit; w = 1 for a parallel projection
     vec4 irradiance[9];     // of the environment, over pi, as spherical harmonics
-    vec4 environment[3];    // rows that turn world space to the environment's; w: factor on its map, last level of it, unused
+    vec4 environment[3];    // rows of the rotation from world space to the environment's; w: factor on the map, its last level, 0
     vec4 background;        // premultiplied linear light
     vec2 raster_scale;      // pixel position -> normalised device coordinates of the region
     vec2 raster_offset;
@@ -25,36 +25,36 @@ layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
     uvec2 tiles;            // region in tiles of 8 x 4 pixels, rounded up
     uvec2 interior_low;     // pixels that the region owns, the rest being halo for detection
     uvec2 interior_high;    // exclusive
-    vec2 gap;               // depth in front of a surface that counts as apart from it: factor on the depth, and constant
-    uint triangle_count;    // and of indices that stand for none, see triangle.glsl
+    vec2 gap;               // least difference in depth from a triangle to a separate surface behind it: depth * x + y
+    uint triangle_count;    // with indices that stand for no triangle, see triangle.glsl
     uint first_mask;        // index of the first MASK triangle
     uint first_blend;       // index of the first BLEND triangle
     uint sample_count;      // sub-samples of a cell
-    uint survivor_capacity; // triangles that `thin` selects and that `cull` keeps
-    uint pair_capacity;     // pairs of a triangle and a tile
-    uint list_capacity;     // candidates of a round
-    uint record_capacity;   // visibility samples
+    uint survivor_capacity; // room for triangles that `thin` selects and that `cull` keeps
+    uint pair_capacity;     // room for pairs of a triangle and a tile
+    uint list_capacity;     // room for candidates of a round
+    uint record_capacity;   // room for visibility samples
     uint bin_count;         // material bins
     uint light_count;
-    uint material_vectors;  // of a material in `materials`
-    uint contrast;          // code values; more than this is a contrast
-    uint alike;             // code values; a material in colours that differ by no more is shaded once
+    uint material_vectors;  // vectors of a material in `materials`
+    uint contrast;          // largest difference of 8-bit codes that is no contrast
+    uint alike;             // largest difference of 8-bit codes around a pixel with which a material is shaded once there
     float exposure;         // factor on radiance
     float footprint;        // side of the square that textures are filtered over at a pixel's centre, in pixels of the region
-    float place_footprint;  // the same at the place of a visibility sample, in pixels; BOX_FILTER: over the root of the record's share of a cell
-    float sample_footprint; // the same where a sub-sample tests alpha, in pixels
+    float place_footprint;  // the same at the place of a visibility sample; BOX_FILTER: factor on the sides that the place holds
+    float sample_footprint; // the same where a sub-sample tests alpha
     uint side;              // pixels of the region along an output pixel's side: k for k x k supersampling
-    float reach;            // of samples around the centre of the pixel that owns their cell, in pixels; at least half a pixel
+    float reach;            // farthest that a sample lies from the centre of its cell's pixel, in pixels; at least half a pixel
     uint group_count;       // groups of cells, where cells are locations
-    uvec2 seen_corner;      // where IDs and depth have the region's pixel (0, 0)
-    uvec2 color_corner;     // where a host's image of colours has it
+    uvec2 seen_corner;      // texel of the images of IDs and depth that is the region's pixel (0, 0)
+    uvec2 color_corner;     // texel of a host's image of colours that is this pixel
 } frame;
 
-// On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
-// passes hand on is bound as both.
+// On CPU devices texel buffers are faster to read, and storage buffers faster to write. Data that one pass writes and another
+// reads is therefore bound as both; the binding for writers ends in `_out`.
 layout(set = SET_FRAME, binding = BINDING_POSITIONS) uniform textureBuffer positions;
 layout(set = SET_FRAME, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
-layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: how much longer a length is than in the mesh
+layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: length in the world / in the mesh
 layout(set = SET_FRAME, binding = BINDING_TANGENTS) uniform textureBuffer tangents;
 layout(set = SET_FRAME, binding = BINDING_UVS) uniform textureBuffer uvs;
 layout(set = SET_FRAME, binding = BINDING_COLORS) uniform textureBuffer colors;
@@ -69,7 +69,7 @@ struct Light {
 layout(std430, set = SET_FRAME, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };
 layout(set = SET_FRAME, binding = BINDING_ALPHA_ATLAS) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
-layout(set = SET_FRAME, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // of 64 indices each
+layout(set = SET_FRAME, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // an instance for every 64 indices
 layout(set = SET_FRAME, binding = BINDING_INSTANCES) uniform utextureBuffer instances;     // see triangle.glsl
 layout(set = SET_FRAME, binding = BINDING_IDS) uniform utexture2D ids;
 layout(set = SET_FRAME, binding = BINDING_BLEND_IDS) uniform utexture2D blend_ids;
@@ -80,10 +80,10 @@ layout(std430, set = SET_FRAME, binding = BINDING_DISPLAY_OUT) writeonly buffer 
 layout(std430, set = SET_FRAME, binding = BINDING_COLOR) buffer Color { vec4 color[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_MASKS) buffer Masks { uint masks[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags; then stretches, see load.glsl
+layout(std430, set = SET_FRAME, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first one, first header, flags; then stretches, see load.glsl
 layout(std430, set = SET_FRAME, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
-layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits; or what owners.glsl describes
+layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl
 layout(std430, set = SET_FRAME, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
 layout(std430, set = SET_FRAME, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
 layout(set = SET_FRAME, binding = BINDING_RECORDS) uniform utextureBuffer records;
@@ -97,10 +97,14 @@ layout(std430, set = SET_FRAME, binding = BINDING_ARGUMENTS) buffer Arguments { 
 
 layout(set = SET_FRAME, binding = BINDING_PAIRS) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
 layout(std430, set = SET_FRAME, binding = BINDING_PAIRS_OUT) writeonly buffer PairsOut { uvec2 pairs_out[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_MARKS) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
+// Three words for each tile, a bit a pixel, in three arrays one after the other:
+// - pixels that a thin triangle crosses unseen (`thin`, `shadow`); later cells that a PROBE leaves
+// - the same for triangles close to a surface, like paint; later pixels that contrast with a superpixel beside them
+// - all superpixels before the last growth (`grow`)
+layout(std430, set = SET_FRAME, binding = BINDING_MARKS) buffer Marks { uint marks[]; };
 
-// (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
-// quotients below 2^22, and is mended.
+// (n % width, n / width). Integer division is a loop on CPU devices. For quotients below 2^22 the quotient of floats is off by
+// one at the most, and is then corrected.
 uvec2 split(uint n, uint width) {
     uint q = uint(float(n) * (1.0 / float(width)));
     int r = int(n - q * width);
@@ -113,7 +117,7 @@ uint id_at(ivec2 pixel) {
     return texelFetch(ids, ivec2(frame.seen_corner) + pixel, 0).x;
 }
 
-// Whether light or paint may change within a pixel on a triangle, by its last word.
+// Whether lighting or textures may change within a pixel of a triangle. `word` is the triangle's last word.
 bool high_frequency(uint word) {
     return (word >> 30 & 1u) != 0u;
 }

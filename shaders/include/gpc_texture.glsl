@@ -1,5 +1,5 @@
-// Textures averaged over what a visibility sample stands for: each function takes the coordinates in the middle of it, and their
-// change over it to the right and down.
+// Textures averaged over the part of a pixel that a visibility sample stands for. Each function takes the texture coordinates in
+// the middle of this part, and their change across it, to the right and down.
 //
 //     gpc_texture             a sampler with mipmaps and linear filters
 //     gpc_texture_unmipmapped a sampler with linear filters, of an image without mipmaps
@@ -8,9 +8,9 @@
 #ifndef GPC_TEXTURE_GLSL
 #define GPC_TEXTURE_GLSL
 
-// A texture averaged over the parallelogram of the gradients: in two rows of several places along its longer side. A sampler
-// with mipmaps and linear filters is expected. Its filter is wider than the box that it stands for, so that a row for each
-// half is sharper than one.
+// A texture averaged over the parallelogram that `dx` and `dy` span, for a sampler with mipmaps and linear filters. The texture
+// is read at two rows of places along the parallelogram's longer side. The sampler's filter is wider than a box, so two rows,
+// one in each half, give a sharper result than one.
 vec4 gpc_texture(sampler2D image, vec2 uv, vec2 dx, vec2 dy) {
     const float MOST_PROBES = 16.0, LEVEL_WIDTH = 0.57735;
     vec2 size = vec2(textureSize(image, 0)), tx = dx * size, ty = dy * size;
@@ -29,7 +29,7 @@ vec4 gpc_texture(sampler2D image, vec2 uv, vec2 dx, vec2 dy) {
     return sum * (0.5 / probes);
 }
 
-// The mean of `of(uv)` at columns x rows places of the parallelogram.
+// Adds the mean of `of(uv)` at columns x rows places of the parallelogram to `sum`, which has to be 0.
 #define GPC_MEAN_OF(sum, of, uv, dx, dy, columns, rows)                                    \
     for (int row_ = 0; row_ < (rows); ++row_) {                                            \
         for (int column_ = 0; column_ < (columns); ++column_) {                            \
@@ -39,8 +39,8 @@ vec4 gpc_texture(sampler2D image, vec2 uv, vec2 dx, vec2 dy) {
     }                                                                                      \
     sum /= float((columns) * (rows));
 
-// The same at places that lie no more than a texel divided by `density` apart, up to 16 along each side, which more texels would need
-// mipmaps for.
+// The mean of a texture at a grid of places in the parallelogram, no more than 1 / `density` texels apart. A side has at least
+// `least` and at most 16 places. With larger distances than a texel a coarser mipmap level is read, if there is one.
 vec4 gpc_texture_grid(sampler2D image, vec2 uv, vec2 dx, vec2 dy, float density, float least) {
     const float MOST = 16.0;
     vec2 size = vec2(textureSize(image, 0)), texels = density * vec2(length(dx * size), length(dy * size));
@@ -64,8 +64,8 @@ vec4 gpc_texture_nearest(sampler2D image, vec2 uv, vec2 dx, vec2 dy) {
     return gpc_texture_grid(image, uv, dx, dy, 2.0, 4.0);
 }
 
-// Defines `vec4 name(vec2 uv, vec2 dx, vec2 dy)`, the mean of the application's own function `vec4 of(vec2 uv)` at side x side places:
-// of an atlas, a virtual texture, or a pattern.
+// Defines `vec4 name(vec2 uv, vec2 dx, vec2 dy)`: the mean of an application's own function `vec4 of(vec2 uv)` at side x side
+// places. The function may read an atlas or a virtual texture, or compute a pattern.
 #define GPC_TEXTURE_OF(name, of, side)                                                     \
     vec4 name(vec2 uv, vec2 dx, vec2 dy) {                                                 \
         vec4 sum = vec4(0.0);                                                              \

@@ -17,10 +17,10 @@
 //     }
 //
 // A visibility sample is a record of four words:
-//     x   pixel: x | y << 16; of a list of locations, its location's index (the topmost bit says no more of it)
+//     x   pixel: x | y << 16; in a list of locations, the index of its location in the lower 31 bits
 //     y   triangle ID: 1 + index of the triangle in the order of the frame's draws
 //     z   place in the pixel: offset from its centre, x and y in 12 bits each, signed, in units of 2^-12 of a pixel, and
-//         above them how large a part of the pixel it stands for (place.glsl)
+//         above them how large a part of the pixel the sample stands for (place.glsl)
 //     w   weight in the pixel, in samples, as a float
 #ifndef GPC_VISIBILITY_GLSL
 #define GPC_VISIBILITY_GLSL
@@ -32,25 +32,27 @@
 #define GPC_SET 0
 #endif
 
-// The version of what this file and the library agree on: bindings, records, functions. The library reads it from a shader's
-// SPIR-V, in gpc_check_shader. An application's own constants have other IDs.
+// Version of the interface between this file and the library: bindings, records, functions. gpc_check_shader reads it from a
+// shader's SPIR-V. An application's own constants need other IDs.
 layout(constant_id = 2046) const uint GPC_SHADER_VERSION = 1u;
 
 layout(set = GPC_SET, binding = 0) uniform GpcFrame {
-    vec2 scale;         // clip space to pixels from the image's centre, times w
-    vec2 middle;        // of clip space on the image, in pixels
-    float place_side;   // of the square that textures are filtered over; with `box`, in what the sample's place says
+    vec2 scale;         // from clip space to (pixels from `middle`) * w
+    vec2 middle;        // where the middle of clip space lies in the image, in pixels
+    float place_side;   // side of the square that textures are filtered over, in pixels; with `box`, a factor on the sides in a
+                        // sample's place
     uint box;           // whether each place says how wide and how high a part of the pixel it stands for
-    uint list;          // whether locations are sampled in the place of pixels
+    uint list;          // whether the samples are those of a list of locations, not of pixels
 } gpc_frame;
-layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
+layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // number of samples, first in gpc_order
 layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
 layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcRecords { uvec4 gpc_records[]; };
 layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three positions; key << 16 and flags
 layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 gpc_positions[]; };  // clip space
 layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
-layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };         // two each; in the second, what leads from a position to the vertex, and the material
-layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_draw_of[]; };       // of each triangle
+// Two vectors a draw. Of the second, z is added to the index of a position for that of the vertex, and w is the material.
+layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };
+layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_draw_of[]; };       // draw of each triangle
 layout(std430, set = GPC_SET, binding = 9) readonly buffer GpcLocations { uvec4 gpc_locations[]; }; // two each: pixel and place in it; Jacobian
 
 struct GpcSample {
@@ -61,14 +63,14 @@ struct GpcSample {
     uvec3 vertices;     // indices, the draw's vertex offset added
     uint location;      // of a list: the index of its location
     vec2 position;      // in the image, in pixels from its upper left corner, y down
-    vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the sum of the vertices' weighted
-    vec3 dx, dy;        // their change over the rectangle that the sample stands for, to the right and down: gradients of an
-                        // attribute for textureGrad, or for gpc_texture.glsl
+    vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the weighted sum of the vertices' values
+    vec3 dx, dy;        // change of the weights across the rectangle that the sample stands for, to the right and down: with
+                        // them as weights, an attribute's gradients for textureGrad, or for gpc_texture.glsl
     vec2 right, down;   // the sides of this rectangle, in pixels of the image
-    bool front;         // the triangle is seen from its front, counter-clockwise on the screen
+    bool front;         // whether the triangle is seen from its front: whether it is counter-clockwise on the screen
 };
 
-// The sample of this invocation among those of a key; false where there is none.
+// Gets this invocation's sample among those of a key; returns false if there is none.
 bool gpc_sample(uint key, out GpcSample s) {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uvec4 listed = gpc_keys[key];
@@ -87,7 +89,7 @@ bool gpc_sample(uint key, out GpcSample s) {
         uvec4 at = gpc_locations[2u * s.location];
         vec4 axes = uintBitsToFloat(gpc_locations[2u * s.location + 1u]);
         jacobian = mat2(axes.xy, axes.zw);
-        // From the middle of a tile of 8 x 4 pixels, as samples lie.
+        // Relative to the middle of a tile of 8 x 4 pixels, as where the location is sampled.
         vec2 tile = vec2((ivec2(at.xy) & ~ivec2(7, 3)) + ivec2(4, 2)) - gpc_frame.middle;
         centred = tile + place_in_tile(at) + jacobian * place;
     } else {
@@ -105,12 +107,12 @@ bool gpc_sample(uint key, out GpcSample s) {
     s.right = jacobian[0] * sides.x;
     s.down = jacobian[1] * sides.y;
     s.front = b.facing;
-    // Compilers drop a constant that nothing reads.
+    // The version is read here since compilers drop a constant that nothing reads.
     return i < listed.x && GPC_SHADER_VERSION != 0u;
 }
 
-// A part of what a sample stands for: number i of side x side parts. Material code that knows no gradients is the mean of what it
-// gives for all parts:
+// Part number `i` of side x side equal parts of a sample. With material code that can't use gradients, shade all parts and store
+// the mean:
 //
 //     vec4 light = vec4(0.0);
 //     for (uint i = 0u; i < 16u; ++i) light += material(gpc_part(s, i, 4u));
@@ -127,8 +129,8 @@ GpcSample gpc_part(GpcSample s, uint i, uint side) {
     return s;
 }
 
-// Writes what a sample shows: linear light that the image's encoding is averaged in, and its opacity, which is 1 where the
-// draw is not blended. Light is not multiplied by the opacity before.
+// Writes the colour of a sample: light, in the linear space in which the image's colours are averaged, and opacity, which is 1
+// if the draw is not blended. Light is not premultiplied by the opacity.
 void gpc_store(GpcSample s, vec4 light) {
     gpc_shaded[s.record] = light;
 }

@@ -1,8 +1,8 @@
-// A host's image of colours, or the part of it that the frame is of, in linear light.
+// The colours of a host's image in linear light. A frame may cover only a part of the image.
 #ifndef HOST_IMAGE_GLSL
 #define HOST_IMAGE_GLSL
 #include "interface.glsl"
-layout(constant_id = CONSTANT_ENCODED) const bool ENCODED = false;     // the host has written sRGB codes into a format of plain numbers
+layout(constant_id = CONSTANT_ENCODED) const bool ENCODED = false;     // the host has written sRGB codes into a UNORM format
 layout(set = SET_BESIDE_FRAME, binding = BINDING_HOST_IMAGE) uniform texture2D host_image;
 
 vec3 srgb_decode(vec3 c) {

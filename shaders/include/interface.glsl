@@ -1,11 +1,11 @@
-// The numbers by which the host and the shaders know the same thing: bindings, specialisation constants, counters, indirect
-// dispatches. They stand here alone; `make shaders` writes them into `src/engine/passes/spirv.rs`, by name, with what it finds in the
-// compiled shaders. Names that begin with a shader's are its own.
+// Numbers that the host and the shaders share: bindings, specialisation constants, counters, indirect dispatches. They are
+// defined only here. `make shaders` copies them by name into `src/engine/passes/spirv.rs`, with the interfaces that it finds in
+// the compiled shaders. A name that begins with the name of a shader belongs to this shader alone.
 #ifndef INTERFACE_GLSL
 #define INTERFACE_GLSL
 
-// Sets: that of all passes of a frame, or one of the shader's own in its place; a material's textures, or a set of the
-// shader's own beside the frame's.
+// Descriptor sets. Set 0 is the one that all passes of a frame share, or a set of the shader's own. Set 1 has the textures of a
+// material, or is a set of the shader's own beside the frame's.
 #define SET_FRAME 0
 #define SET_OWN 0
 #define SET_TEXTURES 1
@@ -71,10 +71,10 @@
 #define BINDING_SHADOW_WORDS 56
 #define BINDING_LOCATION_ORDER 57
 
-// Of the set of textures.
+// Binding of the set of textures.
 #define BINDING_TEXTURES 0
 
-// Of sets of one shader, or of a few.
+// Bindings of sets that only one shader or a few bind.
 #define BINDING_DRAWS 0
 #define BINDING_HOST_IMAGE 0
 #define ADOPT_BINDING_INDICES 1
@@ -147,7 +147,7 @@
 #define CONSTANT_THICKNESS_TEXTURE 58
 #define CONSTANT_SPECULAR_GLOSSINESS_TEXTURE 59
 
-// Of one shader; `sample_masks` has those of `sample`.
+// IDs of specialisation constants of one shader. `sample_masks` and `sample_lines` share those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
 #define ADOPT_CONSTANT_INDEXED 1
 #define ATTRIBUTES_CONSTANT_SUPERPIXELS 0
@@ -274,7 +274,7 @@
 #define ARGUMENT_LAYERS 19
 #define ARGUMENT_SHADE 20
 
-// What has counted when `arguments` runs.
+// What has been counted when `arguments` runs.
 #define AFTER_DETECT 0u
 #define AFTER_CULL 1u
 #define AFTER_SAMPLE 2u
@@ -312,32 +312,35 @@
 #define ENCODE_RGBA8_SRGB 0u
 #define ENCODE_RGBA16F 1u
 
-// Lists of tiles, by what a kernel of `sample` has to know of a tile's triangles. Counters and arguments of lists have this order.
+// Work lists of tiles, one for each kernel of `sample`: tiles with opaque triangles only; also with alpha-tested ones; also with
+// BLEND ones; tiles without a list of candidates. The lists' counters and indirect dispatches have the same order.
 #define TILE_LIST_PLAIN 0u
 #define TILE_LIST_MASKED 1u
 #define TILE_LIST_BLENDED 2u
 #define TILE_LIST_UNLISTED 3u
 #define TILE_LISTS 4u
 
-// Runs of `sample`: with all samples of a cell at once; with few; with all, in the cells that the run with few left.
+// Runs of `sample`. WHOLE takes all samples of all cells. Or PROBE takes a few samples of all cells, and REST then takes all
+// samples of the cells that PROBE left.
 #define RUN_WHOLE 0u
 #define RUN_PROBE 1u
 #define RUN_REST 2u
 
-// Samples of a cell in the run with few.
+// Samples of a cell in the run PROBE.
 #define PROBE_SAMPLES 64u
 
-// How the corners of a host's draw make triangles.
+// How the vertices of a host's draw make triangles.
 #define TOPOLOGY_LIST 0u
 #define TOPOLOGY_STRIP 1u
 #define TOPOLOGY_FAN 2u
 
-// Flags of the vertices that `pose` moves: they have normals of triangles; the transform is mirrored; the geometry has tangents.
+// Flags of the vertices that `pose` moves: their normals are those of the triangles (flat shading); the transform is mirrored;
+// the geometry has tangents.
 #define POSE_FLAT 1u
 #define POSE_INSIDE_OUT 2u
 #define POSE_TANGENTS 4u
 
-// Kinds of a corner of a line or point, and the flag of a corner that is lit as if it faced the camera.
+// Kinds of the corners of lines and points, and a flag: the corner is lit as if it faced the camera.
 #define CORNER_LEFT 0u
 #define CORNER_RIGHT 1u
 #define CORNER_JOINT_CENTRE 2u
@@ -363,16 +366,17 @@
 #define WRAP_MIRRORED_REPEAT 1u
 #define WRAP_CLAMP_TO_EDGE 2u
 
-// The plane of a light that needs one alone; smaller numbers are those of the faces of a cube.
+// The number of the plane of a light that needs only one. Smaller numbers are faces of a cube of planes around a light.
 #define SINGLE_PLANE 6u
 
-// Words that `distribute` has for a tile: a word for each pixel, then the first place, the number of places and the first group.
+// Words that `distribute` has for a tile: a word for each pixel, then the first place, the number of places, the first group; see
+// tile_locations.glsl.
 #define LOAD_WORDS 35u
 #define LOAD_FIRST 32u
 #define LOAD_COUNT 33u
 #define LOAD_FIRST_GROUP 34u
 
-// Indices of triangles that an invocation of the first dispatch of `thin` takes.
+// Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u
 
 // Vectors of a material, see material.glsl.
@@ -394,19 +398,20 @@
 // Tiles of a stretch, see load.glsl.
 #define STRETCH 256
 
-// Trials of a triangle in a tile that a round takes where tiles have no list: some tenths of a second on small GPUs, well
-// below what systems let a dispatch take. A round takes FEWEST_TRIED entries of such tiles in any case.
+// Limit of a round for tiles without a list, in trials of a triangle in a tile. They take some tenths of a second on small GPUs,
+// which is well below the time that systems allow a dispatch. FEWEST_TRIED entries of such tiles fit in every round.
 #define MOST_TRIALS 0x10000000u
 #define FEWEST_TRIED 4096u
 
-// Longest lists of candidates; tiles with more triangles have none. Most loops over LONGEST_LIST candidates end in time, since
-// what is hidden takes few trips. Those that take a block of one cell at a time always do with SHORT_LIST opaque or alpha-tested
-// triangles, or with SHORT_LAYERED of which some are BLEND.
+// The longest list of candidates; a tile with more triangles has none. Loops over LONGEST_LIST candidates usually end within
+// MOST_TRIPS (workarounds.glsl), since hidden candidates take few trips. If a subgroup takes a block of one cell at a time, loops
+// over SHORT_LIST opaque or alpha-tested candidates always do, and so do loops over SHORT_LAYERED if some are BLEND.
 #define LONGEST_LIST 40000u
 #define SHORT_LIST 2500u
 #define SHORT_LAYERED 160u
 
-// Records that `sample_lines` makes of a cell beyond its number of samples, at the most: visible triangles share parts.
+// The most records that `sample_lines` makes of a cell in excess of its number of samples. Triangles that are seen in the same
+// part of a cell have a record each.
 #define MORE_RECORDS 16u
 
 #endif

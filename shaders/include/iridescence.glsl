@@ -3,8 +3,8 @@
 #ifndef IRIDESCENCE_GLSL
 #define IRIDESCENCE_GLSL
 
-// What the eye makes of a spectrum that is a cosine of the wave number: its response, Fourier-transformed, as four Gaussians,
-// in linear sRGB. `path` is the difference of optical paths in nanometres.
+// The colour, in linear sRGB, of a spectrum that is a cosine of the wave number: the Fourier transform of the eye's response,
+// fitted by four Gaussians. `path` is the difference of optical paths in nanometres.
 vec3 sensitivity(float path, vec3 shift) {
     float phase = 2.0 * PI * path * 1e-9;
     const vec3 value = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13);
@@ -25,16 +25,17 @@ vec3 reflectance_between(vec3 n1, float n2) {
     return ratio * ratio;
 }
 
-// Reflectance of a film over a base that reflects `f0`, at the angle of that cosine.
+// Reflectance of a film over a base with reflectance `f0` at normal incidence. `n_v` is the cosine of the angle of view.
 vec3 film_reflectance(float n_v, float film_ior, float thickness, vec3 f0) {
-    // A film that ends is one of air.
+    // As its thickness goes to 0, the film turns into air.
     float ior = mix(1.0, film_ior, smoothstep(0.0, 0.03, thickness));
     float inner = sqrt(max(1.0 - (1.0 - n_v * n_v) / (ior * ior), 0.0));
     vec3 outer = schlick_reflectance(reflectance_between(vec3(1.0), ior), n_v);
     vec3 root = sqrt(clamp(f0, vec3(0.0), vec3(0.9999)));
     vec3 base_ior = (1.0 + root) / (1.0 - root);
     vec3 base = schlick_reflectance(reflectance_between(base_ior, ior), inner);
-    // Half a wave is lost where the denser medium reflects: always on the way out, and at the base if that is denser.
+    // Phase shifts of the light that is reflected within the film, as in the paper: half a wave at the outer side, and half a
+    // wave at the base if the film is denser than the base.
     vec3 shift = PI + mix(vec3(0.0), vec3(PI), lessThan(base_ior, vec3(ior)));
     float path = 2.0 * ior * thickness * inner;
     vec3 both = clamp(outer * base, 1e-5, 0.9999);
@@ -50,7 +51,7 @@ vec3 film_reflectance(float n_v, float film_ior, float thickness, vec3 f0) {
     return clamp(sum, vec3(0.0), vec3(1.0));
 }
 
-// The reflectance at normal incidence that gives what a film reflects at this angle.
+// The reflectance at normal incidence for which Schlick's formula gives the film's reflectance at this angle.
 vec3 film_f0(Place place, vec3 f0, float n_v) {
     vec4 given = material_vector(place.material, MATERIAL_IRIDESCENCE);
     float factor = given.x * READ(IRIDESCENCE_TEXTURE, place).r;

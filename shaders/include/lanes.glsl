@@ -1,16 +1,16 @@
-// Reductions over the LANES invocations of a workgroup that is one subgroup. Small subgroups are those of CPU devices, where
-// a shuffle is almost free and a built-in reduction is a loop; large ones have it in hardware.
+// Reductions over the LANES invocations of a workgroup that is one subgroup. CPU devices have small subgroups; on them a
+// shuffle is almost free, and a built-in reduction is a loop. Devices with large subgroups reduce in hardware.
 #ifndef LANES_GLSL
 #define LANES_GLSL
 #include "interface.glsl"
 
-layout(constant_id = CONSTANT_LANES) const uint LANES = 8u;          // 4, 8, 16 or 32: where subgroups are larger, as many of them are used
+layout(constant_id = CONSTANT_LANES) const uint LANES = 8u;          // 4, 8, 16 or 32: invocations of a subgroup that are used
 const bool BY_SHUFFLE = LANES <= 8u;
 
-layout(constant_id = CONSTANT_UNSURE) const bool UNSURE = false;     // of the subgroups: the device can't be asked for their size
+layout(constant_id = CONSTANT_UNSURE) const bool UNSURE = false;     // the device can't be asked for the size of subgroups
 
-// Whether the device runs a workgroup of so many invocations in other subgroups than it was made for. It is then counted,
-// and the host discards the frame.
+// Whether the device runs a workgroup of `invocations` in subgroups of another size than the pipeline was made for. If so, a
+// counter is set, and the host discards the frame.
 bool in_other_subgroups(uint invocations) {
     if (!UNSURE) return false;
     bool others = gl_NumSubgroups * LANES != invocations || gl_SubgroupInvocationID >= LANES;

@@ -1,10 +1,11 @@
-// LAYERED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers before these, in
+// LAYERED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers in front of these, in
 // exact order of depth.
 //
-// Samples that see the same surfaces, from the farthest one on, share their records. A surface's record is a node that
-// links to the one behind it; it is shaded at the centroid of the samples that share it. Each layer parts those of a node
-// by the triangle that they see next, so that nodes form a tree. Leaves say how many samples end at which node.
-// Where samples are shaded apart (EACH), none share, and behind SHARED_LAYERS others, so that loops end in time.
+// Samples that see the same surfaces, from the farthest one on, share the records of these. Records form a tree: the record of
+// a surface is a node that links to the surface behind it, and is shaded at the centroid of the samples that share it. Samples
+// that share a node are split by the triangle that they see next in front. A leaf says how many samples end at which node.
+// Samples do not share records if each is shaded by itself (EACH), nor in front of SHARED_LAYERS layers, so that loops end in
+// time.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "surfaces.glsl"
@@ -12,22 +13,23 @@
 const bool EACH = PER_SAMPLE || POINTS;
 const uint SHARED_LAYERS = 256u;
 
-// Parts are merged in pairs.
+// The number of a sample's part, where parts are merged in pairs.
 uint layered_part(int g) { return part_number(g) >> 1; }
 
-uint node[ROWS];            // of the nearest surface so far; ~0: background
-float next_depth[ROWS];     // the next surface to the front; ID 0: none
+uint node[ROWS];            // node of the nearest surface so far; ~0: background
+float next_depth[ROWS];     // the next surface in front of that; ID 0: none
 uint next_id[ROWS];
 
-// Samples that share the node and the next surface of the first one (BY_PART: and, where that is HIGH_FREQUENCY, the pair of parts).
+// Samples with the same node and the same next surface. BY_PART: if that surface is HIGH_FREQUENCY, also in the same pair of
+// parts.
 struct Group {
     uint node, next_id;
     uint rows;
     float samples;
-    vec2 sum;               // of their locations
+    vec2 sum;               // sum of their offsets
 };
 
-// The group of the first of the samples that are `left`, a bit a row.
+// The group of the first sample of those that are `left`, a bit a row.
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
     [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
@@ -46,7 +48,8 @@ Group first_group(uint left) {
     return r;
 }
 
-// Moves the samples to nodes of their next surfaces, one each or shared. Returns whether there was room for these.
+// Makes nodes of the samples' next surfaces, one for `each` sample or shared ones, and moves the samples there. Returns
+// whether there was room for the nodes.
 bool add_nodes(uint cell_id, uint samples, bool each) {
     uint lane = gl_SubgroupInvocationID, left = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
@@ -64,7 +67,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     }
     do {
         uint count = 0u, before = left;
-        uvec4 held;             // by the invocation of a group's number
+        uvec4 held;             // record of one group: invocation n holds that of group n
         uint number[ROWS];
         do {
             Group s = first_group(left);
@@ -84,7 +87,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     return fits;
 }
 
-// Returns the first leaf and their number. Samples that see nothing but background have none, unless they are EACH's.
+// Makes the leaves; returns the first one and their number. Samples that see only background have a leaf only with EACH.
 uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     uint lane = gl_SubgroupInvocationID;
     bool fits;
@@ -114,7 +117,7 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     uint base = allocate_records(complete ? count : 0u, fits);
     fits = fits && complete;
     if (fits && lane < count) records_out[base + lane] = held;
-    // Those beyond the invocations' room to hold them, one by one.
+    // Invocations hold LANES leaves. Others are written one by one.
     uint stored = LANES;
     do {
         Group s = first_group(beyond);
@@ -126,7 +129,8 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
 }
 
 #ifdef UNLISTED
-// Finds each sample's next BLEND layer, number `layer` from the farthest one on. Returns whether there may be more.
+// Finds each sample's next BLEND layer: number `layer` of its layers, from the farthest one on. Returns whether there may be
+// more.
 bool find_layers(Cell cell, uint layer) {
     uint most = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) {
@@ -137,10 +141,11 @@ bool find_layers(Cell cell, uint layer) {
     return subgroupAny(layer + 1u < most);
 }
 #else
-// Finds each sample's next BLEND layer in front of what it has seen, and moves there. Returns whether there may be more.
+// Finds each sample's next BLEND layer in front of the surfaces so far, and moves its depth and ID there. Returns whether there
+// may be more.
 bool find_layers(Cell cell, uint layer) {
     uint ahead[ROWS];
-    float behind = 3.4e38;      // what lies farther hides from all samples
+    float behind = 3.4e38;      // what lies farther than this depth is hidden from all samples
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         next_depth[g] = 3.4e38;
         next_id[g] = 0u;
@@ -174,7 +179,7 @@ bool find_layers(Cell cell, uint layer) {
                 next_id[g] = in_front && nearest ? t.id : next_id[g];
             }
         } while (pending != 0u);
-        // The last bit stands for all batches from there on.
+        // The last bit stands for all batches from the 32nd on.
         left &= batch < 31u ? left - 1u : batch + 1u < batches ? ~0u : 0u;
         batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
     } while (left != 0u && trips <= MOST_TRIPS);
@@ -188,7 +193,7 @@ bool find_layers(Cell cell, uint layer) {
 }
 #endif
 
-// Returns the first leaf and their number.
+// Makes all records of a cell's block; returns the first leaf and their number.
 uvec2 record_layers(Cell cell, uint cell_id) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         node[g] = ~0u;

@@ -1,5 +1,5 @@
-// What the samples of a tile need of a round's memory and of its work lists, and sums of that over stretches: STRETCH tiles
-// one after the other, in the order of the region. Twin: src/reference/schedule.rs.
+// The load of a tile: what its samples need of a round's memory and of the work lists. Loads are summed over stretches, runs
+// of STRETCH tiles in the order of the region. Twin: src/reference/schedule.rs.
 #ifndef LOAD_GLSL
 #define LOAD_GLSL
 #include "owners.glsl"
@@ -7,41 +7,41 @@
 #include "tiles.glsl"
 #include "work.glsl"
 
-// What samples need is no constant of the kernels: one of each is made for all.
+// Options of sampling are pushed, not specialised, so that one pipeline of each pass serves all of them.
 layout(push_constant) uniform Push {
-    uint block;             // samples of a header
-    uint per_sample;        // 1 where each sample is a record
-    uint layers;            // BLEND layers of a list that a tile is admitted with
-    uint parts;             // records of a triangle in a block
-    uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
-    uint subgroups;         // and where it takes all samples
-    uint subgroups_unlisted;// and of tiles without a list
-    uint longest_list;      // most candidates of a tile; where there are more, it has no list
-    uint longest_layered;   // the same where some of them are BLEND
-    uint more_records;      // that a cell of opaque or alpha-tested triangles makes beyond its number of samples, at the most
+    uint block;             // samples of a block, which has one header
+    uint per_sample;        // 1 if each sample is a record
+    uint layers;            // BLEND layers before a sample that memory is reserved for
+    uint parts;             // records that a triangle makes in a block, at most
+    uint subgroups_first;   // subgroups of `sample` for an entry of a work list in the first run, which may be a PROBE
+    uint subgroups;         // the same where a run takes all samples
+    uint subgroups_unlisted;// the same for tiles without a list
+    uint longest_list;      // most candidates of a tile; a tile with more has no list
+    uint longest_layered;   // the same if some candidates are BLEND
+    uint more_records;      // most records of a cell of opaque or alpha-tested triangles in excess of its number of samples
 } push;
 
 struct Load {
-    uvec4 needs;    // candidates, or room for owners in their place; records, headers; entries of tiles without a list
-    uvec4 entries;  // of the work lists
+    uvec4 needs;    // candidates (without a list: room for owners, in candidates), records, headers, entries without a list
+    uvec4 entries;  // entries in each of the work lists
 };
 
 uint tile_count() { return frame.tiles.x * frame.tiles.y; }
 uint stretch_count() { return (tile_count() + STRETCH - 1u) / STRETCH; }
 
-uvec4 room;     // of a round, for needs
-uint blocks;    // of a cell
+uvec4 room;     // what a round has room for, in the order of `needs`
+uint blocks;    // blocks of a cell
 
 void begin_loads() {
     room = uvec4(frame.list_capacity, uvec2(frame.record_capacity), max(MOST_TRIALS / max(frame.triangle_count, 1u), FEWEST_TRIED));
     blocks = (frame.sample_count + push.block - 1u) / push.block;
 }
 
-// Sums that count no further than what is too much: so they can't overflow.
+// The sum of two needs. It saturates just above what a round has room for, so that it can't overflow.
 uvec4 add(uvec4 a, uvec4 b) { return min(a + b, room + 1u); }
 
-// What is kept of a stretch follows the tiles of the region: from `tally` what all its tiles need, from `schedule` what
-// tiles of the round before it take.
+// The load that is stored for a stretch, behind the tiles of the region: at first the load of all its tiles, from `tally`.
+// `schedule` replaces it by the load of those tiles of the round that come before the stretch.
 Load load_kept(uint stretch) {
     uint at = tile_count() + 2u * stretch;
     return Load(tiles[at], tiles[at + 1u]);
@@ -60,7 +60,7 @@ uint list_of(uvec4 tile) {
     return !listed ? TILE_LIST_UNLISTED : (tile.w & TILE_HAS_BLEND) != 0u ? TILE_LIST_BLENDED : (tile.w & TILE_HAS_MASK) != 0u ? TILE_LIST_MASKED : TILE_LIST_PLAIN;
 }
 
-// What tile `index` needs as `bin` left it.
+// The load of tile `index`. `tile` is its vector as `bin` left it.
 Load load_of(uint index, uvec4 tile) {
     uvec2 located = LOCATIONS ? tile_loads[index].xy : uvec2(0u);
     uint cells = LOCATIONS ? located.x : uint(bitCount(masks[index]));
@@ -69,14 +69,14 @@ Load load_of(uint index, uvec4 tile) {
     bool busy = cells != 0u, listed = list != TILE_LIST_UNLISTED, per_sample = push.per_sample != 0u;
     bool layered = (tile.w & TILE_HAS_BLEND) != 0u || (!listed && frame.first_blend < frame.triangle_count);
     uint candidates_ = listed ? tile.x : frame.triangle_count;
-    // Different lists of layers that a block is admitted with, too; most need less than half of these records. Both grow
-    // where a frame found too few.
+    // Number of different lists of layers that memory is reserved for in a block. Most blocks need less than half of these
+    // records. If a frame found too little room, it is made again with more layers.
     uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
     uint entries = (cells + LANES - 1u) / LANES;
-    // Layers are as many as they happen to be; a round has room for some.
+    // The number of layers is not known yet: room is reserved for half of `push.layers` vectors a sample.
     uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;
     load.needs = uvec4(!busy ? 0u : listed ? tile.x : owners, records_, cells * blocks, listed ? 0u : entries);

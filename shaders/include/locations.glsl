@@ -1,7 +1,7 @@
-// A list of sample locations, in the place of pixels, and the tiles that `distribute` finds them in. A cell is one location
-// that is sampled by the pattern, moved by its Jacobian, or (POINTS) a few locations of a tile that are sampled once each,
-// where they are. A group is as many cells of a tile as a subgroup takes. All that a list's owner sees of a location is by
-// its index in the list.
+// A list of sample locations, which are sampled instead of pixels, and the tiles to which `distribute` sorts them. A cell is
+// one location, sampled at the pattern's offsets times its Jacobian. With POINTS, a cell is a few locations of a tile, each
+// sampled once. A group is as many cells of a tile as a subgroup takes. Results are stored by the index of a location in the
+// list.
 #ifndef LOCATIONS_GLSL
 #define LOCATIONS_GLSL
 #include "interface.glsl"
@@ -9,29 +9,30 @@
 
 layout(constant_id = CONSTANT_LOCATIONS) const bool LOCATIONS = false;
 layout(constant_id = CONSTANT_POINTS) const bool POINTS = false;
-layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINTS on surfaces, seen by a light: which triangle lies before theirs
+layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINTS on surfaces, seen from a light
 
-// Two vectors each, floats as bits:
-// a location: (pixel x, y as signed integers, place in it x, y from 0 to 1), (its Jacobian: change of x and y a column, change
-//   a row of the output; OCCLUDERS: least depth of what lies before it, ID of the surface's triangle, 0, 0)
+// Two vectors a location, floats as bits: (pixel x, y as signed integers, place in the pixel x, y from 0 to 1), (its Jacobian:
+// change of x and y per column of the output, change per row). OCCLUDERS: the second is (depth from which on something lies
+// before the location, ID of the surface's triangle, 0, 0).
 layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
-// a cell: (x, y of its middle from its tile's centre, half its width and height), (its location or, of POINTS, where in
-//   `location_order` its locations begin, how many it has, 0, 0)
+// Two vectors a cell, floats as bits: (x, y of its middle relative to its tile's centre, half its width and height), (its
+// location, 1, 0, 0). POINTS: the second is (where in `location_order` its locations begin, how many it has, 0, 0).
 layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
-// One vector: tile, first cell, cells, number of the first cell within its tile
+// A vector a group: (tile, first cell, number of cells, number of the first cell within its tile).
 layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
 layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
 
-// Locations of POINTS tile by tile, those of a cell one after the other.
+// POINTS: indices of locations, tile by tile, those of a cell one after the other.
 layout(set = SET_FRAME, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
 
-// Set in the location of that record of POINTS that stands for all that it sees: its leaf, or its only one.
+// A record of POINTS holds its location in the lower 31 bits of its first word. The topmost bit marks the record that stands
+// for all that the location sees: its leaf, or its only record.
 #define POINT_VALUE 0x80000000u
 #define POINT_LOCATION 0x7fffffffu
 
 uint location_at(uint place) { return texelFetch(location_order, int(place)).x; }
 
-// OCCLUDERS have no extent: textures are read at their finest level.
+// The Jacobian of a location. OCCLUDERS have no extent, so that textures are read at their finest level.
 mat2 location_jacobian(uint location) {
     vec4 j = uintBitsToFloat(texelFetch(locations, int(2u * location + 1u)));
     return OCCLUDERS ? mat2(0.0) : mat2(j.xy, j.zw);

@@ -1,15 +1,16 @@
-// Sets of a cell's samples as masks, a bit each in the pattern's order, and what is added up over them.
+// Sets of a cell's samples as masks, a bit for each sample in the order of the pattern, and sums over such sets.
 #ifndef MASK_GLSL
 #define MASK_GLSL
 #include "interface.glsl"
 
-// Whether loops over samples take four at a time: fewer registers and instructions. CPU drivers want them unrolled.
+// Whether loops over samples take four at a time, which needs fewer registers and instructions. For CPU devices they are
+// unrolled.
 layout(constant_id = SAMPLE_MASKS_CONSTANT_ROLLED) const bool ROLLED = false;
 
 // Offsets of samples from the middle of their cell, two a vector.
 layout(std140, set = SET_FRAME, binding = BINDING_PATTERN) uniform Pattern { vec4 pattern[32]; };
 
-vec2 offsets[SAMPLES];      // the same, read once where loops are unrolled
+vec2 offsets[SAMPLES];      // the same offsets, read once for unrolled loops
 
 vec2 offset_of(int n) { return n % 2 == 0 ? pattern[n / 2].xy : pattern[n / 2].zw; }
 
@@ -17,21 +18,22 @@ void load_offsets() {
     [[unroll]] for (int n = 0; n < SAMPLES; n++) offsets[n] = offset_of(n);
 }
 
-// A bit for each sample that there is.
+// The set of all samples of the pattern.
 uvec2 all_samples() {
     uint count = frame.sample_count;
     return uvec2(count < 32u ? (1u << count) - 1u : ~0u, count < 64u ? (1u << max(count, 32u) - 32u) - 1u : ~0u);
 }
 
-// What is compared at samples: three linear functions of the position, or the depths of two surfaces.
+// A comparison at samples: of three linear functions E of the position with their least values, or of the depths of two
+// surfaces.
 struct Comparison {
     vec3 a, b, c;           // E = a x + b y + c
-    vec3 least;             // each E is to reach its own
-    bool depths;            // the first E, within its bounds, is to reach the second one, within its bounds
-    vec2 low, high;         // bounds of the first and the second E
+    vec3 least;             // value that each E has to reach
+    bool depths;            // the first E has to reach the second one instead
+    vec2 low, high;         // bounds to which the first and the second E are clamped
 };
 
-// Whether a comparison holds at the offset `p` from where its functions are `c`.
+// Whether a comparison holds at offset `p`. `c` are the values of its functions at offset 0.
 bool holds_at(Comparison k, vec3 c, vec2 p) {
     precise float e0 = k.a.x * p.x + k.b.x * p.y + c.x;
     precise float e1 = k.a.y * p.x + k.b.y * p.y + c.y;
@@ -79,15 +81,15 @@ vec2 sum_of_offsets(uvec2 mask) {
     return sum;
 }
 
-// The same of runs of four samples is known: 16 vectors a run, by its bits, behind the pattern's offsets. A mask of up to
-// eight samples from number `first` on takes two.
+// The sum of the offsets of up to 8 samples from number `first` on. Behind the pattern's offsets stands a table of sums for runs
+// of four samples: 16 vectors for each run, by the bits of a mask. Two of them are added here.
 vec2 sum_of_run(uint first, uint samples) {
     uint four = first >> 2, bits = samples << (first & 3u);
     int at = int(frame.sample_count + PROBE_SAMPLES + four * 16u);
     return texelFetch(pattern_offsets, at + int(bits & 15u)).xy + texelFetch(pattern_offsets, at + 16 + int(bits >> 4)).xy;
 }
 
-// A bit for each run of `length` samples that a mask has any of; for lengths of up to 8.
+// The runs of `length` samples of which a mask has any, by the bit of their first sample. `length` is 1, 2, 4 or 8.
 uvec2 runs_of(uvec2 mask, uint length) {
     uint every = length == 1u ? ~0u : length == 2u ? 0x55555555u : length == 4u ? 0x11111111u : 0x01010101u;
     mask |= length >= 2u ? mask >> 1 : uvec2(0u);

@@ -1,4 +1,4 @@
-// Materials as vectors of one buffer; interface.glsl numbers them, and the host's twin is `GpuMaterial`.
+// Materials, as vectors in one buffer. interface.glsl has the vectors' numbers; the host's structure is `GpuMaterial`.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 #include "interface.glsl"

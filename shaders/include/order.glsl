@@ -1,23 +1,24 @@
-// The order in which candidates come to a cell: the nearest first. A subgroup sorts them, a key an invocation.
+// Sorting of a cell's candidates, the nearest first. A subgroup sorts keys together, a key in each invocation.
 #ifndef ORDER_GLSL
 #define ORDER_GLSL
 
-const uint INDEX = 1023u;           // bits of a candidate's number in a key; the depth has those above
+const uint INDEX = 1023u;           // bits of a key that hold a candidate's number; those above hold its depth
 
 struct Key {
     uint depth;             // its nearest depth in the cell, and its number in the low bits; 0 for none
     uint id;
 };
 
-// What is nearer comes first and, of what has the same bits of depth, the smaller ID, since the order of lists differs from run
-// to run.
+// The nearer candidate comes first. If the bits of depth are equal, the smaller ID comes first, since the order of lists differs
+// from run to run.
 bool comes_before(Key k, Key other) { return (k.depth ^ other.depth) <= INDEX ? k.id < other.id : k.depth > other.depth; }
 
-// What no candidate from this key on is nearer than: a depth is less than a 2^-13th above what its bits say.
+// An upper bound for the depths of the candidate with this key and of all later ones. It is needed since a key lacks the lowest
+// bits of a depth.
 float nearest_from(uint depth) { return uintBitsToFloat(depth | INDEX) * 1.000002; }
 
-// Puts runs of `size` keys in order, of which the first half is in order and the second one in reversed order: each second run in
-// reversed order, and a run of all keys in order or `reversed`.
+// Merges runs of `size` keys, the first half of which is in order and the second half in reversed order. Every second run
+// becomes reversed; a run of all keys becomes `reversed` if so asked.
 void merge_runs(inout Key k, uint size, bool reversed) {
     uint lane = gl_SubgroupInvocationID;
     [[unroll]] for (uint log = 0u; log < 5u; log++) {
@@ -32,8 +33,8 @@ void merge_runs(inout Key k, uint size, bool reversed) {
     }
 }
 
-// Batcher's bitonic sorting ("Sorting networks and their applications", 1968), from runs of half of `from` that are in order
-// and in reversed order in turns; of all keys, in order or `reversed`.
+// Bitonic sorting (Batcher, "Sorting networks and their applications", 1968). Runs of half of `from` keys are already sorted, in
+// order and in reversed order by turns. Afterwards all keys are in order, or `reversed`.
 void sort_keys(inout Key k, uint from, bool reversed) {
     // Written out for UNROLLED.
     if (from <= 2u) merge_runs(k, 2u, reversed);
@@ -43,7 +44,8 @@ void sort_keys(inout Key k, uint from, bool reversed) {
     if (from <= 32u && LANES >= 32u) merge_runs(k, 32u, reversed);
 }
 
-// Of keys in order and others in reversed order, those that come first, and the others, both in order.
+// Merges keys that are in order with `others` that are in reversed order. Afterwards `first` has the keys that come first, and
+// `others` the rest, both in order.
 void merge_keys(inout Key first, inout Key others) {
     bool stays = comes_before(first, others);
     Key a = Key(stays ? first.depth : others.depth, stays ? first.id : others.id);

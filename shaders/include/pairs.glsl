@@ -1,16 +1,17 @@
-// A pair of a triangle and a tile that it may touch: 64 bits, since a frame has millions. The second word holds the tile in
-// as many low bits as the region's tiles need, and the triangle's rank in the tile's list above.
+// A pair of a triangle and a tile that it may touch, in 64 bits, since a frame has millions of pairs. The first word is the
+// triangle. The second word holds the tile, in as many low bits as the region's tiles need, and above them the triangle's rank
+// in the tile's list.
 #ifndef PAIRS_GLSL
 #define PAIRS_GLSL
 
-const uint INVOCATIONS_OF_PAIR = 8u;    // in `crossings`
-const uint PAIRS_OF_SETUP = 16u;        // that an invocation of `setup` looks at
+const uint INVOCATIONS_OF_PAIR = 8u;    // invocations of `crossings` that share a pair
+const uint PAIRS_OF_SETUP = 16u;        // pairs that an invocation of `setup` looks at
 
 uint pair_tile_bits() {
     return uint(findMSB(frame.tiles.x * frame.tiles.y) + 1);
 }
 
-// Ranks that there is room for; a tile with more triangles has no list.
+// The number of ranks that fit in a pair. A tile with more triangles has no list.
 uint pair_ranks() {
     return 1u << (32u - pair_tile_bits());
 }

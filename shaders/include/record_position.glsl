@@ -1,11 +1,11 @@
-// Where a visibility sample is shaded.
+// The position at which a visibility sample is shaded.
 #ifndef RECORD_POSITION_GLSL
 #define RECORD_POSITION_GLSL
 #include "locations.glsl"
 #include "place.glsl"
 #include "tiles.glsl"
 
-// On the image plane, in pixels from the screen's centre.
+// The position on the image plane, in pixels from the screen's centre.
 vec2 record_position(uvec4 record) {
     vec2 offset = place_location(record.z);
     if (!LOCATIONS) return frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + offset;

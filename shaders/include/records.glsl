@@ -1,8 +1,8 @@
-// Room for visibility samples.
+// Allocation of records (visibility samples).
 #ifndef RECORDS_GLSL
 #define RECORDS_GLSL
 
-// Makes room for records; returns the first one, and whether they fit.
+// Allocates records, once for the whole subgroup. Returns the first one, and whether they fit.
 uint allocate_records(uint count, out bool fits) {
     uint base = 0u;
     if (subgroupElect() && count != 0u) base = atomicAdd(counters[COUNTER_RECORDS], count);

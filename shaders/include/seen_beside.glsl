@@ -1,9 +1,9 @@
-// Which pixels beside a superpixel contrast with what its samples saw, and so may show a part of it that their centres missed.
+// Marks pixels beside a superpixel that contrast with its colour: they may show a part of a detail that their centres miss.
 #ifndef SEEN_BESIDE_GLSL
 #define SEEN_BESIDE_GLSL
 #include "contrast.glsl"
 
-// Marks the neighbours of a superpixel that are none and contrast with its colour, a bit a pixel.
+// Marks those of the 8 neighbours of a superpixel that are no superpixels and contrast with it. `code` is its display code.
 void mark_contrasting_neighbours(uvec2 pixel, uint code) {
     uint tile_count = frame.tiles.x * frame.tiles.y;
     // ROLLED, see workarounds.glsl.

@@ -1,17 +1,17 @@
 // Triangle setup for exact sampling: from clip-space vertices to edge functions around a point.
 //
-// An edge function E(x, y) = A x + B y + C is positive inside. Its coefficients depend on the edge's two
-// end points alone and change nothing but sign when these are swapped, so two triangles that share
-// an edge agree on every sample: `precise` keeps the compiler from contracting a product on one side
-// only. A sample with E = 0 belongs to the side where A > 0 or A = 0 and B > 0.
-// Coefficients are relative to `center`, so that their rounding is that of small numbers.
+// An edge function E(x, y) = A x + B y + C is positive inside. Its coefficients depend only on the edge's two
+// end points, and only change their signs when these are swapped. So two triangles that share an edge agree
+// on every sample. `precise` keeps the compiler from contracting a product on one side only. A sample with
+// E = 0 belongs to the triangle with A > 0, or with A = 0 and B > 0.
+// Coefficients are relative to `center`, so that they are small and rounded little.
 #ifndef SETUP_GLSL
 #define SETUP_GLSL
 #include "finite.glsl"
 
 struct Edge { float a, b, c; };
 
-// Beyond this distance from `center` a vertex keeps its homogeneous form.
+// A vertex that is farther than this from `center`, in pixels, is not divided by w: its edges are computed in homogeneous form.
 const float PROJECT_LIMIT = 16384.0;
 
 bool projectable(vec4 v) {
@@ -43,7 +43,7 @@ struct Setup {
     bool facing;
 };
 
-// `center` is subtracted from the projected vertices.
+// A vertex relative to `center`: this is subtracted from the vertex's pixel position.
 vec4 relative_to(vec4 v, vec2 center) {
     precise float x = v.x - center.x * v.w;
     precise float y = v.y - center.y * v.w;
@@ -63,7 +63,7 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
         if (!(p2 && p0)) e1 = h1;
         if (!(p0 && p1)) e2 = h2;
         float det = dot(vec3(h0.c, h1.c, h2.c), vec3(v0.w, v1.w, v2.w));
-        // det scales with w^3; where the unprojected sum cancels to 0 the triangle is seen edge-on.
+        // The determinant is 0 if the triangle is seen edge-on. It scales with w^3, so no tolerance would suit all triangles.
         s.facing = det < 0.0;
         s.valid = det != 0.0 && is_finite(det);
         float inverse = 1.0 / det;
@@ -78,7 +78,8 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
         s.facing = area < 0.0;
         s.valid = area != 0.0;
         float z0 = v0.z / v0.w, z1 = v1.z / v1.w, z2 = v2.z / v2.w;
-        // Differences from a vertex keep the depth of tiny triangles; the clamp to the vertices' range bounds that of slivers.
+        // Differences from one vertex keep the depth of tiny triangles accurate. The depth of slivers is bounded later, by a
+        // clamp to the vertices' range.
         float inverse = 1.0 / area;
         precise float gx = ((z1 - z0) * d2.y - (z2 - z0) * d1.y) * inverse;
         precise float gy = ((z2 - z0) * d1.x - (z1 - z0) * d2.x) * inverse;
@@ -96,8 +97,8 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
     return s;
 }
 
-// Whether a triangle surely shows its back, from positions rounded relative to a region: slivers that rounding
-// could turn over are left to their setup.
+// Whether a triangle is surely back-facing. Positions relative to a region's `center` are rounded more than those relative
+// to a tile's. Slivers that rounding could turn over are not culled here, but by their setup.
 bool surely_backfacing(vec4 c0, vec4 c1, vec4 c2, vec2 center) {
     vec4 v0 = relative_to(c0, center), v1 = relative_to(c1, center), v2 = relative_to(c2, center);
     vec2 d1 = v1.xy / v1.w - v0.xy / v0.w, d2 = v2.xy / v2.w - v0.xy / v0.w;

@@ -1,5 +1,5 @@
-// KHR_materials_sheen: fibres on a surface, by the distribution of Estevez and Kulla ("Production Friendly Microfacet Sheen
-// BRDF", 2017) with the visibility of Neubelt and Pettineo. The CPU's twin is `gpc::reference::sheen`.
+// KHR_materials_sheen: fibres on a surface, with the distribution of Estevez and Kulla ("Production Friendly Microfacet Sheen
+// BRDF", 2017) and the visibility of Neubelt and Pettineo. Twin: `gpc::reference::sheen`.
 #ifndef SHEEN_GLSL
 #define SHEEN_GLSL
 
@@ -9,8 +9,8 @@ struct Sheen {
     float albedo;       // share of a uniform environment that white sheen reflects
 };
 
-// Fitted to the integral of distribution and visibility over the hemisphere for roughness from 0.15 on, where it errs by
-// 0.05; at most 1.
+// The share of a uniform environment that white sheen reflects: a fit of the integral of distribution times visibility over the
+// hemisphere, for roughness of at least 0.15, with errors of up to 0.05.
 float sheen_albedo(float roughness, float n_v) {
     vec3 powers = vec3(1.0, n_v, n_v * n_v);
     float exponent = dot(vec3(-0.2872, 0.3874, -0.8319), powers) + dot(vec3(0.1861, -1.3376, 0.0131), powers) / roughness
@@ -27,7 +27,7 @@ Sheen read_sheen(Place place, float n_v) {
     return sheen;
 }
 
-// What passes to the surface below and from there to the eye.
+// The share of light that passes the sheen to the surface below, and from there to the eye.
 float sheen_passes(Sheen sheen) {
     return 1.0 - greatest(sheen.color) * sheen.albedo;
 }

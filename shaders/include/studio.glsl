@@ -1,6 +1,6 @@
-// The neutral studio: the light of scenes that have none. A grey room, brighter above, and three soft boxes
-// (key, fill, rim), each a spherical Gaussian, whose convolution with a rough reflection lobe and with the cosine has
-// a closed form (Wang et al., "All-Frequency Rendering of Dynamic, Spatially-Varying Reflectance", 2009).
+// The neutral studio, which lights scenes without lights: a grey room, brighter above, and three soft boxes (key, fill,
+// rim). A soft box is a spherical Gaussian. Its convolutions with a rough reflection lobe and with the cosine have closed
+// forms (Wang et al., "All-Frequency Rendering of Dynamic, Spatially-Varying Reflectance", 2009).
 
 struct Box { vec3 axis; float sharpness; vec3 radiance; };
 
@@ -13,7 +13,7 @@ vec3 studio_room(float up) {
     return mix(vec3(0.17, 0.165, 0.16), vec3(0.52, 0.53, 0.55), 0.5 + 0.5 * up);
 }
 
-// Radiance reflected towards `r` by a lobe of GGX roughness `alpha`.
+// The studio's radiance around direction `r`, averaged over a specular lobe of GGX roughness `alpha`.
 vec3 studio_reflection(vec3 r, float alpha) {
     float lobe = 2.0 / max(alpha * alpha, 1e-3);
     vec3 sum = studio_room(r.y * (1.0 - 0.5 * alpha));

@@ -1,4 +1,5 @@
-// Records of the surfaces that a block sees: one a triangle (BY_PART: and part of the block), or one a sample.
+// Records of the surfaces that the samples of a block see: one for each triangle, or (BY_PART) for each triangle and part of the
+// block, or one for each sample.
 #ifndef SURFACES_GLSL
 #define SURFACES_GLSL
 #include "area.glsl"
@@ -8,24 +9,25 @@
 // What a block of samples sees of one triangle.
 struct Surface {
     uint id;                // ~0: no other triangle
-    float samples;
-    vec2 sum;               // of their locations
-    uint parts;             // BY_PART: a bit for each that sees it
+    float samples;          // number of samples that see it
+    vec2 sum;               // sum of their offsets
+    uint parts;             // BY_PART: a bit for each part that sees it
 };
 
-// Surfaces that invocations hold, one each: as many on all devices of 8 or more, so that images agree.
+// Number of surfaces that invocations hold, one each. It is the same for all subgroups of 8 or more, so that images of all these
+// devices agree.
 const uint HELD = LANES < 8u ? LANES : 8u;
 
-// Parts of a block: runs of neighbouring samples, at most 32 of them (src/engine/passes/sample.rs chooses their length).
+// A block has at most 32 parts: runs of PART neighbouring samples (src/engine/passes/sample.rs chooses this length).
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
 
-// The part of a sample.
+// The part that a sample of row `g` belongs to.
 uint part_number(int g) {
     return PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
 }
 
-// The triangle with the least ID above `seen`.
+// What the block sees of the triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
     Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
     [[unroll]] for (int g = 0; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
@@ -42,10 +44,11 @@ Surface surface_after(uint seen) {
     return r;
 }
 
-// Parts that an invocation holds.
+// Number of parts that an invocation holds.
 const uint PARTS_HELD = PART_ROWS > PART_LANES ? PART_ROWS / PART_LANES : 1u;
 
-// A step of summing rows over invocations: each keeps half of its rows and gives the others away, or shares its only one.
+// A step of summing rows over invocations: each invocation keeps half of its rows and gives the other half to another one. An
+// invocation with a single row shares it.
 void sum_rows(inout vec3 sums[ROWS], uint stage) {
     uint step = PART_LANES >> (stage + 1u), rows = PART_ROWS >> (stage + 1u);
     bool upper = (gl_SubgroupInvocationID & step) != 0u;
@@ -58,9 +61,9 @@ void sum_rows(inout vec3 sums[ROWS], uint stage) {
     }
 }
 
-// What each part sees of a triangle: the sum of the locations of its samples, and their number. Rows are summed over the
-// invocations of a part and shared out among them at once, each step halving the rows that an invocation holds, until it
-// holds PARTS_HELD of them, or shares one with others of which the first holds it.
+// What each part sees of a triangle: the sum of the offsets of its samples, and their number. Rows are summed over the
+// invocations of a part, and at the same time distributed among them: each step halves the rows that an invocation holds. In
+// the end it holds PARTS_HELD of them. If several invocations share a row, only the first one holds it.
 void parts_of(uint wanted, out vec3 sums[ROWS]) {
     uint lane = gl_SubgroupInvocationID;
     [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
@@ -76,7 +79,8 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     if (lane % SHARING != 0u) sums[0] = vec3(0.0);
 }
 
-// Merges neighbouring parts, which other invocations hold or, where a part takes a row or more, this one.
+// Merges pairs of neighbouring parts of `length` samples. The neighbour is held by another invocation or, if a part takes a row
+// or more, by this one.
 void merge_neighbours(inout vec3 parts[ROWS], uint length) {
     if (length < LANES) {
         bool keeps = (gl_SubgroupInvocationID & length) == 0u;
@@ -97,7 +101,7 @@ void merge_neighbours(inout vec3 parts[ROWS], uint length) {
     }
 }
 
-// Merges them in pairs or in fours, if so many are to be.
+// Merges parts in pairs or in fours, or not at all, as `merged` (one of PARTS_) says.
 void merge_parts(inout vec3 parts[ROWS], uint merged) {
     vec3 pairs[ROWS] = parts;
     merge_neighbours(pairs, PART);
@@ -106,22 +110,22 @@ void merge_parts(inout vec3 parts[ROWS], uint merged) {
     [[unroll]] for (uint r = 0u; r < ROWS; r++) parts[r] = merged == PARTS_FOURS ? fours[r] : merged == PARTS_PAIRS ? pairs[r] : parts[r];
 }
 
-// The parts that are left, by the bits of all.
+// The same for a set of parts, a bit each: the parts that are left after merging.
 uint merge_bits(uint bits, uint merged) {
     uint pairs = (bits | bits >> 1) & 0x55555555u, fours = (pairs | pairs >> 2) & 0x11111111u;
     return merged == PARTS_FOURS ? fours : merged == PARTS_PAIRS ? pairs : bits;
 }
 
-// The surfaces of a block, ascending by ID; an invocation holds one.
+// The surfaces of a block, by ascending ID. All members but the first are those of the surface that this invocation holds.
 struct Surfaces {
-    uint count;             // may be more than there are invocations
+    uint count;             // number of surfaces, which may exceed HELD
     uint id;
     uint place;
     float samples;
     uint parts;
     int area;
-    bool whole;             // it loses no sample that it covers, so that its area is exact
-    bool small;             // it would be whole, if its area were not too small to be trusted
+    bool whole;             // nothing hides a sample that it covers, so that its exact area is used
+    bool small;             // the same, but its area is too small to be used
 };
 
 Surfaces surfaces_of(Cell cell) {
@@ -142,7 +146,7 @@ Surfaces surfaces_of(Cell cell) {
             uint holders = subgroupBallot(nearby.id == s.id).x;
             uint holder = holders != 0u ? uint(findLSB(holders)) : 0u;
             Candidate t = shuffle_candidate(nearby, holder);
-            // In the coordinates of offsets, in which the cell is a square.
+            // Edge functions of the samples' offsets, in whose coordinates the cell is a square.
             vec3 a = LOCATIONS ? t.a * cell.pixel[0].x + t.b * cell.pixel[0].y : t.a;
             vec3 b = LOCATIONS ? t.a * cell.pixel[1].x + t.b * cell.pixel[1].y : t.b;
             int area = area_in_cell(a, b, t.a * cell.at.x + t.b * cell.at.y + t.c, lane);
@@ -159,12 +163,11 @@ Surfaces surfaces_of(Cell cell) {
     return r;
 }
 
-// The weight of the surface that an invocation holds, in samples of the pattern, and whether the cell needs no more
-// samples to know it.
+// The weight of the surface that an invocation holds, in samples of the pattern. `settled`: the cell needs no more samples.
 float weigh(Surfaces s, uint samples, out bool settled) {
     settled = true;
     if (!EXACT_AREAS) return s.samples;
-    // Beyond the invocations' room to hold triangles, all go by samples.
+    // If there are more triangles than invocations can hold, all weights are numbers of samples.
     bool known = s.count <= HELD && nearby_count <= HELD;
     bool small = lanes_or(s.small ? 1u : 0u) != 0u;
     bool shares = s.samples > 0.0 && !s.whole;
@@ -184,7 +187,7 @@ float weigh(Surfaces s, uint samples, out bool settled) {
         : cell_weight / float(samples) * s.samples;
 }
 
-// A record a point that sees something; returns the first one and their number.
+// Makes a record for each point that sees something; returns the first record and their number.
 uvec2 record_points(Cell cell) {
     uint made = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) made += subgroupBallotBitCount(subgroupBallot(id[g] != 0u));
@@ -199,7 +202,7 @@ uvec2 record_points(Cell cell) {
     return uvec2(base, fits ? made : 0u);
 }
 
-// A record a sample; returns the first one and their number.
+// Makes a record for each sample; returns the first record and their number.
 uvec2 record_samples(Cell cell, uint cell_id) {
     bool fits;
     uint base = allocate_records(cell.samples, fits);
@@ -212,7 +215,8 @@ uvec2 record_samples(Cell cell, uint cell_id) {
     return uvec2(base, fits ? cell.samples : 0u);
 }
 
-// A record a surface or part of one; returns the first one and their number, and whether the cell needs no more samples.
+// Makes a record for each surface or part of one; returns the first record and their number. `settled`: the cell needs no more
+// samples.
 uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
     uint lane = gl_SubgroupInvocationID;
     Surfaces held = surfaces_of(cell);
@@ -226,7 +230,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
     }
     held.parts = merge_bits(held.parts, shaded_in);
     bool single = holds && !several;
-    // What is shaded in many places takes all samples to choose them from.
+    // A surface that is shaded in several places needs all samples, to choose the places from.
     settled = settled && (RUN != RUN_PROBE || !subgroupAny(several));
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, HELD);
@@ -235,7 +239,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
     uint base = allocate_records(settled ? used : 0u, fits);
     fits = fits && settled;
 
-    // Surfaces of one record: all at once, and those beyond the invocations' room one by one.
+    // Surfaces with one record: those that invocations hold are written at once, the others one by one.
     uvec4 singles = subgroupBallot(single);
     if (fits && single)
         records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(cell_id, held.id, held.place, floatBitsToUint(weight));

@@ -1,21 +1,23 @@
-// Which triangles are thin, and what their edges span of a column of pixels or cells. All places are (x, y, depth or nearness).
+// Which triangles are thin, and which part of a column of pixels or cells a triangle crosses. Points are (x, y, depth); for
+// `crossings` the third number is nearness.
 #ifndef THIN_GLSL
 #define THIN_GLSL
 
-// Height over the longest side, in pixels or cells: a wider triangle is seen by some centre.
+// Triangles are thin if their height over the longest side is less than this, in pixels or cells. Wider ones are seen by some
+// centre.
 const float THIN = 1.5;
 
 float crossed(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// Of a triangle.
+// The height of a triangle over its longest side.
 float height_of(vec2 a, vec2 b, vec2 c) {
     vec2 ab = b - a, bc = c - b, ca = a - c;
     float longest = sqrt(max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca))));
     return abs(crossed(ab, ca)) / max(longest, 1e-20);
 }
 
-// Twice the area over the distance of the farthest corners, of a convex quadrilateral; that of a triangle where two of its corners
-// are the same.
+// The same for a convex quadrilateral: twice its area over the distance of its farthest corners. If two corners coincide, this is
+// the height of a triangle.
 float height_of(vec2 a, vec2 b, vec2 c, vec2 d) {
     vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d, ac = c - a, bd = d - b;
     float sides = max(max(dot(ab, ab), dot(bc, bc)), max(dot(cd, cd), dot(da, da)));
@@ -23,7 +25,8 @@ float height_of(vec2 a, vec2 b, vec2 c, vec2 d) {
     return abs(crossed(ac, bd)) / max(longest, 1e-20);
 }
 
-// What the edge from p to q spans between two verticals: y from .x to .y, depth from .z to .w; nothing where it lies beside.
+// The part of the edge from p to q between the verticals `left` and `right`: y from .x to .y, depth from .z to .w. The range is
+// empty (.x > .y) if the edge lies outside.
 vec4 span_of(vec3 p, vec3 q, float left, float right) {
     vec3 l = p.x < q.x ? p : q, r = p.x < q.x ? q : p;
     float from = max(left, l.x), to = min(right, r.x), length_ = max(r.x - l.x, 1e-20);
@@ -32,7 +35,7 @@ vec4 span_of(vec3 p, vec3 q, float left, float right) {
     return from <= to ? vec4(low.x, high.x, low.y, high.y) : vec2(3.4e38, -3.4e38).xyxy;
 }
 
-// What two of these span together.
+// The union of two such ranges.
 vec4 both_of(vec4 a, vec4 b) {
     vec4 low = min(a, b), high = max(a, b);
     return vec4(low.x, high.y, low.z, high.w);

@@ -1,4 +1,4 @@
-// Which tiles of 8 x 4 pixels a triangle touches; `cull` and `bin` decide alike.
+// Which tiles of 8 x 4 pixels a triangle touches. `cull` and `bin` both use this, and so agree.
 #ifndef TILES_GLSL
 #define TILES_GLSL
 #include "finite.glsl"
@@ -6,15 +6,15 @@
 
 struct Footprint {
     ivec2 low, high;    // touched pixels of the region, inclusive
-    bool outside;       // of the region
-    bool unprojected;   // has a vertex at or behind the eye, or very far off the region
+    bool outside;       // whether it touches no pixel of the region
+    bool unprojected;   // whether a vertex lies at or behind the eye, or very far off the region
 };
 
-// How far a sample of a pixel can be from its centre, and some for the rounding of positions relative to the region
-// instead of the tile.
+// How far a sample of a pixel can be from its centre, with a margin for rounding, since positions are relative to the region
+// here, and to the tile elsewhere.
 #define REACH (frame.reach + 1.0 / 64.0)
 
-// Pixels whose square the triangle's bounding box touches.
+// The pixels of the region whose samples the triangle's bounding box may touch.
 Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
     Footprint f;
     vec4 v0 = relative_to(c0, frame.origin), v1 = relative_to(c1, frame.origin), v2 = relative_to(c2, frame.origin);
@@ -22,7 +22,7 @@ Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
     f.unprojected = !(projectable(v0) && projectable(v1) && projectable(v2));
     vec2 q0 = v0.xy / v0.w, q1 = v1.xy / v1.w, q2 = v2.xy / v2.w;
     vec2 low = min(q0, min(q1, q2)), high = max(q0, max(q1, q2));
-    // Homogeneous half-space tests need no division: all vertices on the outer side of one border.
+    // The triangle is outside if all vertices are on the outer side of one border. Homogeneous tests need no division.
     bvec2 before = bvec2(
         v0.x < -REACH * v0.w && v1.x < -REACH * v1.w && v2.x < -REACH * v2.w,
         v0.y < -REACH * v0.w && v1.y < -REACH * v1.w && v2.y < -REACH * v2.w);
@@ -53,14 +53,14 @@ vec2 tile_center(ivec2 tile) {
     return frame.origin + vec2(tile * ivec2(8, 4)) + vec2(3.5, 1.5);
 }
 
-// Flags in tiles[].w; the length of a placed list stands above them.
+// Flags in tiles[].w. The bits above them hold the length of the tile's list, once `enlist` has placed it.
 #define TILE_HAS_MASK 1u
 #define TILE_HAS_BLEND 2u
 #define TILE_LISTED 4u
 #define TILE_OVERFLOW 8u    // a pair of the tile was not kept
 #define TILE_COUNT_SHIFT 8
 
-// Whether a tile is in the round at hand: what `enlist` wrote of those before is spent.
+// Whether a tile is in the current round. What `enlist` wrote for tiles of earlier rounds is no longer valid.
 bool in_round(uint tile) {
     return tile >= counters[COUNTER_ROUND_FIRST] && tile < counters[COUNTER_NEXT_TILE];
 }

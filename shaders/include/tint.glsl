@@ -1,10 +1,10 @@
-// What layers let through of each channel, in the fourth number of a shaded record: ten bits each, of the root, so that dark
-// tints keep their colour.
+// The tint of a layer: the share of light that it lets through, for each channel. It is packed into the fourth number of a
+// shaded record: ten bits for the square root of each channel, so that dark tints keep their colour.
 #ifndef TINT_GLSL
 #define TINT_GLSL
 #include "interface.glsl"
 
-layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;     // layers have tints in place of opacities, and their light is premultiplied
+layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;     // layers have tints, not opacities; light is premultiplied
 
 float pack_tint(vec3 through) {
     uvec3 q = uvec3(round(sqrt(clamp(through, vec3(0.0), vec3(1.0))) * 1023.0));

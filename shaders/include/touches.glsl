@@ -2,9 +2,9 @@
 #ifndef TOUCHES_GLSL
 #define TOUCHES_GLSL
 
-// Columns of a row that three half-planes have in common, as 8 bits: a x + e >= 0 for x from 0.
+// The columns x = 0 to 7 of a row of pixels at which all three functions a x + e are at least 0, a bit each.
 uint columns_within(vec3 a, vec3 e) {
-    // What is parallel to the row holds the whole of it, or nothing.
+    // An edge that is parallel to the row has the whole row on one side.
     bvec3 parallel = lessThan(abs(a), vec3(1e-30));
     a = mix(a, vec3(0.0), parallel);
     vec3 root = -e / mix(a, vec3(1.0), parallel);
@@ -15,7 +15,8 @@ uint columns_within(vec3 a, vec3 e) {
     return misses ? 0u : ((1u << max(high, low)) - 1u) & ~((1u << low) - 1u);
 }
 
-// Those whose square the edges leave something of, as a mask word; a 64th of a pixel more covers rounding.
+// The pixels of the tile in whose squares the triangle may cover something, a bit each. Squares are larger by 1/64 of a pixel on
+// each side, for rounding.
 uint pixels_touched(Setup s) {
     vec3 e = s.c - 3.5 * s.a - 1.5 * s.b + (0.5 + 1.0 / 64.0) * (abs(s.a) + abs(s.b));
     uint word = 0u;

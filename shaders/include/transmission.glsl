@@ -1,14 +1,15 @@
-// KHR_materials_transmission and KHR_materials_volume: what of the light behind a surface passes it, straight on, tinted by
-// the base colour and by absorption over the thickness (Beer and Lambert).
+// KHR_materials_transmission and KHR_materials_volume: light from behind that passes a surface without refraction. It is tinted
+// by the base colour, and by absorption over the thickness (the law of Beer and Lambert).
 #ifndef TRANSMISSION_GLSL
 #define TRANSMISSION_GLSL
 
-// Share of the light that the surface does not reflect that passes, for a dielectric.
+// For a dielectric: of the light that the surface does not reflect, the share that passes.
 float transmitted(Place place) {
     return material_vector(place.material, MATERIAL_TRANSMISSION).x * READ(TRANSMISSION_TEXTURE, place).r;
 }
 
-// What a volume leaves of it, whose thickness is that of a mesh which is drawn so many times as large.
+// The share of this light that the volume does not absorb. Its thickness is given in lengths of the mesh; `scale` is how much
+// longer these are in the world.
 vec3 volume_passes(Place place, float scale) {
     float thickness = material_vector(place.material, MATERIAL_TRANSMISSION).y * READ(THICKNESS_TEXTURE, place).g * scale;
     return exp(-material_vector(place.material, MATERIAL_VOLUME).rgb * thickness);

@@ -1,29 +1,28 @@
-// The triangle of an ID, its vertices in clip space, and the way of its attributes to the geometry's space.
+// Triangles by their index: their vertices in clip space, and their attributes in the geometry's space.
 //
-// A position goes from its mesh to clip space in one product wherever a pass needs it, and no pass writes it down: three
-// products cost about what reading three stored vertices does, and a vertex costs no memory a frame, however often its
-// mesh is drawn. The matrix is a product of 64 bits, rounded once, so that what is drawn lies at least as close to where
-// it should as if each vertex had been rounded in world space. Two instances that share an edge in space meet there up to
-// that rounding; triangles of one instance meet exactly.
+// Positions in clip space are not stored. Each pass that needs one multiplies the position in the mesh by one matrix. Three
+// products cost about as much as reading three stored vertices, and a mesh that is drawn many times takes no more memory. The
+// matrix is computed in 64 bits and rounded once, so that vertices are at least as exact as if they were rounded in world
+// space. Triangles of one instance meet exactly at common edges; triangles of two instances meet up to this rounding.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
 #include "interface.glsl"
 
-layout(constant_id = CONSTANT_INSTANCED) const bool INSTANCED = false;  // indices are those of instances, not of records
+layout(constant_id = CONSTANT_INSTANCED) const bool INSTANCED = false;  // indices of triangles count those of all instances
 
-// Vectors of an instance: (what leads from an index to a record, end of its indices, flags, 0), four columns to clip
-// space, three rows to the geometry's space.
+// Vectors of an instance: (added to an index, modulo 2^32: the index of its record in `triangles`; end of its indices; flags; 0),
+// four columns of the matrix to clip space, three rows of the matrix to the geometry's space.
 const int INSTANCE_VECTORS = 8;
 
 struct Triangle {
-    bool exists;        // indices between two instances stand for nothing: for a triangle without area
+    bool exists;        // false for indices between those of two instances: the triangle has no area then
     ivec3 vertices;
     uint word;          // see frame.glsl
     vec4 v0, v1, v2;    // clip space: (pixel x * w, pixel y * w, z, w)
-    int instance;       // first of its vectors, if INSTANCED
+    int instance;       // the first vector of its instance, if INSTANCED
 };
 
-// Every pass gets the same bits, so that they agree on shared edges.
+// A position in clip space. All passes compute the same bits, and so agree about shared edges.
 vec4 to_clip(mat4 matrix, vec4 p) {
     precise vec4 z = matrix[3] * p.w + matrix[2] * p.z;
     precise vec4 y = z + matrix[1] * p.y;
@@ -31,7 +30,7 @@ vec4 to_clip(mat4 matrix, vec4 p) {
     return x;
 }
 
-// Corners and word of the triangle that an instance, by its first vector, has at an index.
+// Vertices and word of the triangle at an index. `instance` is the first vector of its instance.
 uvec4 triangle_in(uvec4 instance, uint index) {
     uvec4 record = texelFetch(triangles, int(min(index, instance.y - 1u) + instance.x));
     record.yz = (instance.z & INSTANCE_MIRRORED) != 0u ? record.zy : record.yz;
@@ -43,7 +42,7 @@ int instance_at(uint index) {
     return INSTANCE_VECTORS * int(texelFetch(instance_of, int(index >> 6)).x);
 }
 
-// The word of a triangle alone.
+// The word of a triangle, without its vertices.
 uint triangle_word(uint index) {
     if (!INSTANCED) return texelFetch(triangles, int(index)).w;
     return triangle_in(texelFetch(instances, instance_at(index)), index).w;
@@ -75,7 +74,7 @@ Triangle triangle_at(uint index) {
     return t;
 }
 
-// Rows of a triangle's way to the geometry's space.
+// A row of the matrix from the triangle's mesh to the geometry's space.
 vec4 placing_row(Triangle t, int axis) {
     return uintBitsToFloat(texelFetch(instances, t.instance + 5 + axis));
 }
@@ -85,7 +84,7 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
     return l > 0.0 ? v * inversesqrt(l) : otherwise;
 }
 
-// The position, relative to the geometry's origin, that is between those of the vertices.
+// The interpolated position, relative to the geometry's origin.
 vec3 position_of(Triangle t, vec3 weights) {
     vec3 p = mat3(texelFetch(positions, t.vertices.x).xyz, texelFetch(positions, t.vertices.y).xyz, texelFetch(positions, t.vertices.z).xyz) * weights;
     if (!INSTANCED) return p;
@@ -93,11 +92,12 @@ vec3 position_of(Triangle t, vec3 weights) {
     return vec3(dot(placing_row(t, 0), q), dot(placing_row(t, 1), q), dot(placing_row(t, 2), q));
 }
 
-// What is between the vertices' unit normals.
+// The interpolation of the vertices' unit normals.
 vec3 normal_of(Triangle t, vec3 weights) {
     mat3 n = mat3(texelFetch(normals, t.vertices.x).xyz, texelFetch(normals, t.vertices.y).xyz, texelFetch(normals, t.vertices.z).xyz);
     if (!INSTANCED) return n * weights;
-    // The inverse transpose up to a positive factor, which is there for flat instances too.
+    // The cofactor matrix is the inverse transpose up to a factor, and exists for flat instances, too. The sign of the factor
+    // is that of the determinant, and is in `up.z`.
     vec3 x = placing_row(t, 0).xyz, y = placing_row(t, 1).xyz, z = placing_row(t, 2).xyz;
     mat3 turn = transpose(mat3(cross(y, z), cross(z, x), cross(x, y)));
     vec3 up = vec3(0.0, 0.0, dot(x, cross(y, z)) < 0.0 ? -1.0 : 1.0);
@@ -105,14 +105,14 @@ vec3 normal_of(Triangle t, vec3 weights) {
     return n * weights * up.z;
 }
 
-// How much longer a length is in the world than in the mesh, between the vertices.
+// How much longer a length is in the world than in the mesh, interpolated between the vertices.
 float scale_of(Triangle t, vec3 weights) {
     float scale = dot(vec3(texelFetch(normals, t.vertices.x).w, texelFetch(normals, t.vertices.y).w, texelFetch(normals, t.vertices.z).w), weights);
     if (!INSTANCED) return scale;
     return scale * pow(abs(dot(placing_row(t, 0).xyz, cross(placing_row(t, 1).xyz, placing_row(t, 2).xyz))), 1.0 / 3.0);
 }
 
-// What is between the vertices' unit tangents, and between the signs of their bitangents.
+// The interpolation of the vertices' unit tangents, and of the signs of their bitangents.
 vec4 tangent_of(Triangle t, vec3 weights) {
     mat3x4 w = mat3x4(texelFetch(tangents, t.vertices.x), texelFetch(tangents, t.vertices.y), texelFetch(tangents, t.vertices.z));
     if (!INSTANCED) return w * weights;

@@ -1,36 +1,37 @@
-// How much the colours of a triangle vary around a superpixel, as far as the centres of its pixel and of the 8 around it
-// tell, and so in how many parts of the pixel it is shaded. Twin: src/reference/variation.rs.
+// In how many parts of a superpixel a triangle is shaded. It depends on how much the triangle's colours vary at the centres of
+// the superpixel and of the 8 pixels around it. Twin: src/reference/variation.rs.
 #ifndef VARIATION_GLSL
 #define VARIATION_GLSL
 #include "triangle.glsl"
 
-// In which parts of a cell a triangle is shaded: in all, in these merged in pairs or in fours, or in one.
+// The parts of a cell in which a triangle is shaded: all, or all merged in pairs or in fours, or one for the whole cell.
 const uint PARTS_ALL = 0u, PARTS_PAIRS = 1u, PARTS_FOURS = 2u, PARTS_ONE = 3u;
 
-// Those where colours are known to vary little, and those where none is known. Parts of one sample are few as they are.
+// FEWER_PARTS: where colours are known to vary little. SOME_PARTS: where nothing is known about them. Cells with parts of one
+// sample have few parts anyway, which are merged less.
 const uint FEWER_PARTS = PART == 1u ? PARTS_PAIRS : PARTS_FOURS, SOME_PARTS = PART == 1u ? PARTS_ALL : PARTS_PAIRS;
 
-// Samples of a part.
+// Number of samples of a part.
 uint part_length(uint parts) { return PART << parts; }
 
-// Whether such a part is twice as wide as high, not a square: a cell is halved again and again, its height first.
+// Whether a part is twice as wide as high, not a square. Parts come from halving the cell again and again, its height first.
 bool part_is_wide(uint samples, uint parts) {
     return (findMSB(max(samples / part_length(parts), 1u)) & 1) != 0;
 }
 
-// Two triangles that centres see, that of the pixel's own centre first, and the parts for each of them and, after that,
-// for others of its material.
+// What the nine centres tell about two of the triangles that they see, the first being the one at the pixel's own centre: the
+// parts for each of the two, and for other triangles with their materials.
 struct Variation {
     uvec2 ids;
     uvec2 materials;
-    uint parts;             // 2 bits each: of the triangles, then of the materials
+    uint parts;             // 2 bits each: for the two triangles, then for their materials
 };
 
 uint variation_material(uint of) {
     return of == 0u ? ~0u : triangle_word(of - 1u) & 0xffffu;
 }
 
-// The widest channel of the colours in a bit set of `codes`, in code values.
+// The range of the colours of `codes` that are in the bit set `among`, in the channel where it is largest, in 8-bit codes.
 float variation_range(uint codes[9], uint among) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     [[unroll]] for (uint i = 0u; i < 9u; i++) {
@@ -48,18 +49,18 @@ uint variation_parts(float range) {
     return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? FEWER_PARTS : PARTS_ALL;
 }
 
-// The parts of a triangle that centres in a bit set see.
+// The parts for a triangle that the centres in the bit set `own` see. `of_material` are those for its material.
 uint variation_of_triangle(uint codes[9], uint own, uint of_material) {
     int count = bitCount(own);
     bool even = count >= 2 && 4.0 * variation_range(codes, own) <= float(frame.alike);
     return even && count >= 4 ? PARTS_ONE : even ? max(of_material, SOME_PARTS) : of_material;
 }
 
-// An invocation takes a pixel.
+// The variation around a pixel. Each invocation may take a pixel of its own.
 Variation variation_around(uvec2 pixel) {
     uint ids_[9], materials_[9], codes[9];
     [[unroll]] for (uint i = 0u; i < 9u; i++) {
-        uint place = i == 0u ? 4u : i <= 4u ? i - 1u : i;      // the pixel's own comes first
+        uint place = i == 0u ? 4u : i <= 4u ? i - 1u : i;      // the pixel itself comes first
         ivec2 there = ivec2(pixel) + ivec2(place % 3u, place / 3u) - 1;
         bool exists = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, ivec2(frame.size)));
         there = exists ? there : ivec2(min(pixel, frame.size - 1u));
@@ -104,7 +105,7 @@ bool high_frequency_triangle(uint of) {
     return high_frequency(triangle_word(max(of, 1u) - 1u));
 }
 
-// The parts that a triangle is shaded in.
+// The parts in which a triangle is shaded.
 uint parts_around(Variation around, uint triangle) {
     uint material = variation_material(triangle);
     uint at = triangle == around.ids.x ? 0u : triangle == around.ids.y ? 2u : material == around.materials.x ? 4u : 6u;

@@ -1,16 +1,16 @@
-// What `sample` and `resolve` work through: lists of entries in `tile_lists`, one for each kind of tile and, after
-// these, one for each kind that a PROBE leaves cells of. An entry is a work item - a tile, or a group of locations -
-// and which of its cells are meant: as many as a subgroup has invocations. Nothing is launched for cells that are none.
+// The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind, of
+// the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
+// a part of its cells: as many cells as a subgroup has invocations. Pixels that are not superpixels cause no work.
 #ifndef WORK_GLSL
 #define WORK_GLSL
 #include "lanes.glsl"
 #include "locations.glsl"
 #include "workarounds.glsl"
 
-const uint LEFT = 4u;               // from the list of a kind to that of the cells left
+const uint LEFT = 4u;               // added to the number of a kind's list: the list of the cells that are left
 const uint PARTS_OF_TILE = 32u / LANES;
 
-// First entry of a list.
+// The place of a list's first entry.
 uint first_entry(uint list) {
     return list * (LOCATIONS ? frame.group_count : frame.tiles.x * frame.tiles.y * PARTS_OF_TILE);
 }
@@ -19,7 +19,7 @@ uint work_entry(uint item, uint part) { return item << 3 | part; }
 uint entry_item(uint entry) { return entry >> 3; }
 uint entry_part(uint entry) { return entry & 7u; }
 
-// Bit number of a word's set bit number `cell`, from 0; 31 where it has no more than that.
+// The position of the set bit number `cell` of a word, both counted from 0; 31 if fewer bits are set.
 uint bit_of_cell(uint word, uint cell) {
     uint bit = 0u;
     [[unroll]] for (uint log = 0u; log < 5u; log++) {
@@ -32,8 +32,8 @@ uint bit_of_cell(uint word, uint cell) {
     return bit;
 }
 
-// Lists cells of a work item, a bit each, for the kernel that takes what others leave of a list. These and the cells that
-// others left fill entries one after the other. One invocation of a subgroup calls it.
+// Leaves `cells` of a work item, a bit each, to the kernel that runs later. Cells that several subgroups leave of an item fill
+// its entries one after the other. Only one invocation of a subgroup calls this.
 void leave_cells(uint list, uint item, uint cells) {
     uint more = uint(bitCount(cells)), before = uint(bitCount(atomicOr(marks[item], cells)));
     uint part = (before + LANES - 1u) / LANES;

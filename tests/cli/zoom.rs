@@ -27,7 +27,7 @@ const OPTIONS: [&str; 6] = [
     "0.5",
 ];
 
-/// Writes a test card whose colour tells the place: red is u and green is v, in 512ths.
+/// Writes a test card whose colour is the place: red is u / 512, and green is v / 512.
 fn write_card(path: &Path) {
     let pixel = |i: u32| {
         let (u, v) = (i % SIZE[0], i / SIZE[0]);

@@ -190,7 +190,7 @@ fn rotated() {
     }
 }
 
-/// Numbers that are no powers of two are as good.
+/// Numbers of samples that are no powers of two are as good as others.
 #[test]
 fn any_count_is_a_good_one() {
     for pattern in [Pattern::Sobol, Pattern::Lattice, Pattern::Korobov] {

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// Size of the images whose passes are drawn, in pixels.
 const SIZE: [u32; 2] = [64, 48];
 
-/// Data that nearly all passes share: it would say nothing of the order of passes.
+/// Data that nearly all passes share, which the drawings leave out.
 const SHARED: [&str; 3] = ["frame", "counters", "arguments"];
 
 /// Passes of a frame.
@@ -82,8 +82,8 @@ fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {
     (headless, prepared, camera)
 }
 
-/// A line for each pass: what it reads of what passes before it wrote, and what it writes. Passes that were all there before,
-/// at the end, are named only.
+/// A line for each pass: the data that it reads and an earlier pass wrote, and the data that it writes. If passes at the end
+/// repeat earlier ones, only the first and the last of them are named.
 fn draw(passes: &[FramePass]) -> String {
     let is_again = |from: usize| {
         let known: BTreeSet<_> = passes[..from].iter().map(|pass| pass.name).collect();
@@ -104,7 +104,7 @@ fn draw(passes: &[FramePass]) -> String {
             .collect();
         let writes: Vec<&str> = pass.writes.iter().filter(shown).copied().collect();
         written.extend(writes.iter().copied());
-        // A pass that runs twice in a row is one; `arguments` only says how large dispatches are.
+        // A pass that runs twice in a row counts once. `arguments`, which only computes sizes of dispatches, is left out.
         if pass.name != "arguments" && last.replace(pass.name) != Some(pass.name) {
             let name = pass.name.trim_end_matches("_fragment");
             let line = format!("{name:12} {} ─▶ {}", reads.join(", "), writes.join(", "));

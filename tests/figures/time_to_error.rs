@@ -1,10 +1,10 @@
-//! The headline: how soon superpixels reach the error of supersampling.
+//! The most important figure: how fast superpixels reach the error of supersampling.
 
 use crate::data::{self, Measurement, Row, Spread, spread};
 use crate::text::{Table, cells, grouped, short};
 
-/// Share of supersampling's time, at `samples` samples, in which superpixels of any number of samples reach its RMSE: the time of
-/// the fastest number of samples that does, or 1 if none does.
+/// Time in which superpixels reach the RMSE of supersampling with `samples` samples, over the time of supersampling. Of the
+/// numbers of samples that reach it, the fastest counts; the share is 1 if none does.
 fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
     let target = of.find(scene, "ssaa", samples)?;
     let tried = of.samples("superpixel");

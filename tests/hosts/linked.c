@@ -1,4 +1,4 @@
-/* What any program does that is linked with the library, without Vulkan's own library. */
+/* A minimal program that is linked with the library, but not with Vulkan's own library. */
 
 #include <gpc.h>
 

@@ -1,4 +1,4 @@
-/* What bad input is answered, through the header in C99; the program's exit status says whether all was as expected. */
+/* Results and messages for bad input, through the header in C99. The program's exit status says whether all was as expected. */
 
 #include <gpc.h>
 #include <vulkan/vulkan.h>
@@ -17,7 +17,7 @@ static int failures = 0;
         }                                                                       \
     } while (0)
 
-/* The answer to a call, and a part of the message. */
+/* Expects that a call returns a result, and sets a message that contains a text. */
 #define ANSWERS(call, result, text)                                             \
     EXPECT((call) == (result) && strstr(gpc_last_error(), text) != NULL, #call)
 
@@ -163,7 +163,7 @@ static void old_instances(void) {
     }
 }
 
-/* Counts what is lent: names that were given to objects, memory that is allocated. */
+/* Counts calls of functions that are lent to the library: naming of objects, allocation of memory, creation of pipelines. */
 static int pipelines_named, buffers_named, images_named, allocated, freed, mapped, cached, uncached;
 static VkPipelineCache cache;
 
@@ -213,7 +213,7 @@ static VkBool32 allocate_for_library(void *user, const GpcMemoryRequest *request
            (properties.memoryTypes[info.memoryTypeIndex].propertyFlags & wanted) != wanted) {
         ++info.memoryTypeIndex;
     }
-    /* Not at the beginning of the memory. */
+    /* The library must use the offset, so it is not 0. */
     memory->offset = request->requirements.alignment;
     memory->user = user;
     info.allocationSize = memory->offset + request->requirements.size;

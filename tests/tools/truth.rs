@@ -1,4 +1,4 @@
-//! The reference of a textured scene, and the faults of errors against it.
+//! The reference of a textured scene, and the causes of errors against it.
 
 use crate::difference::rmse;
 use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
@@ -135,7 +135,8 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     yardstick.split_within(&image, &causes, &faults).unwrap()
 }
 
-/// Noise in paint is the fault of texture, and noise in normals that of light; edges only err between triangles.
+/// Noise in the colour counts as an error of texture, noise in normals as one of lighting, and errors of edges occur only between
+/// triangles.
 #[test]
 fn paint_and_light_are_told_apart() {
     let noise = textured(AlphaMode::Opaque).base_color_texture;

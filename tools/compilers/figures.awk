@@ -1,9 +1,9 @@
-# Prints the figures of a piece of hardware from a report of layer.cpp, and those that pass a bound. Fails if there are any.
+# Prints the figures of a piece of hardware from a report of layer.cpp, and those that violate a bound. Fails if any does.
 #
 #   awk -F '\t' -v hardware=NAME -v kernels="NAME..." -f figures.awk bounds.txt REPORT
 
 BEGIN {
-    # What RADV, ANV and NVK call a statistic.
+    # The names of statistics in RADV, ANV and NVK.
     figures = split("lanes registers spilled scratch shared waves code", order, " ")
     terms["lanes"] = "Subgroup size"
     terms["registers"] = "VGPRs|Number of GPRs"

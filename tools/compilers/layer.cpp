@@ -1,9 +1,9 @@
 // A Vulkan layer that lets a program run to its end over a driver without its hardware, and reports what the driver's compiler
 // made of each pipeline and which commands were recorded. tools/test-compilers.sh builds and uses it.
 //
-// The driver gets only what pipelines are made of: shaders, layouts, samplers and the pipelines themselves. The layer answers
-// all other calls for the device: they succeed and do nothing, handles are invented, and mapped memory is zero.
-// One instance and one device at a time.
+// The driver gets only the calls for pipelines and what they are made of: shaders, layouts and samplers. The layer answers all
+// other calls for the device: they succeed and do nothing, handles are invented, and mapped memory is zero. There may be only
+// one instance and one device at a time.
 //
 // Environment: GPC_LAYER_REPORT is the file to which lines are added, GPC_LAYER_SPIRV the folder of the SPIR-V files that give
 // shaders their names. A line has fields between tabs:
@@ -29,7 +29,7 @@
 
 namespace {
 
-std::recursive_mutex mutex;  // of all that follows
+std::recursive_mutex mutex;  // for all variables below
 PFN_vkGetInstanceProcAddr driver_instance_function;
 PFN_vkGetDeviceProcAddr driver_device_function;
 VkInstance instance;
@@ -48,8 +48,8 @@ void report(const std::string &line) {
 
 // --------------------------------------------------------------------------------------------------------------- pipelines
 
-std::map<std::string, std::string> shader_names;  // by SPIR-V
-std::map<VkShaderModule, std::string> modules;    // their names
+std::map<std::string, std::string> shader_names;  // names of shaders by their SPIR-V
+std::map<VkShaderModule, std::string> modules;    // names of modules
 
 void read_shader_names() {
     const char *folder = getenv("GPC_LAYER_SPIRV");
@@ -69,7 +69,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateShaderModule(VkDevice d, const VkShaderMo
     return result;
 }
 
-// Name of a stage's shader, and its constants.
+// The name of a stage's shader, and its specialisation constants.
 std::pair<std::string, std::string> described(const VkPipelineShaderStageCreateInfo &stage) {
     std::string constants;
     auto *s = stage.pSpecializationInfo;
@@ -118,7 +118,7 @@ double milliseconds() {
     return t.tv_sec * 1e3 + t.tv_nsec * 1e-6;
 }
 
-// Makes pipelines one by one, to have the time of each.
+// Makes pipelines one by one, to measure the time of each.
 template <class Info, class Create>
 VkResult create_pipelines(Create create, VkPipelineCache cache, uint32_t count, const Info *infos, const VkAllocationCallbacks *a,
                           VkPipeline *out) {
@@ -184,12 +184,12 @@ VkDeviceSize invent() {
     return ++last;
 }
 
-// Any function of the device without output.
+// Stands for any function of the device without output.
 VKAPI_ATTR VkResult VKAPI_CALL succeed() { return VK_SUCCESS; }
 
 VKAPI_ATTR VkResult VKAPI_CALL vkGetEventStatus(VkDevice, VkEvent) { return VK_EVENT_SET; }
 
-// Any function that makes one object.
+// Stands for any function that makes one object.
 VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice, const void *, const VkAllocationCallbacks *, VkDeviceSize *out) {
     *out = invent();
     return VK_SUCCESS;
@@ -206,7 +206,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkGetQueryPoolResults(VkDevice, VkQueryPool, uint
     return VK_SUCCESS;
 }
 
-// The memory of a discrete GPU of 8 GiB.
+// Reports the memory of a discrete GPU with 8 GiB.
 VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceMemoryProperties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties *out) {
     const VkMemoryPropertyFlags mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     *out = {};
@@ -222,7 +222,7 @@ VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceMemoryProperties2(VkPhysicalDevice
     vkGetPhysicalDeviceMemoryProperties(p, &out->memoryProperties);
 }
 
-std::map<VkDeviceSize, VkDeviceSize> sizes;            // of buffers, images and memory, in bytes
+std::map<VkDeviceSize, VkDeviceSize> sizes;            // sizes of buffers, images and memory, in bytes
 std::map<VkDeviceSize, std::vector<char>> mapped;      // memory that was mapped
 
 VKAPI_ATTR VkResult VKAPI_CALL vkCreateBuffer(VkDevice, const VkBufferCreateInfo *info, const VkAllocationCallbacks *,
@@ -241,7 +241,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateImage(VkDevice, const VkImageCreateInfo *
     return VK_SUCCESS;
 }
 
-// Of a buffer or an image.
+// Stands for the functions that return the memory requirements of a buffer or an image.
 VKAPI_ATTR void VKAPI_CALL memory_requirements(VkDevice, VkDeviceSize object, VkMemoryRequirements *out) {
     Guard guard(mutex);
     *out = {sizes[object], 256, 7};
@@ -270,7 +270,7 @@ VKAPI_ATTR void VKAPI_CALL vkFreeMemory(VkDevice, VkDeviceSize memory, const VkA
 
 // ----------------------------------------------------------------------------------------------------- the layer in its chain
 
-// The loader's link to what lies below the layer.
+// The loader's link to the next layer or the driver.
 template <class Info> Info *link(const void *chain, VkStructureType type) {
     auto *item = static_cast<const VkBaseInStructure *>(chain);
     while (item->sType != type || reinterpret_cast<const Info *>(item)->function != VK_LAYER_LINK_INFO) item = item->pNext;
@@ -311,13 +311,13 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice p, const VkDevice
 #define NAMED(function) {#function, reinterpret_cast<PFN_vkVoidFunction>(function)}
 #define COUNTED(function, kind) {#function, reinterpret_cast<PFN_vkVoidFunction>(count<&Commands::kind>)}
 
-// Functions of instances and physical devices that the layer has.
+// Functions of instances and physical devices that the layer implements.
 const std::map<std::string, PFN_vkVoidFunction> instance_functions = {
     NAMED(vkCreateInstance), NAMED(vkCreateDevice), NAMED(vkGetPhysicalDeviceMemoryProperties),
     NAMED(vkGetPhysicalDeviceMemoryProperties2),
 };
 
-// Functions of devices that the layer has, ...
+// Functions of devices that the layer implements.
 const std::map<std::string, PFN_vkVoidFunction> device_functions = {
     NAMED(vkCreateShaderModule), NAMED(vkCreateComputePipelines), NAMED(vkCreateGraphicsPipelines), NAMED(vkBeginCommandBuffer),
     NAMED(vkEndCommandBuffer), NAMED(vkAllocateDescriptorSets), NAMED(vkGetQueryPoolResults), NAMED(vkGetEventStatus),
@@ -329,7 +329,7 @@ const std::map<std::string, PFN_vkVoidFunction> device_functions = {
     COUNTED(vkCmdUpdateBuffer, transfers), COUNTED(vkCmdCopyBufferToImage, transfers), COUNTED(vkCmdCopyImageToBuffer, transfers),
 };
 
-// ... and those that stay the driver's, by what their names begin with.
+// Beginnings of the names of device functions that stay the driver's.
 const char *const driver_functions[] = {
     "vkGetDeviceQueue", "vkDestroyDevice", "vkCreateDescriptorSetLayout", "vkDestroyDescriptorSetLayout", "vkCreateSampler",
     "vkDestroySampler", "vkCreatePipeline", "vkDestroyPipeline", "vkMergePipelineCaches", "vkGetPipeline", "vkDestroyShaderModule",
@@ -353,7 +353,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice d, const char 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance i, const char *name) {
     if (!strcmp(name, "vkGetInstanceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(instance_function);
     if (!strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(device_function);
-    // The loader asks for these functions of devices here.
+    // The loader asks for these device functions through the instance.
     if (strstr(name, "DebugUtils")) return reinterpret_cast<PFN_vkVoidFunction>(succeed);
     auto found = instance_functions.find(name);
     return found == instance_functions.end() ? driver_instance_function(i, name) : found->second;

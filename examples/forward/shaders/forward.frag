@@ -1,4 +1,4 @@
-// forward: the light of a fragment, and the ID of its triangle.
+// forward: writes the light of a fragment, and the ID of its triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"

@@ -1,4 +1,4 @@
-// forward: an object's vertices, from the renderer's own format.
+// forward: transforms an object's vertices, which are in the renderer's own format.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"

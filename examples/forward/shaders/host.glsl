@@ -5,7 +5,7 @@
 
 struct Object { mat4 to_clip; mat4 to_world; vec4 color; };
 
-// Vertices as they are packed: x, y, z as floats, then 8 bits of the normal's x, y, z and nothing.
+// Packed vertices: x, y, z as floats, then the normal's x, y, z in 8 bits each, and 8 unused bits.
 layout(std430, set = HOST_SET, binding = 0) readonly buffer Vertices { uvec4 vertices[]; };
 layout(std430, set = HOST_SET, binding = 1) readonly buffer Objects { Object objects[]; };
 

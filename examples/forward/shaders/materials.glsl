@@ -1,9 +1,9 @@
-// The renderer's two materials, wherever they are shaded: by fragments, or at what the library samples.
+// The renderer's two materials. Both fragments and the library's samples are shaded with them.
 
 const uint CHECKERS = 0u, GLOSS = 1u;
 const vec3 TO_SUN = vec3(0.424, 0.848, 0.318);
 
-// The mean of a checkerboard of -1 and 1 over a box: its integral along each axis is a zigzag.
+// The mean, over a box, of a checkerboard of -1 and 1. The checkerboard's integral along an axis is a triangle wave.
 float checkers(vec2 at, vec2 side) {
     vec2 wide = max(side, 1e-4);
     vec2 low = abs(mod(at - 0.5 * wide, 2.0) - 1.0), high = abs(mod(at + 0.5 * wide, 2.0) - 1.0);
@@ -11,7 +11,7 @@ float checkers(vec2 at, vec2 side) {
     return mean.x * mean.y;
 }
 
-// That over a parallelogram: over boxes along its longer side.
+// The mean over a parallelogram, which is approximated by a row of boxes along its longer side.
 float checkers(vec2 at, vec2 dx, vec2 dy) {
     const float BOXES = 8.0;
     bool wide = dot(dx, dx) > dot(dy, dy);
@@ -21,7 +21,8 @@ float checkers(vec2 at, vec2 dx, vec2 dy) {
     return sum / BOXES;
 }
 
-// Linear light from a place in the world whose change over what is shaded is dx and dy.
+// The light of a surface at a place in the world, in linear light. `dx` and `dy` are the change of the place across the part of a
+// pixel that is shaded.
 vec3 light_of(uint key, vec3 color, vec3 place, vec3 normal, vec3 eye, vec3 dx, vec3 dy) {
     vec3 n = normalize(normal);
     vec3 diffuse = color * (0.25 + 0.75 * max(dot(n, TO_SUN), 0.0));

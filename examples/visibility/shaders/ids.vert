@@ -1,4 +1,4 @@
-// ids: the host's visibility buffer; with MASKED, of surfaces with holes.
+// ids: draws the host's visibility buffer. MASKED: surfaces with holes, which need texture coordinates.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host.glsl"

@@ -1,4 +1,5 @@
-// lens: where a magnifying glass over the middle of the picture looks, for the library to sample.
+// lens: writes the locations that are seen through a magnifying glass over the middle of the picture, for the library to sample.
+// An invocation takes a location.
 #version 460
 layout(local_size_x = 64) in;
 struct Location { ivec2 pixel; vec2 within; mat2 jacobian; };
@@ -6,11 +7,11 @@ layout(std430, binding = 0) writeonly buffer Locations { Location locations[]; }
 layout(push_constant) uniform Push {
     uvec2 size;         // of the picture, in pixels
     uint side;          // locations along a pixel's side
-    uint first_row;     // of the picture's pixels
+    uint first_row;     // first row of the picture's pixels
 } push;
 
 const float MAGNIFICATION = 3.0;    // in the middle
-const float RADIUS = 0.45;          // of the glass, in heights of the picture
+const float RADIUS = 0.45;          // of the glass, over the picture's height
 
 // The point of the image plane that is seen at a point of the picture, both in pixels from the upper left corner, y down.
 vec2 lens(vec2 at) {

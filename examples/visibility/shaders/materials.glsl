@@ -1,9 +1,9 @@
-// The host's materials, wherever they are shaded: at the centres of pixels, or at what the library samples.
+// The host's materials. Both the centres of pixels and the library's samples are shaded with them.
 #include "gpc_texture.glsl"
 
 const uint WAVES = 0u, BRICKS = 1u, GLOW = 2u, FENCE = 3u;
 
-// The mean of a wave around the origin of the world over a box.
+// The mean, over a box, of circular waves around the origin of the world.
 float waves(vec2 at, vec2 side) {
     const float FREQUENCY = 6.0;
     float r = length(at), across = FREQUENCY * dot(abs(at), side) / max(r, 1e-3);
@@ -11,7 +11,8 @@ float waves(vec2 at, vec2 side) {
     return 0.5 + 0.5 * cos(FREQUENCY * r) * mean;
 }
 
-// Linear light that a surface gives off: of a triangle's vertices at weights, whose change covers what is shaded.
+// The light of a surface, in linear light. `weights` are the barycentric coordinates of a place on a triangle with vertices `v`;
+// `dx` and `dy` are their change across the part of a pixel that is shaded.
 vec3 light_of(uint key, uvec3 v, vec3 weights, vec3 dx, vec3 dy) {
     mat3 place = mat3(posed[v.x].position, posed[v.y].position, posed[v.z].position);
     mat3 turn = mat3(posed[v.x].normal, posed[v.y].normal, posed[v.z].normal);
@@ -27,7 +28,7 @@ vec3 light_of(uint key, uvec3 v, vec3 weights, vec3 dx, vec3 dy) {
         return lit * gpc_texture(bricks, uv * weights, uv * dx, uv * dy).rgb;
     }
     if (key == FENCE) {
-        // Of a sheet, both sides of which are seen and lit.
+        // The fence is a sheet, of which both sides are visible and lit.
         return (0.3 + 0.7 * abs(to_light)) * vec3(0.1, 0.3, 0.12);
     }
     return vec3(1.0, 0.6, 0.15);

@@ -1,4 +1,4 @@
-// pose: the vertices of an instance of a mesh, in their place.
+// pose: moves the vertices of an instance of a mesh to their place. An invocation takes a vertex.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define POSED_ACCESS writeonly

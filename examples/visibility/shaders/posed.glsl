@@ -1,4 +1,4 @@
-// Vertices in their place: in clip space, and in the world.
+// Vertices in their place: positions in clip space, and vertices in the world.
 #ifndef POSED_ACCESS
 #define POSED_ACCESS readonly
 #endif

@@ -1,4 +1,4 @@
-// samples: the same materials at what the library samples; one dispatch a material.
+// samples: shades the library's samples with the host's materials, in a dispatch for each material. An invocation takes a sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GPC_SET 0

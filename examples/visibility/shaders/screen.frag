@@ -1,4 +1,4 @@
-// screen: the colour of the centre of each pixel, from the visibility buffer.
+// screen: shades the centre of each pixel, from the visibility buffer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// samples: light by the weights of a triangle's corners, which anything but the library's own records would change.
+// samples: shades each sample with its barycentric coordinates, so that a change of the library's records changes the image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GPC_SET 0

@@ -1,5 +1,6 @@
-/* A Vulkan layer that loses devices: once there is a file of the name in GPC_LOSE_DEVICE, the next submission of commands
- * fails, and all that follow it on that device. The file is removed; a folder is not, and takes one device after the other. */
+/* A Vulkan layer that loses devices. If there is a file with the name in GPC_LOSE_DEVICE, the next submission of commands to a
+ * device fails, and so do all later ones to that device. The file is then removed. A folder is not removed, so that all devices
+ * fail. */
 
 #include <pthread.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 
 #define MOST 64
 
-/* What handles of one instance or device begin with: their dispatch table. */
+/* The address of the dispatch table, with which all handles of one instance or device begin. */
 static void *key_of(void *handle) { return *(void **)handle; }
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

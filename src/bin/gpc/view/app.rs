@@ -20,7 +20,7 @@ pub enum Event {
     Changed,
     /// A frame was prepared.
     Prepared(Box<Prepared>),
-    /// A picture was made that frames can't show.
+    /// A picture that frames can't show was made.
     Made(Made),
 }
 

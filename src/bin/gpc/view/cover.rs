@@ -81,8 +81,8 @@ impl Cover {
         !self.is_wanted() || self.is_done
     }
 
-    /// Number and samples of the first order after a change of the view, or of the lenses alone. `asked` is the number
-    /// of samples of the last order in the series.
+    /// Number and samples of the first order after a change of the view or, if `view_changed` is false, of the lenses.
+    /// `asked` is the number of samples of the last order in the series.
     pub fn begin(&mut self, view_changed: bool, asked: u32) -> (u64, u32) {
         let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
         let below = |samples: &u32| *samples < asked && !needs_all;

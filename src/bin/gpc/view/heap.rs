@@ -1,4 +1,4 @@
-//! Heap settings of the process, which lives for hours where a command lives for seconds.
+//! Heap settings of the process, which may run for hours, unlike other commands.
 
 /// Keeps glibc from giving each thread a heap of its own. Drivers and the renderer compile in many short-lived
 /// threads, and such heaps keep the memory that their threads freed: after a while of changing methods and scenes,

@@ -178,7 +178,7 @@ impl Turntable {
         self.distance = (self.distance + deeper).max(1e-6 * self.distance);
     }
 
-    /// Moves eye and target: right, up and forward, in units of the scene.
+    /// Moves eye and target. The components of `by` are right, up and forward, in units of the scene.
     pub fn fly(&mut self, by: DVec3) {
         let (right, up) = self.across();
         self.target += by.x * right + by.y * up - by.z * self.backward();

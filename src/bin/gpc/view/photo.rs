@@ -227,8 +227,8 @@ impl PhotoView {
         }
     }
 
-    /// Location in the ordinary view for a place inside of the loupe, and the distance between neighbouring pixels
-    /// there. The middle of the loupe shows the same as the image, in the same size.
+    /// Location in the ordinary (not zoomed) view for a place inside of the loupe, and the distance between the
+    /// locations of neighbouring pixels. The middle of the loupe shows the same as the image, in the same size.
     fn unzoomed(&self, place: DVec2) -> Option<(DVec2, f64)> {
         let (middle, zoomed) = (self.loupe?, self.photo.zoomed()?);
         if self.outside_loupe(place)? >= 0.0 {

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 use gpc::camera::Ray;
 use gpc::scene::Geometry;
 
-/// First point at which a ray meets a triangle, from either side and whatever its alpha.
+/// First point at which a ray meets a triangle. Both sides of triangles count, and alpha is ignored.
 pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
     let start = ray.start - geometry.origin;
     let meet = |triangles: std::ops::Range<usize>, place: DAffine3| {

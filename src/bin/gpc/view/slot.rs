@@ -24,7 +24,7 @@ pub struct Slot {
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     done: vk::Fence,
-    /// Signalled when the window's image may be drawn to.
+    /// Semaphore that is signalled when the window's image may be drawn to.
     pub free: vk::Semaphore,
     is_busy: bool,
     /// Work on pictures that the commands contain.
@@ -77,7 +77,7 @@ impl Slot {
         Ok(slot)
     }
 
-    /// Whether submitted commands have not been found to be finished.
+    /// Whether commands were submitted and are not known to be finished.
     pub fn is_busy(&self) -> bool {
         self.is_busy
     }
@@ -116,7 +116,7 @@ impl Slot {
     /// `drawn` when they are done.
     pub fn submit(&mut self, drawn: vk::Semaphore) -> Result<(), VulkanError> {
         let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
-        // Rendering needs not wait for the window's image, which the commands first copy to.
+        // Rendering need not wait for the window's image, which is first used by copies.
         let waits = [vk::SemaphoreSubmitInfo::default()
             .semaphore(self.free)
             .stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];

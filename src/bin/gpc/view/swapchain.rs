@@ -19,7 +19,7 @@ pub struct Swapchain {
 struct SwapchainImage {
     image: vk::Image,
     view: vk::ImageView,
-    /// Signalled when the image is drawn.
+    /// Semaphore to signal when the image is drawn.
     drawn: vk::Semaphore,
 }
 
