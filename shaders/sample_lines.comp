@@ -1,34 +1,37 @@
-// sample_lines: what sample.comp finds, for cells of triangles that are opaque or alpha-tested, by samples on straight lines
-// (include/lines.glsl): a subgroup takes a cell, and then the next one. A cell is a pixel, or what the Jacobian of one of
-// LOCATIONS makes of a square around it, whose own coordinates lines follow.
-// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers; marks and lists the cells that it leaves to
-// sample.comp: those that see more than SLOTS triangles, or one that crosses the near plane, or that take too many trips of loops.
+// sample_lines: finds the same as sample.comp, for cells with opaque or alpha-tested triangles whose samples lie on straight
+// lines (include/lines.glsl). A subgroup takes the cells of an entry of a work list one after the other; an invocation holds
+// some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
+// location's Jacobian. Lines run along these sides.
+// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that see more than SLOTS triangles or one that
+// crosses the near plane, or that take too many trips of loops, and cells of tiles with more than INDEX candidates, are marked
+// and listed for sample.comp.
 //
-// A triangle covers a run of samples on a line, between the crossings of its edges. Candidates come by their nearest depth in
-// the cell, the nearest first. A sample has one owner, whose slot's number is held as bits. A triangle takes what it covers and
-// nobody owns. What is owned is compared, one owner at a time: where two planes cross, the line where they do is an edge, too.
-// What the triangles own that are nearer than all that is to come is settled, and lost to what comes without a comparison.
-// A cell is done when all samples are owned and what is to come lies behind all owners.
+// On a line, a triangle covers a run of samples between the crossings of its edges. Candidates are taken in the order of their
+// nearest depth in the cell, the nearest first. Each sample has at most one owner: the slot of the triangle that it sees, whose
+// number is stored in bit planes. A candidate takes the samples that it covers and that have no owner. Samples with an owner are
+// compared, one owner at a time: the line in which the depth planes of the two triangles intersect is treated like an edge. If
+// an owner is nearer than all remaining candidates, its samples are settled: candidates lose them without a comparison. A cell
+// is done when all samples have owners and all remaining candidates lie behind these.
 //
-// Two triangles that share an edge find the same numbers for its crossings, so that each sample falls on one side.
+// For a common edge, two triangles compute the same crossings to the bit, so that each sample is on one side of it.
 //
-// Invocations of a subgroup agree on everything but their own bits, so that loops end for all of them at once, and have one
-// body for all kinds of trips: on lavapipe no branch skips anything.
+// Invocations of a subgroup differ only in their own samples. Loops end for all of them at once, and have one body for all kinds
+// of trips, since lavapipe executes both sides of a branch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
-layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // this and the following three: as in sample.comp
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
-layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples that a header of sample.comp stands for
+layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples of a block of sample.comp
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
-const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // 0 is no owner
-const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocation keeps what is known of
+const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // slots are numbered from 1 on; 0 is no owner
+const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an invocation holds
 
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
@@ -38,12 +41,12 @@ const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocat
 #include "include/lines.glsl"
 #include "include/order.glsl"
 
-shared uint touched[32u * LANES];   // candidates that touch a cell, a bit each, by words of 32 candidates and by cells
+shared uint touched[32u * LANES];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
 
-uint trips;                         // of loops, by this invocation
-uint owner[SLOT_BITS * WORDS];      // of the samples of an invocation: bits of its slot's number, word by word
+uint trips;                         // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
+uint owner[SLOT_BITS * WORDS];      // owners of this invocation's samples: WORDS words for each bit of a slot's number
 
-// The samples that a slot owns, of a word.
+// The samples in a word of this invocation that a slot owns.
 uint owned_by(uint slot, uint own) {
     uint bits = ~0u;
     [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) bits &= (slot >> b & 1u) != 0u ? owner[b * WORDS + own] : ~owner[b * WORDS + own];
@@ -56,17 +59,17 @@ uint owned(uint own) {
     return bits;
 }
 
-// What is known of a slot: slot s is kept by invocation (s - 1) % LANES.
+// The data of a slot. Invocation (s - 1) % LANES holds that of slot s.
 struct Slot {
-    vec4 plane;             // its depth along and across lines and in the cell's middle, and its farthest depth in the cell
+    vec4 plane;             // slope of its depth along and across lines, depth in the cell's middle, farthest depth in the cell
     uint id;
-    uint parts;
-    uint records;           // that it makes
-    uint count;             // of its samples
-    uint place;             // in their middle
+    uint parts;             // parts in which it is shaded, see variation.glsl
+    uint records;           // number of records that it makes
+    uint count;             // number of its samples
+    uint place;             // place in the middle of its samples
 };
 
-// A cell: its middle from the tile's centre, and its axes.
+// A cell: its middle relative to the tile's centre, and its axes.
 struct Square {
     vec2 at;
     mat2 axes;
@@ -74,7 +77,7 @@ struct Square {
 
 vec2 slope_in(Square cell, vec2 slope) { return LOCATIONS ? slope * cell.axes : slope; }
 
-// A depth plane (slopes, depth) in a cell's coordinates, in which it is the square of side 1 around (0, 0).
+// Converts a depth plane (slopes, depth) to a cell's coordinates, in which the cell is the square of side 1 around (0, 0).
 vec3 plane_in(Square cell, vec3 plane) { return vec3(slope_in(cell, plane.xy), dot(plane.xy, cell.at) + plane.z); }
 
 Candidate candidate_in(Square cell, Candidate k) {
@@ -89,13 +92,14 @@ Candidate candidate_in(Square cell, Candidate k) {
     return k;
 }
 
-// The range of a candidate's depths in the cell in whose coordinates it is.
+// The range of a candidate's depths in the cell. The candidate is in the cell's coordinates.
 vec2 depth_range(Candidate k) {
     float slope = (0.5 + ROUNDING) * (abs(k.depth.x) + abs(k.depth.y)) + abs(k.depth.z) * 1e-6;
     return vec2(max(k.depth.z - slope, k.far), min(k.depth.z + slope, k.near));
 }
 
-// How far the edges of a candidate reach to the sides, and up and down, within the cell in whose coordinates it is.
+// The extents of a candidate's edges within the cell, along x and along y, summed over the edges. The candidate is in the cell's
+// coordinates.
 vec2 reach_of_edges(Candidate k) {
     vec2 sum = vec2(0.0);
     [[unroll]] for (int i = 0; i < 3; i++) {
@@ -117,8 +121,8 @@ vec2 reach_of_edges(Candidate k) {
     return sum;
 }
 
-// The crossings of a triangle's edges with the lines of a cell: an edge that runs of samples begin at, one that they end at, and
-// another one of either kind.
+// The crossings of a triangle's edges with the lines of a cell: an edge at which runs of samples begin, one at which they end,
+// and the third one, of either kind.
 struct Crossings {
     vec2 begin, end, third;
     bool third_begins;
@@ -168,8 +172,8 @@ AlphaTest shuffled(AlphaTest t, uint lane) {
     return r;
 }
 
-// Of a word's samples, those where a triangle passes its alpha test in a cell: alpha is read as often as a cell has samples by
-// its number, once for a run of several bits.
+// Removes from `bits` the samples of a cell at which a triangle fails its alpha test. Words have more bits than the cell has
+// samples by `frame.sample_count`, so alpha is read once for a run of several bits.
 void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS]) {
     uint run = ALL_BITS / min(uint(1u << findMSB(frame.sample_count)), ALL_BITS);
     run = min(run, 32u);
@@ -186,7 +190,8 @@ void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS
             word = word == 0u ? pending[r] : word;
         }
         uint first = word == 0u ? 0u : uint(findLSB(word)) & ~(run - 1u), tested = word & window << first, line = line_of(own);
-        // Another one of the run in each line, where it is covered.
+        // Alpha is read at a bit of the run that differs from line to line or, if the triangle does not cover that one, at the
+        // first bit that it covers.
         uint wanted = first + (line * 5u + run / 2u & run - 1u);
         uint read = (tested >> wanted & 1u) != 0u || tested == 0u ? wanted : uint(findLSB(tested));
         float u = (float(half_of(own) * 32u + read) + line_phase(line)) * (1.0 / float(BITS)) - 0.5, v = line_at(line);
@@ -231,7 +236,7 @@ void main() {
     count = listable ? count : 0u;
     uint last_candidate = max(count, 1u) - 1u;
 
-    // Which candidates touch the cell of each invocation. `setup` knows it of pixels.
+    // Finds the candidates that touch the cell of each invocation. For pixels, `setup` has stored them.
     uint words = 0u;
     trips = 0u;
     do {
@@ -263,12 +268,13 @@ void main() {
         phases[l] = line_phase(line_of(l * LINE_WORDS));
     }
 
-    uint left = 0u;                     // cells that sample.comp takes
+    uint left = 0u;                     // cells that are left to sample.comp
     uint cell = 0u;
     do {
         uint bit = subgroupShuffle(my_bit, cell), location = subgroupShuffle(my_location, cell);
         Square square = Square(shuffled(my_at, cell), LOCATIONS ? location_jacobian(location) : mat2(1.0));
-        uint settled[WORDS], shown[WORDS], open_[WORDS];        // samples: lost to what comes; of the candidate at hand; to be compared
+        // Sets of samples: settled ones; those of the current candidate; those of it that are still to be compared.
+        uint settled[WORDS], shown[WORDS], open_[WORDS];
         [[unroll]] for (uint b = 0u; b < SLOT_BITS * WORDS; b++) owner[b] = 0u;
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
             settled[r] = 0u;
@@ -277,12 +283,13 @@ void main() {
         }
         Slot slots[HELD];
         [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u);
-        uint used = 0u, settling = 0u;  // slots; those that were looked at for being settled
-        float deepest = 3.4e38;         // that a slot reaches
+        uint used = 0u, settling = 0u;  // slots in use; slots that are settled, the first ones
+        float deepest = 3.4e38;         // the farthest depth of all slots in the cell
         bool failed = !listable, done = failed, directed = false, columns = false, more;
-        Key limit = Key(~0u, 0u);       // what does not come after it has passed by
+        Key limit = Key(~0u, 0u);       // candidates up to this key are done
         do {
-            // The next candidates in order, one an invocation, and those after them.
+            // Finds the next 2 x LANES candidates in order: the first LANES of them in `nearer`, one in each invocation, the
+            // others in `farther`.
             Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
             uint word_ = 0u;
             do {
@@ -317,7 +324,7 @@ void main() {
                 Candidate k = candidate_in(square, load_candidate(first, min(key & INDEX, last_candidate), center));
                 bool exists = key != 0u;
                 vec2 range = depth_range(k);
-                // Columns or rows: what the edges of the first eight cross more often.
+                // Lines are columns or rows: whichever the edges of the first eight candidates cross more often.
                 vec2 reach = exists && lane < 8u ? reach_of_edges(k) : vec2(0.0);
                 columns = directed ? columns : lanes_add(reach.x) > lanes_add(reach.y);
                 directed = true;
@@ -331,7 +338,7 @@ void main() {
 
                 uint j = 0u, entries = lanes_add(exists ? 1u : 0u), id = 0u;
                 bool comparing = false;
-                vec4 own = vec4(0.0);   // of the candidate at hand
+                vec4 own = vec4(0.0);   // plane of the current candidate
                 float near = 0.0;
                 do {
                     bool takes = !comparing;
@@ -346,7 +353,8 @@ void main() {
                     trips++;
                     failed = failed || (valid && (its_kind & 2u) != 0u) || trips > MOST_TRIPS;
 
-                    // The slot to compare with, the first one that owns an open sample; or, of a new candidate, one to settle.
+                    // The slot to compare with: the least one that owns an open sample. With a new candidate, instead the next
+                    // slot that may be settled.
                     uint rival = ~0u;
                     [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                         uint lowest = open_[r] & (0u - open_[r]), slot = 0u;
@@ -362,9 +370,10 @@ void main() {
                         other = level == h ? kept_plane : other;
                         other_id = level == h ? kept_id : other_id;
                     }
-                    bool behind = near < other.w;       // like all that follow
+                    bool behind = near < other.w;       // the candidate and all later ones lie behind this slot
 
-                    // Where both planes cross is an edge. What is as near goes to the smaller ID, planes within rounding too.
+                    // The line where both planes intersect is treated like an edge. If depths are equal, or planes differ only by
+                    // rounding, the smaller ID wins.
                     bool smaller = id < other_id;
                     vec3 difference = smaller ? own.xyz - other.xyz : other.xyz - own.xyz;
                     bool alike = 0.5 * (abs(difference.x) + abs(difference.y)) + abs(difference.z) <= 4e-7 * abs(own.z);
@@ -378,7 +387,7 @@ void main() {
                     vec2 third = takes ? shuffled(c.third, from) : BEFORE_ALL;
                     bool third_begins = !takes || (its_kind & 1u) != 0u;
 
-                    // The samples of a new candidate; or of the one at hand, less what it loses to the slot.
+                    // Finds the samples of a new candidate, or removes those that the current one loses to the slot.
                     bool settles = behind && (!takes || settling < used);
                     [[unroll]] for (uint l = 0u; l < OWN_LINES; l++) {
                         float x0 = crossing_at(low, lines[l]), x1 = crossing_at(high, lines[l]), x2 = crossing_at(third, lines[l]);
@@ -413,7 +422,7 @@ void main() {
                     bool shows = !comparing && lanes_or(some) != 0u;
                     failed = failed || (shows && used == SLOTS);
 
-                    // It owns what is left to it.
+                    // When no comparison is left, the candidate becomes the owner of its remaining samples.
                     [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                         uint taken = shows ? shown[r] : 0u;
                         [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++)
@@ -435,7 +444,7 @@ void main() {
             } while (!done && batch < 2u);
         } while (!done && more);
 
-        // The records that each slot makes.
+        // Counts the records that each slot makes.
         uint all = 0u;
         if (BY_PART) {
             Variation around;
@@ -482,7 +491,7 @@ void main() {
         uint single_records = 0u, several = 0u;
         [[unroll]] for (uint h = 0u; h < HELD; h++) all += slots[h].records;
         all = lanes_add(all);
-        // Where parts would be more than there is room for, each triangle is shaded once.
+        // If there is no room for the records of all parts, each triangle is shaded once.
         bool too_many = all > frame.sample_count + MORE_RECORDS;
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool single = too_many || slots[h].parts == PARTS_ONE, some = slots[h].count != 0u;
@@ -524,7 +533,7 @@ void main() {
                 find_parts(bits, grid, pending);
                 find_rest(bits, grid, pending, rest);
 
-                // What lies in no part, in its middle.
+                // One record for the samples that are in no part, in the middle of these.
                 uvec3 sums = uvec3(0u);
                 [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                     sums += sums_of_word(r, rest[r]);
@@ -539,7 +548,7 @@ void main() {
                 at_record += lanes_add(own);
                 steps = uint(lanes_max(float(own)));
                 do {
-                    // The first part that is left.
+                    // The first part that has no record yet.
                     uint r = WORDS - 1u, fields = pending[WORDS - 1u];
                     [[unroll]] for (uint i = 1u; i < WORDS; i++) {
                         uint q = WORDS - 1u - i;

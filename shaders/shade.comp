@@ -1,8 +1,8 @@
-// shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
-// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility samples at their location
-// in a pixel or in the cell of a location (LOCATIONS), whose Jacobian then sets the footprint.
-// Reads: shade_order, ids or records, the geometry, textures. Writes: color and display, or shaded.
-// Linear light throughout. TRANSMISSION: what a layer lets through is a tint.
+// shade: computes the radiance of surfaces, in a dispatch for each material bin. With PIXELS an invocation takes the centre of a
+// pixel of a span, which sees the triangle in raster's IDs. Otherwise it takes a visibility sample, which is shaded at its place
+// in a pixel or in the cell of a location (LOCATIONS). The Jacobian of a location scales the footprint of textures.
+// Reads: shade_order, bins, ids or records, the geometry, textures, shadow words. Writes: color and display, or shaded.
+// All values are in linear light. TRANSMISSION: a layer has a tint (see tint.glsl), not an opacity.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -23,9 +23,9 @@ layout(constant_id = SHADE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = fa
 layout(constant_id = SHADE_CONSTANT_VERTEX_COLORS) const bool VERTEX_COLORS = false;
 layout(constant_id = SHADE_CONSTANT_UNLIT) const bool UNLIT = false;
 layout(constant_id = SHADE_CONSTANT_PUNCTUAL) const bool PUNCTUAL = false;   // the scene has lights
-layout(constant_id = SHADE_CONSTANT_LOCAL_LIGHTS) const bool LOCAL_LIGHTS = false; // point or spot lights among them
-layout(constant_id = SHADE_CONSTANT_BLENDED) const bool BLENDED = false;    // opacity is used
-layout(constant_id = SHADE_CONSTANT_SPECULAR) const bool SPECULAR = false;   // this and what follows: of the materials
+layout(constant_id = SHADE_CONSTANT_LOCAL_LIGHTS) const bool LOCAL_LIGHTS = false; // some of them are point or spot lights
+layout(constant_id = SHADE_CONSTANT_BLENDED) const bool BLENDED = false;    // BLEND layers have an opacity
+layout(constant_id = SHADE_CONSTANT_SPECULAR) const bool SPECULAR = false;   // this and what follows: the bin's materials have it
 layout(constant_id = SHADE_CONSTANT_CLEARCOAT) const bool CLEARCOAT = false;
 layout(constant_id = SHADE_CONSTANT_SHEEN) const bool SHEEN = false;
 layout(constant_id = SHADE_CONSTANT_ANISOTROPY) const bool ANISOTROPY = false;
@@ -44,7 +44,7 @@ const bool TANGENTS = NORMAL_TEXTURE != 0u || CLEARCOAT_NORMAL_TEXTURE != 0u || 
 
 layout(push_constant) uniform Push { uint bin; } push;
 
-// Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
+// Share of the studio's light in a scene with lights of its own, so that surfaces that face away from these are not black.
 const float STUDIO_AMBIENT = 0.06;
 
 void main() {
@@ -63,7 +63,7 @@ void main() {
     uint id;
     vec2 p;
     bool mine = true;
-    vec2 sides = vec2(frame.footprint); // of what textures are filtered over
+    vec2 sides = vec2(frame.footprint); // sides of the rectangle that textures are filtered over
     uint location = 0u, shadow_place;
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
@@ -108,7 +108,7 @@ void main() {
     if (VERTEX_COLORS) base *= mat3x4(texelFetch(colors, v.x), texelFetch(colors, v.y), texelFetch(colors, v.z)) * w.at;
     base *= READ(BASE_COLOR_TEXTURE, place);
 
-    vec3 radiance, through = vec3(0.0);     // what comes from the surface, and what passes it
+    vec3 radiance, through = vec3(0.0);     // light from the surface; share of the light from behind that passes it
     vec4 factors = material_vector(m, MATERIAL_FACTORS);
     if (UNLIT) {
         radiance = base.rgb;
@@ -226,7 +226,7 @@ void main() {
         }
     }
     radiance *= frame.exposure;
-    // What a hostile material makes of a pixel stays in that pixel's range.
+    // Materials with absurd values must not make infinities or NaN.
     radiance = mix(clamp(radiance, vec3(0.0), vec3(3e38)), vec3(0.0), bvec3(is_nan(radiance.r), is_nan(radiance.g), is_nan(radiance.b)));
 
     if (PIXELS) {
@@ -234,7 +234,7 @@ void main() {
         if (mine) color[source] = c;
         if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
     } else {
-        // Alpha is an opacity, or compared with the cutoff.
+        // A negative cutoff stands for BLEND: alpha is the opacity. Otherwise alpha is compared with the cutoff.
         float opacity = factors.w < 0.0 ? clamp(base.a, 0.0, 1.0) : base.a >= factors.w ? 1.0 : 0.0;
         opacity = BLENDED && id > frame.first_blend ? opacity : 1.0;
         shaded_out[source] = TINTED ? vec4(radiance * opacity, pack_tint(mix(vec3(1.0), through, opacity))) : vec4(radiance, opacity);

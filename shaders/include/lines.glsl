@@ -1,5 +1,6 @@
-// Samples on straight lines across a cell: LINES rows or columns of BITS samples, a bit each. An invocation holds WORDS words
-// of 32 of them; lines follow one after the other, and of each its first half before its second one. Twin: src/reference/lines.rs.
+// Samples on straight lines across a cell: LINES rows or columns of BITS samples. A set of samples has a bit for each, in words
+// of 32. An invocation holds WORDS words. Words are ordered by line; the first half of a line comes before the second one.
+// Twin: src/reference/lines.rs.
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
@@ -7,26 +8,29 @@ layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;       
 
 const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
 const uint HALVES = BITS / 32u;                             // words of a line
-const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // those that an invocation has of one line
-const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines that an invocation has
-const uint LOG_LINES = 5u;                                  // of as many lines as there may be
+const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // words of one line that an invocation holds
+const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines of which an invocation holds words
+const uint LOG_LINES = 5u;                                  // binary logarithm of the largest number of lines
 
-// The line and the half of it that a word of an invocation is.
+// The line of word number `own` of this invocation, and the half of the line.
 uint line_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) / HALVES; }
 uint half_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) % HALVES; }
 
-// Where a line is, from the cell's centre.
+// The position of a line relative to the cell's centre, across lines.
 float line_at(uint line) { return (float(line) + 0.5) * (1.0 / float(LINES)) - 0.5; }
 
-// Where on it its first sample is, in distances of samples from its beginning: they are spread evenly over lines.
+// The position of a line's first sample, counted from the beginning of the line in distances of samples, from 0 to 1. These
+// phases are evenly spread over the lines.
 float line_phase(uint line) { return (float(bitfieldReverse(line) >> 27) + 0.5 * 32.0 / float(LINES)) * (1.0 / 32.0); }
 
-// Linear functions E = along.x u + along.y v + c, at u along lines and v across them from the cell's centre.
+// Edges are linear functions E = along.x u + along.y v + c, where u is the position along lines and v the position across them,
+// relative to the cell's centre.
 
-// Whether E grows along lines. What is parallel to them is turned a little.
+// Whether E grows along lines. An edge that is parallel to lines is treated as if it were turned a little.
 bool rises_along(vec2 along) { return along.x > 0.0 || (along.x == 0.0 && along.y > 0.0); }
 
-// Where E = 0 crosses the line at v: x v + y, in distances of samples. It is the same number for -E.
+// Where E = 0 crosses lines: on the line at v it is at x v + y, in distances of samples from the line's beginning. The result for
+// -E is the same to the bit.
 vec2 crossing(vec2 along, float c) {
     float slope = (rises_along(along) ? 1.0 : -1.0) * max(abs(along.x), max(abs(along.y) * (1.0 / 1048576.0), 1e-30));
     precise float by_line = -along.y / slope, start = -c / slope;
@@ -41,10 +45,10 @@ float crossing_at(vec2 where, float v) {
     return x;
 }
 
-// Bits of a word from number `from` on, which may lie outside of it.
+// The bits of a word from number `from` on. `from` may be less than 0 or greater than 31.
 uint bits_from(int from) { return from > 31 ? 0u : ~0u << max(from, 0); }
 
-// Sums over the bits of a word: their number, and of the numbers of their groups of four.
+// Sums over the set bits of a word: how many they are, and the sum of bit number / 4, rounded down.
 uvec2 sums_of_bits(uint bits) {
     uint pairs = bits - (bits >> 1 & 0x55555555u);
     uint fours = (pairs & 0x33333333u) + (pairs >> 2 & 0x33333333u);
@@ -52,13 +56,14 @@ uvec2 sums_of_bits(uint bits) {
     return uvec2(bytes * 0x01010101u >> 24, (bytes * 0x00010203u >> 23 & ~1u) + (upper * 0x01010101u >> 24));
 }
 
-// The same over the bits of a line, for word `own` of it, and with the numbers of their lines.
+// The same for word `own` of this invocation, with bits numbered from the beginning of their line; and the sum of the numbers of
+// the bits' lines.
 uvec3 sums_of_word(uint own, uint bits) {
     uvec2 s = sums_of_bits(bits);
     return uvec3(s.x, s.y + s.x * half_of(own) * 8u, s.x * line_of(own));
 }
 
-// The place that stands for some bits: in their middle.
+// The place in the middle of some samples, from the sums over their bits.
 uint place_of_bits(uvec3 sums, bool columns, bool wide) {
     float count = float(max(sums.x, 1u)), each = 1.0 / count;
     float u = (float(sums.y) * each + 0.5) * (4.0 / float(BITS)) - 0.5;
@@ -66,25 +71,26 @@ uint place_of_bits(uvec3 sums, bool columns, bool wide) {
     return pack_place(columns ? vec2(v, u) : vec2(u, v), count * (1.0 / float(ALL_BITS)), wide);
 }
 
-// The parts of a cell that a triangle is shaded in: fields of a word's bits, of some lines each.
+// The parts of a cell in which a triangle may be shaded. A part is a rectangle: `field` neighbouring bits of `lines` neighbouring
+// lines.
 struct Grid {
     uint field;             // bits, 4 to 32
     uint lines;
 };
 
 Grid grid_of(uint parts, bool columns) {
-    // Halved again and again, its height first: see part_is_wide.
+    // The cell is halved again and again, its height first: see part_is_wide.
     uint number = uint(findMSB(max(frame.sample_count / part_length(parts), 1u)));
     uint along = (columns ? number + 1u : number) >> 1;
     return Grid(BITS >> along, LINES >> (number - along));
 }
 
-// Lowest bits of fields.
+// A word with the lowest bits of all fields.
 uint field_starts(Grid g) { return g.field >= 32u ? 1u : g.field == 16u ? 0x00010001u : g.field == 8u ? 0x01010101u : 0x11111111u; }
 
 uint field_bits(Grid g) { return g.field >= 32u ? ~0u : (1u << g.field) - 1u; }
 
-// Of which bits of its number those invocations differ that have lines of one part.
+// A mask of those bits of an invocation's number in which the invocations with lines of the same part differ.
 uint sharing_lanes(Grid g) {
     uint r = 0u;
     [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
@@ -94,7 +100,7 @@ uint sharing_lanes(Grid g) {
     return r;
 }
 
-// Merges the fields of lines that are `span` apart into those of the first one: of lines that an invocation has by itself, ...
+// Merges the fields of lines that are `span` apart, where this invocation holds both lines: the first line gets those of both.
 void merge_own_lines(inout uint found[WORDS], Grid g, uint span) {
     if (span < OWN_LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -105,7 +111,7 @@ void merge_own_lines(inout uint found[WORDS], Grid g, uint span) {
     }
 }
 
-// ... and of lines of several invocations, in each of them.
+// The same where different invocations hold the two lines: both get the fields of both.
 void merge_lanes_lines(inout uint found[WORDS], Grid g, uint span) {
     if (span >= OWN_LINES && span < LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -115,8 +121,9 @@ void merge_lanes_lines(inout uint found[WORDS], Grid g, uint span) {
     }
 }
 
-// The fields of a triangle's bits that are shaded by themselves, by their lowest bits: those of which a line has half or
-// more, in a row. Lines of a part are merged: into the first of an invocation, and all that share it agree on it.
+// Finds the parts in which a triangle is shaded: those in which some line has half of its field or more in a row. A part is
+// marked by the lowest bit of its field. In an invocation, the mark is in the part's first line. All invocations that share a
+// part have its mark.
 void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
     uint starts = field_starts(g), runs_begin = starts * (field_bits(g) >> (g.field / 2u - 1u));
     [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -144,7 +151,7 @@ void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
     merge_lanes_lines(found, g, 16u);
 }
 
-// What merge_own_lines merged goes to the second of the lines, too.
+// Copies the marks that merge_own_lines has moved to the first line back to the second one.
 void spread_own_lines(inout uint found[WORDS], Grid g, uint span) {
     if (span < OWN_LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -155,7 +162,7 @@ void spread_own_lines(inout uint found[WORDS], Grid g, uint span) {
     }
 }
 
-// The triangle's other bits.
+// Finds the triangle's samples that are in none of these parts.
 void find_rest(uint bits[WORDS], Grid g, uint found[WORDS], out uint rest[WORDS]) {
     // Written out for UNROLLED.
     spread_own_lines(found, g, 1u);

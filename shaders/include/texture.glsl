@@ -1,18 +1,18 @@
-// The textures of a material, each read once for all that it is used for.
-// A texture is read at the level that its sampler chooses, or (BOX_FILTER) averaged over the rectangle that a place stands for:
-// at some places along the longer side that it has in the texture.
+// The textures of a material. Each texture is read once, also if it has several roles.
+// By default the sampler chooses the mipmap level. With BOX_FILTER, a texture is averaged over the rectangle that a visibility
+// sample stands for: it is read at several places along the longer side of the rectangle's image in the texture.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "interface.glsl"
 #include "barycentric.glsl"
 #include "material.glsl"
 
-layout(constant_id = CONSTANT_TEXTURED) const bool TEXTURED = false;            // any is used
-layout(constant_id = CONSTANT_ONE_UV_TRANSFORM) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
-layout(constant_id = CONSTANT_ONE_TEXTURE_SIZE) const bool ONE_TEXTURE_SIZE = false;   // all textures of the material have that of the first
-layout(constant_id = CONSTANT_BOX_FILTER) const bool BOX_FILTER = false; // textures are filtered over what a place stands for, along both of its axes
+layout(constant_id = CONSTANT_TEXTURED) const bool TEXTURED = false;            // the material has textures
+layout(constant_id = CONSTANT_ONE_UV_TRANSFORM) const bool ONE_UV_TRANSFORM = false;   // all have one UV set and transform
+layout(constant_id = CONSTANT_ONE_TEXTURE_SIZE) const bool ONE_TEXTURE_SIZE = false;   // all textures have the size of the first
+layout(constant_id = CONSTANT_BOX_FILTER) const bool BOX_FILTER = false; // textures are averaged over a sample's rectangle
 
-// Which of `textures` a role reads, 16 added; 0 for none.
+// 16 + the index in `textures` of the texture with this role; 0 for none.
 layout(constant_id = CONSTANT_BASE_COLOR_TEXTURE) const uint BASE_COLOR_TEXTURE = 0u;
 layout(constant_id = CONSTANT_METALLIC_ROUGHNESS_TEXTURE) const uint METALLIC_ROUGHNESS_TEXTURE = 0u;
 layout(constant_id = CONSTANT_NORMAL_TEXTURE) const uint NORMAL_TEXTURE = 0u;
@@ -36,22 +36,21 @@ layout(constant_id = CONSTANT_SPECULAR_GLOSSINESS_TEXTURE) const uint SPECULAR_G
 
 layout(set = SET_TEXTURES, binding = BINDING_TEXTURES) uniform sampler2D textures[15];
 
-// Where a material is read: at a place in a triangle.
+// Where a material is evaluated: its number, and a place in a triangle.
 struct Place {
     uint material;
     mat3x2 first_uv, second_uv;     // of the three vertices
     Barycentric w;
 };
 
-// Where a texture is read for a place: at `count` places along the longer axis of the place's footprint. A place lies in the
-// middle of its share of that axis.
+// The probes of a texture: `count` positions along the longer axis of the footprint, each in the middle of an equal share of it.
 struct Probes {
     vec2 first, step_;
     float count, level;
 };
 
 const float MOST_PROBES = 8.0;
-// Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
+// Width of a texel / width of a box, such that the trilinear filter has the same variance as the box: the root of 1/3.
 const float LEVEL_WIDTH = 0.57735;
 
 // The probes in a texture of `size` texels. Twin: src/reference/texture.rs.
@@ -64,7 +63,7 @@ Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
     r.count = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
     r.step_ = (square_x > square_y ? dx : dy) / r.count;
     r.first = at - r.step_ * (0.5 * r.count - 0.5);
-    // A whole level reads one mipmap, not two.
+    // The level is rounded, so that one mipmap is read, not two.
     r.level = round(log2(max(max(across, longest / r.count) * LEVEL_WIDTH, 1e-20)));
     return r;
 }
@@ -90,7 +89,7 @@ vec4 read_texture(sampler2D image, uint slot, Place place) {
     return sum / probes.count;
 }
 
-// A role's texture at a place; white where it has none. A macro, since the index is to be a constant.
+// The texture of a role at a place; white if there is none. This is a macro since the index has to be a constant.
 #define READ(ROLE, place) (ROLE != 0u ? read_texture(textures[ROLE & 15u], ROLE & 15u, place) : vec4(1.0))
 
 #endif
