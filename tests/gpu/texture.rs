@@ -3,7 +3,7 @@
 
 use gpc::reference::texture::{MOST_PROBES, Probes, probes};
 use gpc::render::{Headless, Settings, SuperpixelOptions};
-use gpc::scene::{AlphaMode, Image, Sampler};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
@@ -100,12 +100,12 @@ impl Map {
 /// Renders patches of an image, and holds their pixels against the CPU; counts pixels by number of places and level.
 fn compare(
     gpu: &mut Headless,
-    image: &Image,
+    (image, sampler): (&Image, Sampler),
     random: &mut Random,
     seen: &mut [[u32; 8]; MOST_PROBES as usize],
 ) {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
-    stage.texture = Some((image.clone(), Sampler::default()));
+    stage.texture = Some((image.clone(), sampler));
     let mut maps = Vec::new();
     for patch in 0..(SIZE[0] / PATCH) * (SIZE[1] / PATCH) {
         let first = [patch % (SIZE[0] / PATCH), patch / (SIZE[0] / PATCH)]
@@ -159,9 +159,19 @@ fn textures_are_averaged_over_footprints() {
     on_gpu(|gpu| {
         let mut random = Random::new(7);
         let mut seen = [[0; 8]; MOST_PROBES as usize];
-        for size in [[64, 64], [128, 32], [60, 33]] {
+        // A mean over a footprint does not depend on how a sampler reads a single texel of it.
+        let nearest = Sampler {
+            min: Filter::Nearest,
+            ..Sampler::default()
+        };
+        let without_mipmaps = Sampler {
+            mip: None,
+            ..nearest
+        };
+        let samplers = [Sampler::default(), nearest, without_mipmaps];
+        for (size, sampler) in [[64, 64], [128, 32], [60, 33]].into_iter().zip(samplers) {
             let image = noise(size, &mut random);
-            compare(gpu, &image, &mut random, &mut seen);
+            compare(gpu, (&image, sampler), &mut random, &mut seen);
         }
         // All numbers of places occur, and one and two places occur at each of the four finest levels.
         let enough = seen.iter().all(|levels| levels.iter().sum::<u32>() > 100)
