@@ -1,17 +1,18 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{help, passes, plot, sets, table, time_to_error};
+use crate::{help, passes, plot, sets, superpixel_price, table, time_to_error};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 14] = [
+const PARTS: [(&str, Make); 15] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
     ("time-to-error", time_to_error::table),
+    ("superpixel-price", superpixel_price::table),
     ("quality", table::quality_by_scene),
     ("speed", table::speed),
     ("motion", table::motion),

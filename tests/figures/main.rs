@@ -10,6 +10,7 @@ mod help;
 mod passes;
 mod plot;
 mod sets;
+mod superpixel_price;
 mod table;
 mod text;
 mod time_to_error;

@@ -135,6 +135,8 @@ pub struct SceneResults {
     pub triangles: u64,
     /// Whether a visible material has a texture.
     pub textured: bool,
+    /// Share of the pixels whose centre sees an opaque or alpha-tested surface.
+    pub surface_fraction: f64,
     /// Seconds that the reference took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
     /// Notes on measurements that were left out, and why.

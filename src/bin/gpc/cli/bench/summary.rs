@@ -258,6 +258,7 @@ mod tests {
             file: name.to_owned(),
             triangles: 1,
             textured,
+            surface_fraction: 1.0,
             reference_seconds: None,
             notes: Vec::new(),
             rows: rows.iter().map(row).collect(),

@@ -166,7 +166,7 @@ pub fn decibels(psnr: Option<f64>) -> String {
     psnr.map_or_else(|| "inf".to_owned(), |psnr| format!("{psnr:.2}"))
 }
 
-const COLUMNS: &str = "scene,triangles,textured,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
+const COLUMNS: &str = "scene,triangles,textured,surface_fraction,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
     wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
     removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,left_superpixel_edges,left_superpixel_texture,left_superpixel_light,left_inside_texture,left_inside_light,geometry_rmse,geometry_flip";
 
@@ -179,10 +179,11 @@ pub fn csv(scenes: &[SceneResults]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 scene.name.replace('"', "\"\""),
                 scene.triangles,
                 scene.textured,
+                scene.surface_fraction,
                 row.method,
                 row.samples,
                 cost.gpu_ms.count,
