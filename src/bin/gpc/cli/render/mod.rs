@@ -18,7 +18,7 @@ pub use args::{CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
-pub use save::{beside, encode, save, write};
+pub use save::{beside, check_folder, encode, save, write};
 pub use session::{RenderedImage, open_beside, upload};
 pub use view::{NamedView, choose as choose_views};
 
