@@ -10,7 +10,7 @@ folder="${2:-out}"
 name="$(basename "${scene%.*}")"
 mkdir -p "$folder"
 
-gpc() { cargo run --release --quiet --bin gpc -- "$@"; }
+gpc() { cargo run --profile demo --quiet --bin gpc -- "$@"; }
 
 # The number under a key, or the one under a key of an object, in the command's JSON.
 number() { # JSON KEY [KEY]
