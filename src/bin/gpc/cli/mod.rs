@@ -21,6 +21,7 @@ mod values;
 mod view;
 mod zoom;
 
+use clap::builder::styling::AnsiColor;
 use clap::{Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
@@ -196,7 +197,8 @@ pub fn run() -> ExitCode {
         Ok(code) => code,
         Err(error) if exit::is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", exit::message(&error));
+            let label = print::label("error", AnsiColor::Red);
+            eprintln!("{label} {}", exit::message(&error));
             ExitCode::from(exit::code(&error))
         }
     }
@@ -204,12 +206,13 @@ pub fn run() -> ExitCode {
 
 fn start_log(quiet: bool) {
     let level = if quiet { "error" } else { "info" };
+    let warning = print::label("warning", AnsiColor::Yellow);
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(level))
-        .format(|out, record| {
+        .format(move |out, record| {
             let text = record.args();
             match record.level() {
                 log::Level::Info => writeln!(out, "{text}"),
-                log::Level::Warn => writeln!(out, "warning: {text}"),
+                log::Level::Warn => writeln!(out, "{warning} {text}"),
                 level => writeln!(out, "{}: {text}", level.as_str().to_lowercase()),
             }
         })
