@@ -42,3 +42,5 @@ echo
 echo "$scene at 1280 x 720 on $device, time of a warm frame:"
 line "$plain" "$plain_json" "one sample a pixel"
 line "$fine" "$fine_json" "64 samples in each of the $percent % of pixels that alias"
+echo
+echo "To install the command (optimized, unlike this build): cargo install --path ."

@@ -246,6 +246,7 @@ fn short_help_fits_one_screen_and_long_help_groups_all_options() {
     }
     let long = help("--help");
     for heading in [
+        "Image:",
         "Antialiasing:",
         "Light and lines:",
         "View:",

@@ -29,12 +29,12 @@ pub struct RenderArgs {
     /// straight alpha.
     #[arg(long, value_name = "F", hide_short_help = true)]
     pub format: Option<VideoFormat>,
+    /// Render only this part of the image, from column X and row Y on; its pixels equal those of the whole image
+    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, help_heading = "Image", hide_short_help = true)]
+    pub region: Option<PixelRect>,
 
     #[command(flatten)]
     pub image: ImageArgs,
-    /// Render only this part of the image, from column X and row Y on; its pixels equal those of the whole image
-    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, hide_short_help = true)]
-    pub region: Option<PixelRect>,
     #[command(flatten)]
     pub sequence: SequenceArgs,
 

@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 /// Size, colour, sampling, view and device.
 #[derive(Args, Clone)]
+#[command(next_help_heading = "Image")]
 pub struct ImageArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]

@@ -64,6 +64,10 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         let loaded = image.load(&args.scene)?;
         clock.lap("load");
         warnings.add(&loaded.warnings);
+        if args.sequence.frames.is_some() && loaded.scene.info().animations.is_empty() {
+            let still = "the scene has no animation, so all frames show the same";
+            warnings.add(&[still.to_owned()]);
+        }
         let film = Film::new(image, loaded, first, &steps)?;
         warnings.add(&film.pose.warnings);
         if image.background == Background::Environment && film.environment().is_none() {
