@@ -52,7 +52,7 @@
 //! use gpc::render::{Renderer, SceneRequest, Settings, Target};
 //! use gpc::vulkan::{Host, Requirements};
 //! # use gpc::{camera::Orbit, scene::{PoseRequest, Scene}};
-//! # let scene = Scene::load("assets/fence.glb".as_ref())?.scene;
+//! # let scene = Scene::load("assets/spheres.glb".as_ref())?.scene;
 //! # let pose = scene.pose(&PoseRequest::default())?;
 //! # let (low, high) = pose.geometry.bounds().ok_or("the scene is empty")?;
 //! # let camera = Orbit::default().frame(low, high, 320.0 / 180.0)?;
@@ -100,7 +100,8 @@
 //!
 //! [`vulkan::Requirements`] says what a device needs before there is one. `render::Renderer` takes your handles and, if you like,
 //! your allocator. `Frame::record` never submits, waits or allocates. An image comes back in the layout, stage and access that you
-//! name. `examples/embed.rs` is a complete host.
+//! name. Once the commands are done, `Frame::statistics` fails with `EngineError::Unfinished` if a dense scene needed more memory;
+//! `Renderer::prepare_again` makes a frame with more. `examples/embed.rs` is a complete host.
 //!
 //! ## 3. Your own scene
 //!
