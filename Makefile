@@ -45,7 +45,7 @@ help:
 
 demo:
 	@tools/setup.sh build vulkan
-	$(CARGO) build --release --bin gpc
+	$(CARGO) build --profile demo --bin gpc
 	@tools/demo.sh
 
 view:

@@ -20,13 +20,13 @@
 //!
 //! ## 1. A file, on a device of the library's
 //!
-#![cfg_attr(feature = "gltf", doc = "```no_run")]
+#![cfg_attr(feature = "gltf", doc = "```")]
 #![cfg_attr(not(feature = "gltf"), doc = "```ignore")]
 //! use gpc::camera::Orbit;
 //! use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings};
 //! use gpc::scene::{PoseRequest, Scene};
 //!
-//! let scene = Scene::load("scene.glb".as_ref())?.scene;
+//! let scene = Scene::load("assets/fence.glb".as_ref())?.scene;
 //! let pose = scene.pose(&PoseRequest::default())?;
 //! let (low, high) = pose.geometry.bounds().ok_or("the scene is empty")?;
 //! let camera = Orbit::default().frame(low, high, 1280.0 / 720.0)?;
@@ -36,6 +36,7 @@
 //! let mut frame = headless.prepare(&prepared, &Settings::new(1280, 720))?;
 //! let image = headless.render(&mut frame, &camera)?; // again and again, with other cameras
 //! println!("{} superpixels, {:.1} ms", image.statistics.superpixels, image.statistics.gpu_ms());
+//! # assert!(image.statistics.superpixels > 1000);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -45,9 +46,62 @@
 //!
 //! ## 2. A file, in your command buffer
 //!
+#![cfg_attr(feature = "gltf", doc = "```")]
+#![cfg_attr(not(feature = "gltf"), doc = "```ignore")]
+//! use ash::vk;
+//! use gpc::render::{Renderer, SceneRequest, Settings, Target};
+//! use gpc::vulkan::{Host, Requirements};
+//! # use gpc::{camera::Orbit, scene::{PoseRequest, Scene}};
+//! # let scene = Scene::load("assets/spheres.glb".as_ref())?.scene;
+//! # let pose = scene.pose(&PoseRequest::default())?;
+//! # let (low, high) = pose.geometry.bounds().ok_or("the scene is empty")?;
+//! # let camera = Orbit::default().frame(low, high, 320.0 / 180.0)?;
+//! # unsafe {
+//! # let entry = ash::Entry::load()?;
+//! # let application = vk::ApplicationInfo::default().api_version(Requirements::API_VERSION);
+//! # let instance = entry.create_instance(&vk::InstanceCreateInfo::default().application_info(&application), None)?;
+//! # let devices = instance.enumerate_physical_devices()?;
+//! # let is_suitable = |device: &&vk::PhysicalDevice| Requirements::missing(&instance, **device).is_empty();
+//! # let physical_device = *devices.iter().find(is_suitable).ok_or("no suitable device")?;
+//! # let queue_family = Requirements::queue_family(&instance, physical_device).ok_or("no suitable queue")?;
+//! # let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
+//!
+//! // Your device, with the features that the renderer needs.
+//! let mut features = Requirements::features13();
+//! let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
+//! let device = instance.create_device(physical_device, &info, None)?;
+//! # let pool = device.create_command_pool(&vk::CommandPoolCreateInfo::default().queue_family_index(queue_family), None)?;
+//! # let allocate = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+//! # let commands = device.allocate_command_buffers(&allocate)?[0];
+//! # let info = vk::BufferCreateInfo::default().size(16 * 320 * 180).usage(vk::BufferUsageFlags::TRANSFER_DST);
+//! # let buffer = device.create_buffer(&info, None)?;
+//! # let needs = device.get_buffer_memory_requirements(buffer);
+//! # let kind = needs.memory_type_bits.trailing_zeros();
+//! # let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
+//! # device.bind_buffer_memory(buffer, device.allocate_memory(&info, None)?, 0)?;
+//!
+//! // All that can fail happens before anything is recorded.
+//! let renderer = Renderer::new(Host::new(instance, physical_device, device.clone(), queue_family))?;
+//! let prepared = renderer.prepare_scene(SceneRequest::new(&scene, &pose))?;
+//! let mut frame = renderer.prepare(&prepared, &Settings::new(320, 180), None)?;
+//! # device.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
+//!
+//! // Your command buffer, and a buffer or image of yours.
+//! prepared.record_upload(commands); // once
+//! frame.record(&camera, commands, &Target::Buffer { colors: buffer, attributes: None });
+//! # device.end_command_buffer(commands)?;
+//! # let submitted = [vk::SubmitInfo::default().command_buffers(std::slice::from_ref(&commands))];
+//! # device.queue_submit(device.get_device_queue(queue_family, 0), &submitted, vk::Fence::null())?;
+//! # device.device_wait_idle()?;
+//! # assert!(frame.statistics()?.superpixels > 100);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! [`vulkan::Requirements`] says what a device needs before there is one. `render::Renderer` takes your handles and, if you like,
-//! your allocator. `Renderer::prepare` does all that can fail. `Frame::record` writes into your command buffer; it never submits,
-//! waits or allocates. The image comes back in the layout, stage and access that you name. `examples/embed.rs` is a complete host.
+//! your allocator. `Frame::record` never submits, waits or allocates. An image comes back in the layout, stage and access that you
+//! name. Once the commands are done, `Frame::statistics` fails with `EngineError::Unfinished` if a dense scene needed more memory;
+//! `Renderer::prepare_again` makes a frame with more. `examples/embed.rs` is a complete host.
 //!
 //! ## 3. Your own scene
 //!

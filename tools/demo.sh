@@ -10,7 +10,7 @@ folder="${2:-out}"
 name="$(basename "${scene%.*}")"
 mkdir -p "$folder"
 
-gpc() { cargo run --release --quiet --bin gpc -- "$@"; }
+gpc() { cargo run --profile demo --quiet --bin gpc -- "$@"; }
 
 # Prints a number from the command's JSON: the value of a key or, with two keys, of the second one in the object of the first.
 number() { # JSON KEY [KEY]
@@ -42,3 +42,5 @@ echo
 echo "$scene at 1280 x 720 on $device, time of a warm frame:"
 line "$plain" "$plain_json" "one sample a pixel"
 line "$fine" "$fine_json" "64 samples in each of the $percent % of pixels that alias"
+echo
+echo "To install the command (optimized, unlike this build): cargo install --path ."

@@ -36,22 +36,22 @@ names! {
         Msaa "msaa" "The device's own multisampling",
     }
     Detection {
-        Contrast "contrast",
-        Edges "edges",
-        Exact "exact",
+        Contrast "contrast" "Pixels that contrast with a neighbour",
+        Edges "edges" "Pixels that contrast with a neighbour that shows another triangle",
+        Exact "exact" "Pixels with a neighbour that shows another triangle, whatever the colours",
     }
     Coverage {
-        Area "area",
-        Samples "samples",
+        Area "area" "The exact area of triangles that nothing occludes; the number of samples for others",
+        Samples "samples" "The number of samples for all triangles",
     }
     Footprint {
-        Sample "sample",
-        Pixel "pixel",
+        Sample "sample" "The part of the pixel that one shading stands for",
+        Pixel "pixel" "The whole pixel, as always with none and msaa",
     }
     Shading {
-        Triangle "triangle",
-        Part "part",
-        Sample "sample",
+        Triangle "triangle" "Once for each visible triangle",
+        Part "part" "Once for each visible triangle, or in up to 256 parts where colours vary",
+        Sample "sample" "Once for each sample",
     }
     Shadows {
         None "none",
@@ -66,14 +66,14 @@ names! {
         Rectangle "rectangle",
     }
     Transition {
-        Linear "linear",
-        Smooth "smooth",
+        Linear "linear" "The enlargement fades out linearly",
+        Smooth "smooth" "The sampling rate changes without jumps",
     }
     PanoramaProjection {
-        Equirectangular "equirectangular",
-        Cylindrical "cylindrical",
-        Fisheye "fisheye",
-        Cubemap "cubemap",
+        Equirectangular "equirectangular" "Columns are longitudes, rows are latitudes",
+        Cylindrical "cylindrical" "An unrolled cylinder",
+        Fisheye "fisheye" "A circle; the distance from its middle is the angle from the axis of view",
+        Cubemap "cubemap" "The six faces of a cube, as the largest cross of 4 x 3 squares that fits",
     }
 }
 

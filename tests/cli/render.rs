@@ -233,7 +233,7 @@ fn several_cameras_frames_and_angles_get_files_of_their_own() {
     assert_eq!(json["images"].as_array().unwrap().len(), 2);
     assert_eq!(json["images"][1]["camera"]["fov"], Value::Null);
     run("turn-{frame}.png", &["--turntable", "3"]);
-    run("move-{frame}.png", &["--frames", "8..9"]);
+    run("move-{frame}.png", &["--frames", "8..9"]).says(&["no animation"]);
     assert_eq!(
         files(folder.path()),
         [

@@ -247,6 +247,17 @@ fn wrong_usage_exits_with_2() {
         let arguments = [&zoom[..], place, options].concat();
         gpc(folder.path(), &arguments).exits(2).says(expected);
     }
+    let aside = [
+        "--center",
+        "900,9",
+        "--radius",
+        "3",
+        "--multiplicity",
+        "0.5",
+    ];
+    gpc(folder.path(), &[&zoom[..], &aside].concat())
+        .exits(2)
+        .says(&["900,9", "outside of the image"]);
     let to_nowhere = ["zoom", "card.png", "-o", "-", "--steps"];
     gpc(folder.path(), &[&to_nowhere[..], &OPTIONS].concat())
         .exits(2)

@@ -51,6 +51,7 @@ pub fn command(folder: &Path, arguments: &[&str]) -> Command {
         .args(arguments)
         .current_dir(folder)
         .env_remove("RUST_LOG")
+        .env_remove("COLUMNS")
         .env("GPC_VALIDATION", "1")
         .stdin(Stdio::null());
     command

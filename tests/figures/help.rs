@@ -30,6 +30,7 @@ pub fn every() -> String {
 pub fn help(arguments: &[&str]) -> String {
     let run = Command::new(env!("CARGO_BIN_EXE_gpc"))
         .args(arguments)
+        .env_remove("COLUMNS")
         .output()
         .unwrap();
     assert!(run.status.success(), "gpc {arguments:?}");

@@ -86,7 +86,7 @@ pub fn readme() -> String {
         with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n)))
     });
     line(
-        "superpixel time to the RMSE of `ssaa` / `ssaa` time",
+        "superpixel time at the RMSE of `ssaa` / `ssaa` time",
         &|n| with_worst(time_to_error::shares(of, &scenes, n)),
     );
     line("superpixel RMSE / `ssaa` RMSE", &|n| {

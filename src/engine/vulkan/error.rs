@@ -59,12 +59,13 @@ pub enum VulkanError {
     DeviceLost,
     /// Device memory that could not be allocated.
     #[error(
-        "out of memory: {what} of {bytes} bytes could not be allocated; ask for a smaller image, fewer samples or another bound on memory"
+        "out of memory: {}; ask for a smaller image, fewer samples or another bound on memory",
+        refused(what, *bytes)
     )]
     OutOfMemory {
-        /// Purpose of the memory.
+        /// Purpose of the memory, or name of the function that failed.
         what: String,
-        /// Size of the memory in bytes.
+        /// Size of the memory in bytes; 0 if it is unknown.
         bytes: u64,
     },
     /// Buffer that is larger than the device can address.
@@ -108,6 +109,14 @@ pub enum VulkanError {
         /// Result of the function.
         result: vk::Result,
     },
+}
+
+/// Memory that was refused, for a message.
+fn refused(what: &str, bytes: u64) -> String {
+    match bytes {
+        0 => format!("{what} failed"),
+        _ => format!("{what} of {bytes} bytes could not be allocated"),
+    }
 }
 
 impl VulkanError {

@@ -6,7 +6,7 @@ use gpc::vulkan::{DeviceInfo, Instance, InstanceOptions, MISSING_DRIVER_HELP};
 use serde::Serialize;
 use std::process::ExitCode;
 
-/// Lists the Vulkan devices, and what each lacks; exits with 3 if none is suitable.
+/// Options of `gpc devices`.
 #[derive(Args)]
 pub struct DevicesArgs {
     /// Print one JSON object: devices

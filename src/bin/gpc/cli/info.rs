@@ -10,13 +10,14 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Describes the contents of a scene.
+/// Options of `gpc info`.
 #[derive(Args)]
 pub struct InfoArgs {
-    /// A .glb or .gltf file, or - for standard input
+    /// A glTF, OBJ, STL or PLY file, or - for standard input
     scene: PathBuf,
-    /// List the passes of a frame instead, in order: shader, source of the number of workgroups, and what the shader
-    /// may read and write; and count its dispatches and barriers
+    /// List the passes of a frame instead, and count its dispatches and barriers
+    ///
+    /// Each line has the shader, what decides the number of its workgroups, and what the shader may read and write.
     #[arg(long)]
     passes: bool,
     /// Size of the frame whose passes are listed, in pixels

@@ -11,10 +11,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Renders what is around the camera, up to 360 x 180 degrees.
-///
-/// Every pixel is sampled exactly where it looks and antialiased, on the planes of up to six pinholes that share the
-/// camera's eye; nothing is resampled. The camera looks at the middle of the image.
+/// Options of `gpc panorama`.
 #[derive(Args)]
 #[command(
     mut_arg("size", |arg| arg.default_value("1280x640")),
@@ -23,14 +20,13 @@ use std::process::ExitCode;
         .value_parser(super::values::positive))
 )]
 pub struct PanoramaArgs {
-    /// A .glb or .gltf file, or - for standard input
+    /// A glTF, OBJ, STL or PLY file, or - for standard input
     #[arg(id = "file", value_name = "SCENE")]
     scene: PathBuf,
     /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// How directions map to the image: longitude and latitude, an unrolled cylinder, angles from the axis (fisheye),
-    /// or the six faces of a cube as the largest cross of 4 x 3 squares that fits
+    /// How directions become places in the image
     #[arg(long)]
     projection: PanoramaProjection,
 

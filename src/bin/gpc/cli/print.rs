@@ -1,7 +1,8 @@
-//! Printing to standard output. Unlike `println!`, these functions return an error if the pipe is closed.
+//! Printing to standard output, and labels of messages. Unlike `println!`, what prints returns an error if the pipe is closed.
 
+use clap::builder::styling::AnsiColor;
 use serde::Serialize;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 
 /// Prints a value as indented JSON.
 pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
@@ -13,6 +14,16 @@ pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
 pub fn line(text: &str) -> anyhow::Result<()> {
     writeln!(std::io::stdout(), "{text}")?;
     Ok(())
+}
+
+/// A label before a message on standard error: in colour on a terminal, unless `NO_COLOR` is set.
+pub fn label(word: &str, color: AnsiColor) -> String {
+    let is_plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if is_plain || !std::io::stderr().is_terminal() {
+        return format!("{word}:");
+    }
+    let style = color.on_default().bold();
+    format!("{style}{word}:{style:#}")
 }
 
 /// Writes bytes unchanged.

@@ -1,6 +1,7 @@
 //! `gpc unzoom`.
 
 use super::exit::{Usage, usage};
+use super::render::check_folder;
 use super::report::ReportArgs;
 use super::zoom::check_window;
 use super::{compare as text, input, print};
@@ -16,10 +17,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Turns an image of gpc zoom back into an ordinary view, without the scene.
-///
-/// The map of the zoom is stored in the image, which must be a PNG as gpc zoom wrote it. The view is that of one
-/// region: the rectangle around it, with a pixel for each of its pixels, as if the camera had looked at nothing else.
+/// Options of `gpc unzoom`.
 #[derive(Args)]
 pub struct UnzoomArgs {
     /// A PNG that gpc zoom wrote
@@ -30,7 +28,7 @@ pub struct UnzoomArgs {
     /// Index of the region, from 0, in the order in which the regions were given to gpc zoom
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "whole")]
     region: usize,
-    /// Show the whole image at the sampling rate outside of the regions, instead of one region
+    /// Show the whole image instead of one region, with the resolution that it has outside of the regions
     #[arg(long)]
     whole: bool,
     /// Compare with this image of the same view, and print rmse, psnr, max and flip as gpc compare does
@@ -66,7 +64,9 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
         }
         Format::Png8
     } else {
-        Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?
+        let format = Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?;
+        check_folder(&args.output)?;
+        format
     };
     let name = args.image.display().to_string();
     let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read {

@@ -12,20 +12,19 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Opens a window for looking at scenes and photographs; H lists the keys.
-///
-/// Few samples are taken while anything moves, and more and more at rest, up to the number asked for.
+/// Options of `gpc view`.
 #[derive(Args)]
 pub struct ViewArgs {
-    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the
-    /// next
+    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; arrow keys go from one to the next
     #[arg(id = "file", value_name = "SCENE|FOLDER|IMAGE", required = true)]
     scenes: Vec<PathBuf>,
     /// Width and height of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     size: [u32; 2],
-    /// Colour behind the scene: none (black in the window, transparent in files), sRGB R,G,B of 0 to 1, #rrggbb, or
-    /// environment for the light around it (at rest; black while something moves, and with lenses)
+    /// Colour behind the scene: #rrggbb, sRGB R,G,B of 0 to 1, none or environment
+    ///
+    /// none is black in the window and transparent in files. environment shows the light around the scene at rest; it is black while
+    /// something moves, and with lenses.
     #[arg(long, value_name = "COLOUR", default_value = "#2b2f36")]
     background: String,
     #[command(flatten)]

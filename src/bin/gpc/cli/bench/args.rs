@@ -9,25 +9,10 @@ use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Measures the cost and the accuracy of the antialiasing methods.
-///
-/// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
-/// samples that the method allows: once to warm up and then R times, the methods taking turns. Each image is compared
-/// with a reference: supersampling at thousands of samples a pixel, each of which reads textures over 1/64 of a
-/// pixel's width. References are kept on disk for the next run.
-///
-/// With --geometry, the methods are also measured with textures read over a whole pixel, against a reference that
-/// reads them so too; the differences then come from geometry alone. With --motion, the flicker of moving images is
-/// measured. With --variants, the sampling sets of the camera's variants are timed. With --growth, times are measured
-/// while the size of a scene or image grows. With --stress, geometry that is hard to rasterize is rendered, and the
-/// images are checked.
-///
-/// DIR then holds results.json, results.csv and report.html, and, with these options, motion.csv, variants.csv and
-/// growth.csv. All are rewritten after each scene. Lines at the head of a CSV begin with # and say where its figures
-/// come from.
+/// Options of `gpc bench`.
 #[derive(Args)]
 pub struct BenchArgs {
-    /// .glb or .gltf files
+    /// glTF, OBJ, STL or PLY files
     #[arg(value_name = "SCENE", required_unless_present_any = ["motion", "growth", "stress"])]
     pub scenes: Vec<PathBuf>,
     /// Folder for the results
@@ -52,31 +37,30 @@ pub struct BenchArgs {
     /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
-    /// Also measure every method with textures read over a whole pixel, against a reference that reads them so too
+    /// Also measure geometry alone: the methods and the reference read textures over a whole pixel
     #[arg(long)]
     pub geometry: bool,
-    /// Also time the methods while the number of triangles, pixels, superpixels or layers grows, in scenes made for
-    /// this
+    /// Also time the methods in made-up scenes whose number of triangles, pixels, superpixels or layers grows
     #[arg(long)]
     pub growth: bool,
-    /// Also time the camera's variants: planar, offset, superpixel and random sets and a panorama of each scene,
-    /// beside the raster pass, in total and per sample
+    /// Also time the variants of the camera in each scene: planar, offset, superpixel and random sets, and a panorama
     #[arg(long)]
     pub variants: bool,
-    /// Measure these files in motion: pan by fractions of a pixel and turn slowly, 16 frames each; report each frame's
-    /// error against its own reference, and the flicker
+    /// Measure the error and the flicker of these scenes in motion
+    ///
+    /// Each scene pans by fractions of a pixel for 16 frames, and turns slowly for 16 frames. Each frame has a reference of its own.
     #[arg(long, value_name = "SCENE", num_args = 1..)]
     pub motion: Vec<PathBuf>,
     /// Width and height of images in motion
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = values::size)]
     pub motion_size: [u32; 2],
-    /// Also run the stress suite: geometry that is hard to rasterize, and properties that its images must have
+    /// Also run the stress suite: render geometry that is hard to rasterize, and check properties of the images
     #[arg(long)]
     pub stress: bool,
-    /// Most frames to time
+    /// Largest number of frames to time
     #[arg(long, value_name = "R", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,
-    /// Seconds for the frames of one method at one number of samples; at least one frame is timed
+    /// Seconds for timing one method with one number of samples; at least one frame is timed
     #[arg(long, value_name = "SECONDS", default_value_t = 20.0, value_parser = budget)]
     pub budget: f64,
     /// Folder where references are kept [default: gpc in the user's cache folder]

@@ -9,15 +9,7 @@ use gpc::{compare, output};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Compares two images of the same size, or the images of two folders, as a display shows them: sRGB-encoded, over
-/// black.
-///
-/// The figures cover colour, and alpha too if either image is not opaque. The values of an EXR are clamped to 0 to 1
-/// and encoded, not tone-mapped. FLIP is the mean of the error map of the colours in 8 bits.
-///
-/// Of two folders, images with the same name are compared, in subfolders too. An image is equal, different (its rmse
-/// is above the bound, 0 if none is given, or the two can't be compared), missing (in A only) or new (in B only). The
-/// command exits with 5 unless all are equal.
+/// Options of `gpc compare`.
 #[derive(Args)]
 pub struct CompareArgs {
     /// The reference: PNG, JPEG or EXR, or a folder of such images

@@ -17,41 +17,34 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Renders the frames of projectors that together show one picture of a scene on a wall.
-///
-/// For a plane wall, a projector is given by a CSV of correspondences (header x,y,u,v): a place in the projector's
-/// pixels and the location that it lights. For any wall, it is given by an EXR with the projector's size: each pixel
-/// holds its location, u in red and v in green, and NaN or an alpha of 0 where it lights nothing. Locations are in
-/// pixels of the picture, which has --size; (0, 0) is the upper left corner everywhere. The scene is sampled at the
-/// location of each projector pixel. Where projectors overlap they are dimmed, so that their light adds up to the
-/// picture.
+/// Options of `gpc project`.
 #[derive(Args)]
 pub struct ProjectArgs {
-    /// A .glb or .gltf file, or - for standard input
+    /// A glTF, OBJ, STL or PLY file, or - for standard input
     #[arg(id = "file", value_name = "SCENE")]
     scene: PathBuf,
     /// Frames to write: .png, .16.png, .jpg or .exr; {projector} stands for the projector's number, from 0
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// A projector's correspondences (.csv) or dense map (.exr); repeat it for each
+    /// File that describes a projector (.csv or .exr); repeat the option for each projector
     #[arg(long, value_name = "FILE", required = true)]
     projector: Vec<PathBuf>,
-    /// Width and height of projectors with correspondences, in pixels; once for all, or once for each
+    /// Width and height in pixels of the projectors that a .csv describes; once for all, or once for each
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     projector_size: Vec<[u32; 2]>,
-    /// Largest distance of a correspondence from the homography of the others, in pixels of the picture; those further
-    /// away are ignored
+    /// Largest error of a correspondence in pixels of the picture, compared with where the others would put it; those with a
+    /// larger error are ignored
     #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
     tolerance: f64,
-    /// Seed of the random fits to correspondences; the same seed gives the same frames
+    /// Seed of the random choices while correspondences are fitted; the same seed gives the same frames
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// Also write each projector's blend weights, as a PNG beside its frame, named like it with .weights: 16-bit grey,
-    /// 65535 where it shines alone
+    /// Also write how much each projector is dimmed, as a PNG named like its frame with .weights: 16-bit grey, 65535 where it
+    /// shines alone
     #[arg(long)]
     weights: bool,
-    /// Also write what appears on the wall, seen as the picture: the sum of all frames
+    /// Also write the picture as it appears on the wall: the sum of all frames
     #[arg(long, value_name = "OUT")]
     wall: Option<PathBuf>,
 

@@ -14,12 +14,7 @@ use gpc::sampling::Pattern;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-/// Renders a scene to image files.
-///
-/// OUT's ending decides the format: .png (8 bits a channel), .16.png (16 bits), .jpg or .jpeg (over black where
-/// there is no background, quality 95) and .exr (scene-linear, premultiplied, not tone-mapped, 32-bit floats). It may
-/// hold {stem} (the scene's name), {camera} (the camera's name, or its index) and {frame} (four digits or more).
-/// Files are written under a temporary name and renamed.
+/// Options of `gpc render`.
 #[derive(Args)]
 pub struct RenderArgs {
     /// A glTF, OBJ, STL or PLY file, or - for standard input
@@ -28,25 +23,27 @@ pub struct RenderArgs {
     /// Image to write, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// What -o - writes instead of a PNG: frames one after the other, for an encoder
+    /// With -o -, write frames one after the other in this format, for an encoder
     ///
-    /// y4m is YUV4MPEG2, BT.709 in limited range, 4:4:4, over black where there is no background; raw is RGBA of 8 bits, sRGB
-    /// with straight alpha.
+    /// y4m is YUV4MPEG2: BT.709, limited range, 4:4:4, over black where there is no background. raw is RGBA: 8 bits a channel, sRGB,
+    /// straight alpha.
     #[arg(long, value_name = "F", hide_short_help = true)]
     pub format: Option<VideoFormat>,
+    /// Render only this part of the image, from column X and row Y on; its pixels equal those of the whole image
+    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, help_heading = "Image", hide_short_help = true)]
+    pub region: Option<PixelRect>,
 
     #[command(flatten)]
     pub image: ImageArgs,
-    /// Render only this part of the image, from column X and row Y on; its pixels equal those of the whole image
-    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, hide_short_help = true)]
-    pub region: Option<PixelRect>,
     #[command(flatten)]
     pub sequence: SequenceArgs,
 
-    /// Render once to warm up and then R times, and report medians
+    /// Render each image once to warm up and then R times, and report the medians of the times
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report", hide_short_help = true)]
     pub repeat: Option<u32>,
-    /// Time each pass in all rounds; otherwise, the passes of all rounds after the first have one time together: rounds
+    /// Report the time of each pass in every round
+    ///
+    /// A frame samples its superpixels in rounds. By default, one time named rounds covers all rounds after the first.
     #[arg(long, help_heading = "Report", hide_short_help = true)]
     pub time_rounds: bool,
     #[command(flatten)]
@@ -62,18 +59,18 @@ pub struct SamplingArgs {
     pub aa: MethodKind,
     /// Samples a pixel [default: 64; 4 for msaa]
     ///
-    /// 1 to 1024 for superpixel, a square for ssaa, what the device supports for msaa.
+    /// superpixel takes 1 to 1024, ssaa a square number up to 1024, and msaa what the device supports.
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
-    /// Neighbours contrast if they differ by more than this, in 8-bit sRGB code values [default: 6; 1 from 128 samples
-    /// on]
+    /// A pixel contrasts with a neighbour if they differ by more than this, in 8-bit sRGB codes [default: 6; 1 from 128
+    /// samples on]
     #[arg(long, value_name = "T", hide_short_help = true)]
     pub contrast: Option<u8>,
-    /// Which pixels become superpixels: those with a neighbour that contrasts; with one that contrasts and shows
-    /// another triangle; or with one that shows another triangle
+    /// Which pixels become superpixels, and so get many samples
     #[arg(long, default_value = "contrast", hide_short_help = true)]
     pub detect: Detection,
-    /// Where a superpixel's samples lie: on lines, or as points: sobol, lattice, korobov, grid or rotated
+    /// Where the samples of a superpixel lie: on straight lines (lines), or at points (sobol, lattice, korobov, grid or
+    /// rotated)
     #[arg(
         long,
         value_name = "P",
@@ -81,15 +78,13 @@ pub struct SamplingArgs {
         hide_short_help = true
     )]
     pub pattern: Pattern,
-    /// How samples become coverage: the exact area of triangles that nothing occludes, or the number of samples alone
+    /// How much of a superpixel a triangle covers
     #[arg(long, default_value = "area", hide_short_help = true)]
     pub coverage: Coverage,
-    /// Area over which textures are filtered: the part of a pixel that one shading stands for, or the whole pixel.
-    /// none and msaa always use the whole pixel
+    /// Area over which textures are filtered
     #[arg(long, default_value = "sample", hide_short_help = true)]
     pub footprint: Footprint,
-    /// Shade a superpixel once for each visible triangle and in up to 256 parts where colours vary, or once for each
-    /// sample
+    /// How often a superpixel is shaded
     #[arg(long, default_value = "part", hide_short_help = true)]
     pub shading: Shading,
 }
@@ -133,10 +128,12 @@ impl SamplingArgs {
 #[derive(Args, Clone, Default)]
 #[command(next_help_heading = "View")]
 pub struct CameraArgs {
-    /// A camera of the scene, or all [default: the first, or else a view of the whole scene]
+    /// Camera of the scene, or all [default: the first, if there is one]
+    ///
+    /// all renders an image for each camera. Without cameras, the default is a view of the whole scene.
     #[arg(long, value_name = "INDEX|NAME", conflicts_with_all = ["eye", "azimuth", "elevation", "zoom"])]
     pub camera: Option<String>,
-    /// Position of the camera
+    /// Position of a camera of your own
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, hide_short_help = true,
         conflicts_with_all = ["azimuth", "elevation", "zoom"])]
     pub eye: Option<DVec3>,
@@ -149,27 +146,27 @@ pub struct CameraArgs {
     /// Vertical field of view in degrees [default: the camera's, or else 40]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::field_of_view, hide_short_help = true)]
     pub fov: Option<f64>,
-    /// View of the whole scene from this angle around it, in degrees [default: 35]
+    /// Show the whole scene from this angle around it [default: 35]
     ///
-    /// 0 looks along -z, 90 along -x.
+    /// At 0 the camera looks along -z, at 90 along -x.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
     pub azimuth: Option<f64>,
-    /// View of the whole scene from this angle above the horizon, in degrees [default: 20]
+    /// Show the whole scene from this angle above the horizon [default: 20]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
     pub elevation: Option<f64>,
-    /// View of the whole scene, enlarged by this factor over what fits [default: 1]
+    /// Show the whole scene, enlarged by this factor [default: 1]
     #[arg(long, value_name = "F", value_parser = values::positive)]
     pub zoom: Option<f64>,
-    /// Scene of the file by index [default: the file's default scene]
+    /// Index of the scene, if the file has several [default: the file's default scene]
     #[arg(long, value_name = "N", hide_short_help = true)]
     pub scene: Option<usize>,
-    /// Variant of the materials by name [default: none]
+    /// Name of a variant of the materials [default: none]
     #[arg(long, value_name = "NAME", hide_short_help = true)]
     pub variant: Option<String>,
     /// Time of the animation in seconds
     #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
     pub time: f64,
-    /// Animation by name or index [default: the first, where a time is given]
+    /// Name or index of the animation [default: the first, if a time is given]
     #[arg(long, value_name = "NAME", hide_short_help = true)]
     pub animation: Option<String>,
 }
@@ -178,18 +175,18 @@ pub struct CameraArgs {
 #[derive(Args)]
 #[command(next_help_heading = "Sequences")]
 pub struct SequenceArgs {
-    /// Frames of the animation, first and last included
+    /// Render the frames A to B of the animation, both included
     #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with_all = ["turntable", "time"])]
     pub frames: Option<RangeInclusive<u32>>,
     /// Frames a second [default: 24]
     #[arg(long, value_name = "F", value_parser = values::rate, hide_short_help = true)]
     pub fps: Option<f64>,
-    /// N images from all around
+    /// Render N images from all around
     ///
     /// The camera turns about the vertical axis through the point that it looks at.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub turntable: Option<u32>,
-    /// Render only the I-th of N equal shares of the sequence: every N-th image from the I-th on, I from 1 to N
+    /// Render only the I-th of N equal shares of the sequence: every N-th image, beginning with the I-th
     #[arg(long, value_name = "I/N", value_parser = values::shard, hide_short_help = true)]
     pub shard: Option<Shard>,
 }

@@ -1,6 +1,7 @@
 //! The options that are common to all commands which make an image of a scene.
 
 use super::args::{CameraArgs, SamplingArgs, Tonemap};
+use super::save::check_folder;
 use crate::cli::exit::{Usage, usage};
 use crate::cli::input;
 use crate::cli::values::{self, Background, EdgeLines};
@@ -13,19 +14,23 @@ use std::sync::Arc;
 
 /// Size, colour, sampling, view and device.
 #[derive(Args, Clone)]
+#[command(next_help_heading = "Image")]
 pub struct ImageArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
-    /// How radiance becomes display colour: Khronos PBR Neutral, or clamping [default: neutral; none for .exr]
+    /// How radiance becomes a display colour: by Khronos PBR Neutral, or clamped (none) [default: neutral; none for .exr]
     #[arg(long, hide_short_help = true)]
     pub tonemap: Option<Tonemap>,
-    /// Background: none (transparent), #rrggbb, environment, or sRGB R,G,B of 0 to 1
+    /// none (transparent), environment, #rrggbb or R,G,B
+    ///
+    /// R,G,B are sRGB values from 0 to 1.
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
-    /// Values to write besides the colours: depth, id, normal, superpixels, samples
+    /// More values to write: depth, id, normal, superpixels, samples
     ///
-    /// They become layers of an EXR; otherwise PNG files beside OUT, named like it with .depth and so on before .png.
+    /// In an EXR they are layers besides the colours. Otherwise each is a PNG beside OUT, named like OUT with .depth (and so on) before
+    /// .png.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub aov: Vec<AovKind>,
 
@@ -46,17 +51,24 @@ pub struct AppearanceArgs {
     /// Brightness in stops: 1 is twice as bright
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
     pub exposure: f64,
-    /// Light from all directions: an equirectangular .hdr or .exr [default: a neutral studio]
+    /// Light from all around: an .hdr or .exr [default: a neutral studio]
+    ///
+    /// The image is equirectangular: its columns are longitudes, its rows latitudes.
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
     /// Degrees by which the environment is turned about the vertical axis, counter-clockwise seen from above
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
         requires = "environment", hide_short_help = true)]
     pub environment_rotation: f64,
-    /// Shadows of the scene's own lights
+    /// Shadows of the scene's own lights: none or exact
     ///
-    /// They are exact at every sample, for every number and distance of lights.
-    #[arg(long, value_name = "S", default_value = "none")]
+    /// They are tested exactly at every sample. An image takes several times as long.
+    #[arg(
+        long,
+        value_name = "S",
+        default_value = "none",
+        hide_possible_values = true
+    )]
     pub shadows: Shadows,
     /// Width of lines in pixels
     #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
@@ -64,9 +76,10 @@ pub struct AppearanceArgs {
     /// Diameter of points in pixels
     #[arg(long, value_name = "PX", default_value_t = 3.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub point_size: f64,
-    /// Draw silhouettes, boundaries and creases as lines of this width in pixels
+    /// Draw edges of meshes as lines of this width in pixels
     ///
-    /// An edge is a crease if its faces meet at more than 30 degrees. Lines are black, or R,G,B of 0 to 1, or #rrggbb.
+    /// Edges are silhouettes, boundaries and creases; an edge is a crease if its faces meet at more than 30 degrees. Lines are black
+    /// unless a colour follows: R,G,B of 0 to 1, or #rrggbb.
     #[arg(long, value_name = "WIDTH[,COLOUR]", allow_negative_numbers = true, value_parser = values::edges)]
     pub edges: Option<EdgeLines>,
 }
@@ -136,6 +149,7 @@ impl ImageArgs {
         if format.is_scene_linear() && self.tonemap == Some(Tonemap::Neutral) {
             usage!("--tonemap neutral: an EXR holds light that is not tone-mapped");
         }
+        check_folder(output)?;
         Ok(format)
     }
 

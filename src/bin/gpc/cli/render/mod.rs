@@ -18,7 +18,7 @@ pub use args::{CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
-pub use save::{beside, encode, save, write};
+pub use save::{beside, check_folder, encode, save, write};
 pub use session::{RenderedImage, open_beside, upload};
 pub use view::{NamedView, choose as choose_views};
 
@@ -64,6 +64,10 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         let loaded = image.load(&args.scene)?;
         clock.lap("load");
         warnings.add(&loaded.warnings);
+        if args.sequence.frames.is_some() && loaded.scene.info().animations.is_empty() {
+            let still = "the scene has no animation, so all frames show the same";
+            warnings.add(&[still.to_owned()]);
+        }
         let film = Film::new(image, loaded, first, &steps)?;
         warnings.add(&film.pose.warnings);
         if image.background == Background::Environment && film.environment().is_none() {

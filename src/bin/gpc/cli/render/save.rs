@@ -47,6 +47,25 @@ pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Ok(output::write_atomically(path, bytes)?)
 }
 
+/// Fails if the folder of an output file does not exist, before work is done for that file. A folder whose name has
+/// placeholders is not checked.
+pub fn check_folder(path: &Path) -> anyhow::Result<()> {
+    let Some(folder) = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+    else {
+        return Ok(());
+    };
+    if !folder.is_dir() && !folder.to_string_lossy().contains('{') {
+        anyhow::bail!(
+            "-o {}: there is no folder {}",
+            path.display(),
+            folder.display()
+        );
+    }
+    Ok(())
+}
+
 /// Path of a file beside the image that holds something else, such as depth: `a.depth.png` for `a.png`, `a.16.png` and
 /// `a.jpg`.
 pub fn beside(path: &Path, format: Format, holds: &str) -> PathBuf {

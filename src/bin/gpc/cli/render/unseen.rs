@@ -20,7 +20,7 @@ pub fn warning(
     }
     if pose.geometry.bounds().is_none() {
         return Some(
-            "the image is empty: the scene has no triangles, lines or points to draw".to_owned(),
+            "the image is empty, like the scene; `gpc info` lists what the file has".to_owned(),
         );
     }
     let geometry = pose.geometry.flat();

@@ -16,7 +16,7 @@ use std::path::Path;
 pub struct ReportArgs {
     /// Print figures as one JSON object
     ///
-    /// The figures are files, sizes, samples, superpixels, times and memory; several images are a list.
+    /// It has the file, size, samples, superpixels, times and memory of the image, or a list of these for several images.
     #[arg(long, help_heading = "Report")]
     pub json: bool,
     /// Print nothing but errors

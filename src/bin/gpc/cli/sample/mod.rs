@@ -21,26 +21,14 @@ use std::process::ExitCode;
 use std::time::Instant;
 use table::Locations;
 
-/// Samples a scene at given locations.
-///
-/// LOCATIONS is a CSV with the header u,v or u,v,row,col, or a NPY array of N x 2 or N x 4 numbers (float32 or
-/// float64). Locations are in pixels of an image of --size, (0, 0) at its upper left corner; they may lie outside of
-/// it. Rows and columns tell which locations are neighbours, so that textures are filtered over the area between them;
-/// without them a sample stands for a pixel.
-///
-/// Each row of the result belongs to a sample, in the order given: u, v, the colour r, g, b, a (linear light,
-/// premultiplied, not tone-mapped unless asked), depth (distance along the direction of view; 0 where nothing is hit),
-/// id (index of the triangle plus 1), hit (1 or 0) and the normal x, y, z. A CSV has a header; a NPY is an array of N
-/// x 12 float64. An image (.png, .16.png, .jpg, .exr) has the mean colour of the samples in each row and column,
-/// tone-mapped as by gpc render. Samples are points; with --aa superpixel or ssaa the colour is the mean of
-/// --supersamples points around each location.
+/// Options of `gpc sample`.
 #[derive(Args)]
 #[command(
     mut_arg("aa", |arg| arg.default_value("none")),
     mut_arg("samples", |arg| arg.long("supersamples"))
 )]
 pub struct SampleArgs {
-    /// A .glb or .gltf file, or - for standard input
+    /// A glTF, OBJ, STL or PLY file, or - for standard input
     #[arg(id = "file", value_name = "SCENE")]
     scene: PathBuf,
     /// Where to sample: .csv or .npy
@@ -203,6 +191,7 @@ fn kind(args: &SampleArgs) -> anyhow::Result<Kind> {
         usage!("--aov: a CSV or NPY of samples has all that there is");
     }
     let path = &args.output;
+    render::check_folder(path)?;
     if input::is_standard(path) || ends_with(path, "csv") {
         Ok(Kind::Csv)
     } else if ends_with(path, "npy") {

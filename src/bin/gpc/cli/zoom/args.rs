@@ -8,23 +8,19 @@ use clap::Args;
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 use std::path::PathBuf;
 
-/// Enlarges regions of an image and joins them continuously to the rest (focus plus context).
-///
-/// Of a scene, each pixel is sampled exactly where it looks, and antialiased. A photograph (PNG or JPEG) is
-/// interpolated between its pixels; size, view and sampling options are ignored then. Positions are in pixels of the
-/// output, (0, 0) at its upper left corner. Several regions are given by repeating --center, --radius and
-/// --multiplicity; each is applied to the result of those before it. PNGs store the parameters, for gpc unzoom.
+/// Options of `gpc zoom`.
 #[derive(Args)]
 pub struct ZoomArgs {
-    /// A .glb or .gltf file, - for one on standard input, or a PNG or JPEG
+    /// A glTF, OBJ, STL or PLY file, - for one on standard input, or a PNG or JPEG
     #[arg(id = "file", value_name = "SCENE|IMAGE")]
     pub input: PathBuf,
     /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Also write the steps, as PNG files named like OUT: original (regular locations), locations (a subset of them),
-    /// resampled (regions without transitions), transition (transitions only) and, of scenes, direct (an ordinary
-    /// image of what each region shows)
+    /// Also write the steps of the zoom, as PNG files named like OUT
+    ///
+    /// original is the image without a zoom, locations shows some of the sampling locations as dots, resampled has the regions without
+    /// transitions, and transition the transitions alone. For scenes, direct is an ordinary image of each region.
     #[arg(long)]
     pub steps: bool,
 
@@ -52,8 +48,7 @@ pub struct RegionArgs {
     /// Outline of a region; once for all regions, or once for each
     #[arg(long, default_value = "circle")]
     shape: Vec<Shape>,
-    /// Transition between a region and the rest: displacements that fade linearly, or a sampling rate without jumps;
-    /// once for all regions, or once for each
+    /// Transition between a region and the rest; once for all regions, or once for each
     #[arg(long, default_value = "linear")]
     transition: Vec<Transition>,
 }

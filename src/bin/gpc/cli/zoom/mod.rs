@@ -92,6 +92,22 @@ pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
     )))
 }
 
+/// Refuses regions that lie outside of an image of `size` = [width, height].
+fn check_places(map: &ZoomMap, size: [u32; 2]) -> Result<(), Usage> {
+    for ZoomRegion { center, radius, .. } in map.regions() {
+        let touches = (0..2).all(|axis| {
+            center[axis] + radius[axis] > 0.0 && center[axis] - radius[axis] < f64::from(size[axis])
+        });
+        if !touches {
+            return Err(Usage(format!(
+                "--center {},{}: the region lies outside of the image, which has {} x {} pixels",
+                center[0], center[1], size[0], size[1]
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Whether a file starts like a PNG or a JPEG. An unreadable file counts as a scene, whose loader reports the error.
 fn is_picture(path: &Path) -> bool {
     !input::is_standard(path) && output::is_image(path)
@@ -104,6 +120,7 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     }
     let photograph = Photograph::from(&output::read(&args.input)?);
     let size = photograph.size();
+    check_places(map, size)?;
     let start = Instant::now();
     let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
@@ -134,6 +151,7 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
 /// Samples a scene at the locations that the map gives the pixels.
 fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     let size = args.image.size;
+    check_places(map, size)?;
     if args.steps {
         for (index, region) in map.regions().iter().enumerate() {
             check_window(index, &region.window())?;

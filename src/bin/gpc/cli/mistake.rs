@@ -1,0 +1,51 @@
+//! Advice on wrong command lines.
+
+use clap::builder::StyledStr;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use gpc::output::Format;
+use std::path::Path;
+
+/// Endings of the names of scenes.
+const SCENES: [&str; 5] = ["glb", "gltf", "obj", "stl", "ply"];
+
+/// A usage error, with a tip where the command line shows what was meant.
+pub fn explained(mut error: clap::Error) -> clap::Error {
+    if let Some(tip) = tip(&error) {
+        let tips = vec![StyledStr::from(tip)];
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+    }
+    error
+}
+
+fn tip(error: &clap::Error) -> Option<String> {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.as_str()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => match word(ContextKind::InvalidSubcommand)? {
+            #[cfg(not(feature = "view"))]
+            "view" => Some(
+                "this gpc was built without its window; in the repository: cargo install --path . --features view"
+                    .to_owned(),
+            ),
+            scene if is_scene(scene) => {
+                Some(format!("to render a scene: gpc render {scene} -o image.png"))
+            }
+            _ => None,
+        },
+        ErrorKind::UnknownArgument => {
+            let image = word(ContextKind::InvalidArg)?;
+            Format::of(Path::new(image)).ok()?;
+            Some(format!("to write an image: -o {image}"))
+        }
+        _ => None,
+    }
+}
+
+fn is_scene(word: &str) -> bool {
+    Path::new(word)
+        .extension()
+        .and_then(|ending| ending.to_str())
+        .is_some_and(|ending| SCENES.contains(&ending.to_ascii_lowercase().as_str()))
+}
