@@ -1,8 +1,8 @@
 // gpc: antialiasing for the frames of a Vulkan application. Only pixels that alias are sampled, and the application's own
 // pipelines shade the samples.
 //
-// An application draws its frame as usual, with an additional attachment of triangle IDs. It may also leave some or all of this
-// drawing to the library. gpc_frame_record then finds the pixels that alias, samples the application's triangles there, has
+// An application draws its frame as usual, with one sample a pixel. It may also draw triangle IDs and depth for the library, or
+// leave all drawing to it. gpc_frame_record then finds the pixels that alias, samples the application's triangles there, has
 // the application shade what the samples see, and draws the resolved pixels over the aliased ones. All of this is recorded
 // into the application's command buffer. docs/embedding.md is the manual.
 //
@@ -218,8 +218,9 @@ enum GpcPattern
     GPC_PATTERN_ROTATED = 4,
     // Offsets of the application, in GpcOptions.locations.
     GPC_PATTERN_LIST = 5,
-    // 512 or 1,024 samples on straight lines. Any number of samples; the number determines in how many places a
-    // superpixel is shaded. Below 16 samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
+    // Samples on straight lines, 64 on each: 8 or 16 lines up to 64 samples, depending on the device, and 32 above. Any
+    // number of samples; the number determines in how many places a superpixel is shaded. Below 16 samples, and if
+    // each sample is shaded, the same as GPC_PATTERN_SOBOL.
     GPC_PATTERN_LINES = 6,
 };
 #ifndef __cplusplus
@@ -382,10 +383,12 @@ typedef struct GpcDraw {
     uint32_t alpha_map;
     // Shading key: the number of the application's pipeline that shades the draw, from 0.
     uint32_t key;
-    // Material number of the application's choice, up to 65,535, which its shaders can read. Detection by colours
-    // assumes that triangles with the same number look alike.
+    // Material number of the application's choice, up to 65,535, which its shaders can read. Triangles with the same
+    // number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
+    // shaded.
     uint32_t material;
-    // VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen.
+    // VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen, as with
+    // VK_FRONT_FACE_COUNTER_CLOCKWISE.
     VkBool32 double_sided;
     // VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
     // draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.

@@ -56,9 +56,7 @@ make --no-print-directory install PREFIX="$PWD/$library"
 # The prefix is relative to the file, since the archive may be unpacked anywhere.
 sed -i 's,^prefix=.*,prefix=${pcfiledir}/../..,' "$library/lib/pkgconfig/gpc.pc"
 strip --strip-debug "$library"/lib/libgpc.so."$version" "$library"/lib/libgpc.a
-install -d "$library/share/gpc/examples"
 tools/licences.sh --no-default-features --features capi >"$library/share/doc/gpc/THIRD-PARTY.txt"
-cp -r examples/forward "$library/share/gpc/examples/"
 archive "libgpc-$version-$triple" "$library"
 rm -r "$library"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the C library that `make install` has built: header, libraries, GLSL includes, files for pkg-config and CMake, manual,
-# licences.
+# an example, licences. Then it says where they are.
 #
 #   tools/install.sh BUILT VERSION SONAME PREFIX [DESTDIR]
 #
@@ -32,6 +32,12 @@ chmod 644 "$root/lib/libgpc.a"
 # The files that an application's shaders include, and the files that these include.
 for name in gpc_visibility gpc_texture gpc_position place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
+done
+
+# The example that the manual speaks of, with its shaders.
+for folder in . shaders shaders/spirv; do
+    install -d "$root/share/gpc/examples/forward/$folder"
+    find "examples/forward/$folder" -maxdepth 1 -type f -exec install -m 644 -t "$root/share/gpc/examples/forward/$folder" {} +
 done
 
 cat >"$root/lib/pkgconfig/gpc.pc" <<END
@@ -79,3 +85,14 @@ else()
     endif()
 endif()
 END
+
+echo "gpc $version is in $root: the header in include, the libraries in lib, the GLSL includes and an example in share/gpc,"
+echo "the manual in share/doc/gpc (begin with embedding.md)"
+# Where programs look without being told, ldconfig suffices.
+case "$prefix" in
+/usr | /usr/local) [ -n "$destdir" ] || echo "run ldconfig, so that programs find the library" ;;
+*)
+    [ -n "$destdir" ] || echo "to compile and to run programs with it:
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig LD_LIBRARY_PATH=$prefix/lib"
+    ;;
+esac

@@ -50,7 +50,7 @@ pub enum GpcResult {
 pub(super) enum Error {
     #[error("{0} is NULL")]
     Null(&'static str),
-    #[error("{what} is {found}; {}", sizes(name, *found, *expected))]
+    #[error("{what} is {found}; {}", sizes(what, name, *found, *expected))]
     StructSize {
         what: String,
         name: &'static str,
@@ -97,15 +97,28 @@ pub(super) enum Error {
     Panic(String),
 }
 
-/// Message about a size that the struct does not have, with the possible sizes.
-fn sizes(name: &str, found: usize, expected: usize) -> String {
+/// Message about a size that the struct does not have, with the possible sizes. `what` is the member or argument that
+/// holds the size.
+fn sizes(what: &str, name: &str, found: usize, expected: usize) -> String {
+    // A struct that nothing has filled may hold any size.
+    let filled = what.ends_with(".size");
     if found > expected {
         let version = env!("CARGO_PKG_VERSION");
+        let unfilled = if filled {
+            "either the struct's gpc_init function was not called, or "
+        } else {
+            ""
+        };
         format!(
-            "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: the program was compiled with the header of a later version; link the library of that version"
+            "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: {unfilled}the program was compiled with the header of a later version; then link the library of that version"
         )
     } else {
-        format!("it can be sizeof({name}), which is {expected}")
+        let by = if filled {
+            ", as the struct's gpc_init function sets it"
+        } else {
+            ""
+        };
+        format!("it can be sizeof({name}), which is {expected}{by}")
     }
 }
 

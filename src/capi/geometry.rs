@@ -345,10 +345,12 @@ pub struct GpcDraw {
     pub alpha_map: u32,
     /// Shading key: the number of the application's pipeline that shades the draw, from 0.
     pub key: u32,
-    /// Material number of the application's choice, up to 65,535, which its shaders can read. Detection by colours
-    /// assumes that triangles with the same number look alike.
+    /// Material number of the application's choice, up to 65,535, which its shaders can read. Triangles with the same
+    /// number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
+    /// shaded.
     pub material: u32,
-    /// VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen.
+    /// VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen, as with
+    /// VK_FRONT_FACE_COUNTER_CLOCKWISE.
     pub double_sided: vk::Bool32,
     /// VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
     /// draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.

@@ -82,6 +82,9 @@ pub(super) fn in_c(error: &HostError) -> String {
             "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0), VK_INDEX_TYPE_UINT32 (1) or VK_INDEX_TYPE_NONE_KHR (1000165000)",
             found.as_raw()
         ),
+        HostError::NullHandle("the buffer of indices") => {
+            "GpcGeometry.indices is VK_NULL_HANDLE: lend the index buffer, or set GpcGeometry.index_type to VK_INDEX_TYPE_NONE_KHR if there is none".to_owned()
+        }
         HostError::NullHandle(what) => HostError::NullHandle(c_name(what)).to_string(),
         HostError::Count { what, found, most } => HostError::Count {
             what: c_name(what),
@@ -163,6 +166,11 @@ pub(super) fn in_c(error: &HostError) -> String {
             limit: *limit,
         }
         .to_string(),
+        HostError::Engine(EngineError::Samples {
+            asked, possible, ..
+        }) => {
+            format!("GpcOptions.samples is {asked}; it can be {possible}")
+        }
         HostError::Engine(EngineError::Growths { asked, .. }) => {
             format!("GpcOptions.growths is {asked}; it can be {GROWTHS}")
         }

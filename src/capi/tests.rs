@@ -122,10 +122,16 @@ fn a_struct_of_a_later_header_and_one_of_another_size_are_refused() {
     for (size, message) in [
         (
             48,
-            "Grown.size is 48; a Grown of this library, version 0.2.0, binary interface 1, has 40 bytes: the program was compiled with the header of a later version; link the library of that version",
+            "Grown.size is 48; a Grown of this library, version 0.2.0, binary interface 1, has 40 bytes: either the struct's gpc_init function was not called, or the program was compiled with the header of a later version; then link the library of that version",
         ),
-        (36, "Grown.size is 36; it can be sizeof(Grown), which is 40"),
-        (4, "Grown.size is 4; it can be sizeof(Grown), which is 40"),
+        (
+            36,
+            "Grown.size is 36; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it",
+        ),
+        (
+            0,
+            "Grown.size is 0; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it",
+        ),
     ] {
         let mut grown = compiled_with(40);
         grown.size = size;

@@ -7,6 +7,9 @@ use std::sync::OnceLock;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
+const EXAMPLE: &str = "examples/forward/forward.cpp";
+const EXAMPLE_SHADER: &str = "examples/forward/shaders/spirv/samples.spv";
+
 /// Folder in which the library is installed for these tests.
 fn prefix() -> &'static Path {
     static PREFIX: OnceLock<PathBuf> = OnceLock::new();
@@ -193,15 +196,18 @@ fn a_standard_without_what_the_header_needs_is_refused_by_name() {
 }
 
 #[test]
-fn the_manual_and_the_licences_are_installed() {
-    for (file, source) in [
-        ("embedding.md", "docs/embedding.md"),
-        ("swapchains.md", "docs/swapchains.md"),
-        ("LICENSE-MIT", "LICENSE-MIT"),
-        ("LICENSE-APACHE", "LICENSE-APACHE"),
-        ("CHANGELOG.md", "CHANGELOG.md"),
+fn the_manual_the_example_and_the_licences_are_installed() {
+    for (folder, file, source) in [
+        ("doc/gpc", "embedding.md", "docs/embedding.md"),
+        ("doc/gpc", "swapchains.md", "docs/swapchains.md"),
+        ("doc/gpc", "LICENSE-MIT", "LICENSE-MIT"),
+        ("doc/gpc", "LICENSE-APACHE", "LICENSE-APACHE"),
+        ("doc/gpc", "CHANGELOG.md", "CHANGELOG.md"),
+        ("gpc", EXAMPLE, EXAMPLE),
+        ("gpc", EXAMPLE_SHADER, EXAMPLE_SHADER),
     ] {
-        let found = std::fs::read(prefix().join("share/doc/gpc").join(file)).unwrap();
+        let found = prefix().join("share").join(folder).join(file);
+        let found = std::fs::read(found).unwrap();
         assert_eq!(found, std::fs::read(Path::new(ROOT).join(source)).unwrap());
     }
 }

@@ -271,9 +271,13 @@ static int most_allocations = 1000000;
 
 static void make_antialiaser(void) {
     VkPipelineCacheCreateInfo cache_info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    GpcDevice lent = {.size = 0};
+    GpcDevice lent;
     GpcOutcome other;
+    memset(&lent, 0, sizeof lent);
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is 0; it can be sizeof(GpcDevice), which is");
+    EXPECT(strstr(gpc_last_error(), "as the struct's gpc_init function sets it") != NULL, "a struct of zeros");
+    memset(&lent, 0x55, sizeof lent);
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "the struct's gpc_init function was not called");
     MUST((VkResult)gpc_init_outcome(&other, sizeof other));
     MUST((VkResult)gpc_init_device(&lent, sizeof lent));
     lent.type = GPC_STRUCT_TYPE_IMAGES;
@@ -533,7 +537,6 @@ static void frames(void) {
     MUST((VkResult)gpc_init_options(&options, sizeof options));
     geometry.vertex_capacity = VERTICES;
     geometry.position_stride = 16;
-    geometry.indices = indices;
     geometry.index_type = VK_INDEX_TYPE_UINT32;
     geometry.index_capacity = INDICES;
     geometry.triangle_capacity = 4;
@@ -548,6 +551,8 @@ static void frames(void) {
     EXPECT(frame == NULL, "what failed gives nothing");
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.positions is VK_NULL_HANDLE");
     geometry.positions = positions;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.indices is VK_NULL_HANDLE: lend the index buffer, or set GpcGeometry.index_type");
+    geometry.indices = indices;
     geometry.alpha_map_count = 1;
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.alpha_maps is NULL");
     geometry.alpha_maps = &map;
@@ -665,6 +670,10 @@ static void frames(void) {
     options.locations = locations;
     options.location_count = 2;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "64 samples were asked for, but the list holds 2 offsets");
+    options.pattern = GPC_PATTERN_LINES;
+    options.samples = 2000;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.samples is 2000; it can be 1 to 1024");
+    options.pattern = GPC_PATTERN_LIST;
     options.samples = 2;
     options.contrast = 256;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.contrast is 256");

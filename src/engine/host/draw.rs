@@ -26,8 +26,8 @@ pub struct Draw {
     pub alpha_map: Option<u16>,
     /// Shading key: the number of the host's pipeline that shades the draw, from 0.
     pub key: u32,
-    /// Material number of the host's choice, which its shaders can read. Detection by colours assumes that triangles
-    /// with the same number look alike.
+    /// Material number of the host's choice, which its shaders can read. Triangles with the same number are assumed to
+    /// look alike where the surrounding colours decide in how many parts [`Self::detailed`] ones are shaded.
     pub material: u16,
     /// Whether back faces are visible. A front face is counter-clockwise on the screen.
     pub double_sided: bool,
@@ -629,7 +629,7 @@ mod tests {
         );
         assert_eq!(
             refused(of(1, Topology::Strip, 45, 4)),
-            "draw 0 takes the vertices from 45 to before 51 without indices, and has those from 0 to before 50"
+            "draw 0 takes the vertices from 45 to before 51 without indices, by its topology and triangle_count, and has those from 0 to before 50"
         );
         assert_eq!(
             refused(of(2, Topology::List, 0, 1)),
@@ -660,7 +660,7 @@ mod tests {
         };
         assert_eq!(
             refused(of(6, 90, 8)),
-            "draw 0 takes the vertices from 96 to before 99 without indices, and has those from 90 to before 98"
+            "draw 0 takes the vertices from 96 to before 99 without indices, by its topology and triangle_count, and has those from 90 to before 98"
         );
     }
 }

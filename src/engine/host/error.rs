@@ -142,7 +142,7 @@ pub enum HostError {
     },
     /// Draw without indices that reads vertices outside of its mesh.
     #[error(
-        "draw {draw} takes the vertices from {first} to before {end} without indices, and has those from {from} to before {vertices}"
+        "draw {draw} takes the vertices from {first} to before {end} without indices, by its topology and triangle_count, and has those from {from} to before {vertices}"
     )]
     Corners {
         /// Index of the draw.

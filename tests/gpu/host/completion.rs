@@ -26,6 +26,18 @@ fn a_discarded_recording_changes_nothing() {
     });
 }
 
+/// An application may record its commands once and submit them for each frame.
+#[test]
+fn a_recording_that_is_submitted_again_makes_the_same_picture() {
+    on_gpu(|gpu| {
+        for world in [World::new(), mask::world(&Sampler::default())] {
+            let machine = Machine::new(gpu, &world);
+            let [first, second] = machine.see_twice(&PLACED, &world.lent(&PLACED));
+            assert!(first.colors == second.colors);
+        }
+    });
+}
+
 /// Results of commands that still run are neither waited for nor read.
 #[test]
 fn what_still_runs_is_not_read() {

@@ -579,6 +579,54 @@ impl<'a> Machine<'a> {
         shown.collect()
     }
 
+    /// Pictures of the world, made by two submissions of one recording. In between the picture is overwritten.
+    pub fn see_twice(&self, way: &Way, lent: &Lent) -> [Shown; 2] {
+        let lending = Lending::new(self, way, lent);
+        let (corners, dispatched) = self.kept(lent);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        // SAFETY: lent objects have the stated contents, and outlive the frame.
+        let frame = unsafe {
+            let options = of_size(SIZE);
+            self.antialiaser
+                .prepare(&lending.geometry, &KINDS, &options)
+        };
+        let frame = RefCell::new(frame.unwrap());
+        let scenery = Scenery::new(&lent.draws, self.world.projection);
+        let canvas = self.canvas(SIZE);
+        let recorded = Cell::default();
+        let mut first = None;
+        submit_and(
+            &self.gpu,
+            |commands| {
+                let (mut frame, images) = (frame.borrow_mut(), canvas.images());
+                // SAFETY: the commands are waited for; all handles outlive them.
+                unsafe { frame.record(commands, &images, &scenery, &shading) }.unwrap();
+                self.read(commands, &canvas);
+                recorded.set(commands);
+            },
+            || {
+                let device = self.gpu.device();
+                let all = [recorded.get()];
+                let submits = [vk::SubmitInfo::default().command_buffers(&all)];
+                // SAFETY: the commands are submitted again when they are done, and are waited for by `submit_and`.
+                unsafe {
+                    let queue = device.get_device_queue(self.gpu.queue_family(), 0);
+                    device.queue_wait_idle(queue).unwrap();
+                    first = Some(canvas.shown(&frame.borrow()));
+                    submit(&self.gpu, |commands| self.overwrite(commands, &canvas));
+                    let colors = canvas.shown(&frame.borrow()).colors;
+                    assert!(colors.iter().all(|color| *color == AROUND));
+                    device
+                        .queue_submit(queue, &submits, vk::Fence::null())
+                        .unwrap();
+                }
+            },
+        );
+        let frame = frame.into_inner();
+        assert_eq!(frame.outcome().unwrap().left_over, 0);
+        [first.unwrap(), canvas.shown(&frame)]
+    }
+
     /// Buffers for the corners of triangles and for numbers of workgroups.
     fn kept(&self, lent: &Lent) -> (Buffer, Buffer) {
         let corners = self.read_back(48 * u64::from(lent.triangle_count));
@@ -592,6 +640,40 @@ impl<'a> Machine<'a> {
             read_back: self.read_back(16 * u64::from(size[0] * size[1])),
             size,
         }
+    }
+
+    /// Fills a canvas that was read with [`AROUND`], and reads it.
+    fn overwrite(&self, commands: vk::CommandBuffer, canvas: &Canvas) {
+        let image = canvas.color.handle();
+        let color = vk::ClearColorValue { float32: AROUND };
+        let range = vk::ImageSubresourceRange::default()
+            .aspect_mask(vk::ImageAspectFlags::COLOR)
+            .level_count(1)
+            .layer_count(1);
+        let barrier = |before, after| {
+            vk::ImageMemoryBarrier2::default()
+                .image(image)
+                .old_layout(before)
+                .new_layout(after)
+                .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+                .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+                .dst_access_mask(vk::AccessFlags2::MEMORY_WRITE | vk::AccessFlags2::MEMORY_READ)
+                .subresource_range(range)
+        };
+        let cleared = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let before = [barrier(COPIED.layout, cleared)];
+        let after = [barrier(cleared, COPIED.layout)];
+        let device = self.gpu.device();
+        // SAFETY: the commands are waited for; the image is in the layout named.
+        unsafe {
+            let info = vk::DependencyInfo::default().image_memory_barriers(&before);
+            device.cmd_pipeline_barrier2(commands, &info);
+            device.cmd_clear_color_image(commands, image, cleared, &color, &[range]);
+            let info = vk::DependencyInfo::default().image_memory_barriers(&after);
+            device.cmd_pipeline_barrier2(commands, &info);
+        }
+        self.read(commands, canvas);
     }
 
     fn read(&self, commands: vk::CommandBuffer, canvas: &Canvas) {
