@@ -14,13 +14,13 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = SET_FRAME, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
-layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
+layout(set = SET_DATA, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
+layout(set = SET_DATA, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
 // Of each corner of points and lines two vectors: the vertex to place, and those of the end that it belongs to, of the
 // segment's other end and of where the line goes on, or the first of these again; what it is, and a disc's corner from its
 // centre, floats as bits. Then of each edge two vectors: the first of four vertices to place, those of both ends, flags; the
 // third vertices of its faces: from the first end to the second, and back. An end stands for none.
-layout(set = SET_FRAME, binding = BINDING_STROKES) uniform utextureBuffer strokes;
+layout(set = SET_DATA, binding = BINDING_STROKES) uniform utextureBuffer strokes;
 
 layout(push_constant) uniform Push {
     vec4 right;     // xyz: one pixel to the right in the image, at w = 1; w: half the width of lines in pixels

@@ -4,14 +4,17 @@
 #ifndef INTERFACE_GLSL
 #define INTERFACE_GLSL
 
-// Sets: that of all passes of a frame, or one of the shader's own in its place; a material's textures, or a set of the
-// shader's own beside the frame's.
+// Sets: the uniform blocks of all passes of a frame; other data of a frame, of which each shader has a set of what it
+// uses; a material's textures, or a set of the shader's own beside the frame's. Shaders without a frame have one set.
+// The uniform blocks have a set of their own so that they stay bound: lavapipe 22.3 compiles a kernel again, with the
+// values of uniform blocks, where they were bound since the last dispatch.
 #define SET_FRAME 0
+#define SET_DATA 1
+#define SET_TEXTURES 2
+#define SET_BESIDE_FRAME 2
 #define SET_OWN 0
-#define SET_TEXTURES 1
-#define SET_BESIDE_FRAME 1
 
-// Bindings of the frame's set.
+// Bindings of the frame's sets.
 #define BINDING_FRAME 0
 #define BINDING_POSITIONS 1
 #define BINDING_TRIANGLES 2

@@ -14,16 +14,16 @@ layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINT
 // Two vectors each, floats as bits:
 // a location: (pixel x, y as signed integers, place in it x, y from 0 to 1), (its Jacobian: change of x and y a column, change
 //   a row of the output; OCCLUDERS: least depth of what lies before it, ID of the surface's triangle, 0, 0)
-layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
+layout(set = SET_DATA, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
 // a cell: (x, y of its middle from its tile's centre, half its width and height), (its location or, of POINTS, where in
 //   `location_order` its locations begin, how many it has, 0, 0)
-layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
+layout(set = SET_DATA, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
 // One vector: tile, first cell, cells, number of the first cell within its tile
-layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
-layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
+layout(set = SET_DATA, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
+layout(std430, set = SET_DATA, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
 
 // Locations of POINTS tile by tile, those of a cell one after the other.
-layout(set = SET_FRAME, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
+layout(set = SET_DATA, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
 
 // Set in the location of that record of POINTS that stands for all that it sees: its leaf, or its only one.
 #define POINT_VALUE 0x80000000u

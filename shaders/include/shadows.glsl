@@ -8,7 +8,7 @@
 // Words of a place: none where shadows are not asked for; a bit for each light that something keeps from it; and where casters
 // may let light pass, for each light what part of it does, as a float, which counts if the light's bit is set.
 layout(constant_id = CONSTANT_SHADOW_WORDS) const uint SHADOW_WORDS = 0u;
-layout(set = SET_FRAME, binding = BINDING_SHADOW_WORDS) uniform utextureBuffer shadow_words;
+layout(set = SET_DATA, binding = BINDING_SHADOW_WORDS) uniform utextureBuffer shadow_words;
 
 uint place_of_record(uint record) { return (LOCATIONS ? 0u : frame.size.x * frame.size.y) + record; }
 

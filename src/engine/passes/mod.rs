@@ -54,7 +54,7 @@ pub use detect::{Detect, DetectMode, DetectOptions};
 pub use distribute::{Distribute, ListLength, ListRegion};
 pub use groups::Groups;
 pub use grow::Grow;
-pub(crate) use host_image::{HostImage, HostImageLayout};
+pub(crate) use host_image::HostImage;
 pub(crate) use patch::{Patch, Patched};
 pub use points::Points;
 pub use raster::{Raster, RasterTargets};

@@ -4,12 +4,10 @@ use super::{RecordRate, Sample, SampleOptions, spirv};
 use crate::engine::data::{Argument, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Adds tiles to a round as long as they fit.
 pub struct Schedule {
-    layout: vk::PipelineLayout,
     tally: Arc<Pipeline>,
     schedule: Arc<Pipeline>,
     enlist: Arc<Pipeline>,
@@ -58,7 +56,6 @@ impl Schedule {
         let [longest_list, longest_layered] = options.long_lists.longest();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
-            layout: layout.pipeline,
             tally: layout.compute(&tally, layout.subgroup())?,
             schedule: layout.compute(&schedule, layout.subgroup())?,
             enlist: layout.compute(&enlist, layout.subgroup())?,
@@ -210,15 +207,16 @@ impl Schedule {
 
     /// Records the passes that run once before all rounds, after `bin`.
     pub fn record_tally(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, &self.pushed);
+        recorder.push(&self.tally, &self.pushed);
         recorder.dispatch_indirect(&self.tally, arguments, Argument::Tally as u32);
     }
 
     /// Records the beginning of a round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Schedule::INTERFACE, || {
-            recorder.push(self.layout, &self.pushed);
+            recorder.push(&self.schedule, &self.pushed);
             recorder.dispatch(&self.schedule, 1);
+            recorder.push(&self.enlist, &self.pushed);
             recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
         });
     }
