@@ -1,5 +1,5 @@
 // Samples on straight lines across a cell: LINES rows or columns of BITS samples, a bit each. An invocation holds WORDS words
-// of 32 of them; lines follow one after the other, and of each its first half before its second one. Twin: src/reference/lines.rs.
+// of 32 of them; lines follow one after the other, and of each its first half before its second one. Twin: src/reference/sample_lines.rs.
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
