@@ -550,12 +550,12 @@ fn shaders(all: &[Compiled]) -> BTreeMap<String, Shader<'_>> {
     shaders
 }
 
-/// Bindings of the set that all passes of a frame share.
+/// Bindings of the sets that all passes of a frame share; their numbers differ.
 fn frame_set(shaders: &BTreeMap<String, Shader<'_>>) -> BTreeMap<u32, Binding> {
     let mut set: BTreeMap<u32, Binding> = BTreeMap::new();
     let in_frame = shaders.values().filter(|shader| shader.in_frame);
     for ((of, number), binding) in in_frame.flat_map(|shader| &shader.interface.bindings) {
-        if *of != 0 {
+        if *of > 1 {
             continue;
         }
         match set.get_mut(number) {
@@ -612,8 +612,8 @@ fn binding(number: u32, binding: &Binding) -> String {
     )
 }
 
-/// Module with the bindings of a set.
-fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)]) -> String {
+/// Module with the bindings of a set, and with a list of them where it is `lent` to hosts.
+fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)], lent: bool) -> String {
     let mut code =
         format!("\n/// {what}\npub mod {name} {{\n    use super::{{Binding, Kind}};\n\n");
     let mut all = String::new();
@@ -627,13 +627,15 @@ fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)]) -> String {
         .expect("a string");
         writeln!(all, "        {name},").expect("a string");
     }
-    write!(
-        code,
-        "    pub const ALL: [Binding; {}] = [\n{all}    ];\n}}\n",
-        bound.len()
-    )
-    .expect("a string");
-    code
+    if lent {
+        writeln!(
+            code,
+            "    pub const ALL: [Binding; {}] = [\n{all}    ];",
+            bound.len()
+        )
+        .expect("a string");
+    }
+    code + "}\n"
 }
 
 /// Text of the Rust file.
@@ -647,15 +649,27 @@ pub fn rust(all: &[Compiled], numbers: &str) -> String {
         .collect();
     code += &set_module(
         "frame_set",
-        "The set that the passes of a frame share.",
+        "The sets that the passes of a frame share.",
         &bound,
+        false,
     );
     let mut blocks: Vec<(String, Block)> = Vec::new();
     let mut pushed: Vec<(String, Block)> = Vec::new();
     for (name, shader) in &shaders {
         code += &of_shader(name, shader, &frame, &mut blocks, &mut pushed);
     }
-    code + &of_numbers(numbers)
+    let own = shaders.iter().filter(|(_, shader)| !shader.lent);
+    let all: Vec<_> = own.map(|(name, _)| camel(name)).collect();
+    writeln!(
+        code,
+        "\n/// Interfaces of all shaders.\npub const INTERFACES: [&Interface; {}] = [",
+        all.len()
+    )
+    .expect("a string");
+    for name in all {
+        writeln!(code, "    {name}::INTERFACE,").expect("a string");
+    }
+    code + "];\n" + &of_numbers(numbers)
 }
 
 fn of_shader(
@@ -718,9 +732,9 @@ fn of_shader(
     for ((set, number), bound) in &interface.bindings {
         by_set.entry(*set).or_default().push((*number, bound));
     }
-    let is_frames = |set: u32| set == 0 && *in_frame;
+    let is_frames = |set: u32| set < 2 && *in_frame;
     for (set, bound) in by_set.iter().filter(|(set, _)| !is_frames(**set)) {
-        let beside = if *in_frame && *set > 0 {
+        let beside = if *in_frame {
             "beside the frame's"
         } else {
             "of its own"
@@ -730,7 +744,7 @@ fn of_shader(
         } else {
             format!("The set {beside} that `shaders/{source}` binds.")
         };
-        code += &set_module(&format!("{name}_set"), &what, bound);
+        code += &set_module(&format!("{name}_set"), &what, bound, *lent);
     }
     if *lent {
         for (id, constant) in &interface.constants {
@@ -764,7 +778,7 @@ fn of_shader(
         }
         code += "        }\n    }\n}\n";
     }
-    writeln!(code, "\nimpl Specialized for {title} {{\n    const INTERFACE: &'static Interface = &Interface {{\n        name: {name:?},\n        uses: &[").expect("a string");
+    writeln!(code, "\nimpl Specialized for {title} {{\n    const INTERFACE: &'static Interface = &Interface {{\n        name: {name:?},\n        in_frame: {in_frame},\n        uses: &[").expect("a string");
     for (set, bound) in &by_set {
         for (number, bound) in bound {
             let what = if is_frames(*set) {

@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = ATTRIBUTES_CONSTANT_SUPERPIXELS) const bool SUPERPIXELS = false;
 layout(constant_id = ATTRIBUTES_CONSTANT_GROWN) const bool GROWN = false;       // masks hold only what `grow` added last
-layout(std430, set = SET_FRAME, binding = BINDING_ATTRIBUTES_OUT) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_ATTRIBUTES_OUT) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
     uint i = invocation_number();

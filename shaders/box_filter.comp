@@ -5,7 +5,7 @@
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 layout(local_size_x = 64) in;
-layout(set = SET_FRAME, binding = BINDING_FILTERED, rgba32f) uniform writeonly imageBuffer filtered;
+layout(set = SET_DATA, binding = BINDING_FILTERED, rgba32f) uniform writeonly imageBuffer filtered;
 
 layout(push_constant) uniform Push { uint side; } push;
 

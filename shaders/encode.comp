@@ -7,7 +7,7 @@
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = ENCODE_CONSTANT_FORMAT) const uint FORMAT = 0u;
-layout(std430, set = SET_FRAME, binding = BINDING_ENCODED) writeonly buffer Encoded { uint encoded[]; };
+layout(std430, set = SET_DATA, binding = BINDING_ENCODED) writeonly buffer Encoded { uint encoded[]; };
 
 void main() {
     uint i = invocation_number();

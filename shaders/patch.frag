@@ -8,9 +8,9 @@
 layout(constant_id = PATCH_CONSTANT_ENCODED) const bool ENCODED = false;
 layout(constant_id = PATCH_CONSTANT_GROWN) const bool GROWN = false;       // masks hold only what `grow` added last
 layout(constant_id = PATCH_CONSTANT_ALL) const bool ALL = false;
-layout(std430, set = SET_FRAME, binding = BINDING_COLOR) readonly buffer ColorIn { vec4 color_in[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_MASKS) readonly buffer MasksIn { uint masks_in[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_MARKS) readonly buffer MarksIn { uint marks_in[]; };
+layout(std430, set = SET_DATA, binding = BINDING_COLOR) readonly buffer ColorIn { vec4 color_in[]; };
+layout(std430, set = SET_DATA, binding = BINDING_MASKS) readonly buffer MasksIn { uint masks_in[]; };
+layout(std430, set = SET_DATA, binding = BINDING_MARKS) readonly buffer MarksIn { uint marks_in[]; };
 layout(location = 0) out vec4 drawn;
 
 void main() {

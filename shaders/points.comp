@@ -15,7 +15,7 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = POINTS_CONSTANT_ATTRIBUTES) const bool ATTRIBUTES = false;
-layout(std430, set = SET_FRAME, binding = BINDING_ATTRIBUTES_OUT) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_ATTRIBUTES_OUT) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
     uint i = invocation_number();

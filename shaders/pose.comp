@@ -8,13 +8,13 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = SET_FRAME, binding = BINDING_MOMENT) uniform textureBuffer moment;         // rows of matrices; weights, targets
-layout(set = SET_FRAME, binding = BINDING_RESTING) uniform textureBuffer resting;        // position, normal, tangent of each vertex
-layout(set = SET_FRAME, binding = BINDING_INFLUENCES) uniform utextureBuffer influences;    // joints of a vertex, bits of their weights
-layout(set = SET_FRAME, binding = BINDING_DISPLACEMENTS) uniform textureBuffer displacements;  // 1 to 3 vectors of a vertex
-layout(set = SET_FRAME, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
-layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
-layout(set = SET_FRAME, binding = BINDING_TANGENTS_OUT, rgba32f) uniform writeonly imageBuffer tangents_out;
+layout(set = SET_DATA, binding = BINDING_MOMENT) uniform textureBuffer moment;         // rows of matrices; weights, targets
+layout(set = SET_DATA, binding = BINDING_RESTING) uniform textureBuffer resting;        // position, normal, tangent of each vertex
+layout(set = SET_DATA, binding = BINDING_INFLUENCES) uniform utextureBuffer influences;    // joints of a vertex, bits of their weights
+layout(set = SET_DATA, binding = BINDING_DISPLACEMENTS) uniform textureBuffer displacements;  // 1 to 3 vectors of a vertex
+layout(set = SET_DATA, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
+layout(set = SET_DATA, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
+layout(set = SET_DATA, binding = BINDING_TANGENTS_OUT, rgba32f) uniform writeonly imageBuffer tangents_out;
 
 layout(push_constant) uniform Push {
     uint count;             // vertices

@@ -16,8 +16,8 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = SET_FRAME, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
-layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
+layout(set = SET_DATA, binding = BINDING_POSITIONS_OUT, rgba32f) uniform writeonly imageBuffer positions_out;
+layout(set = SET_DATA, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonly imageBuffer normals_out;
 // Two vectors for each corner of a point or line:
 //   the vertex to place; vertices: the end that the corner belongs to, the segment's other end, the far end of the segment in
 //     which the line goes on (or the first end again)
@@ -26,7 +26,7 @@ layout(set = SET_FRAME, binding = BINDING_NORMALS_OUT, rgba32f) uniform writeonl
 //   the first of the four vertices to place; vertices: the two ends; flags
 //   third vertices of the two faces at the edge: of the one whose order of vertices leads from the first end to the second, and
 //     of the other one (or an end if there is no such face); 0; 0
-layout(set = SET_FRAME, binding = BINDING_STROKES) uniform utextureBuffer strokes;
+layout(set = SET_DATA, binding = BINDING_STROKES) uniform utextureBuffer strokes;
 
 layout(push_constant) uniform Push {
     vec4 right;     // xyz: one pixel to the right in the image, at w = 1; w: half the width of lines in pixels

@@ -22,7 +22,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = THIN_CONSTANT_SELECT) const bool SELECT = false;
 layout(constant_id = THIN_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
 
-layout(set = SET_FRAME, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
+layout(set = SET_DATA, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
 const float LONG = 64.0;            // in pixels: longer triangles are followed by a workgroup, not an invocation
 layout(push_constant) uniform Push {

@@ -5,7 +5,7 @@
 #include "studio.glsl"
 
 layout(constant_id = CONSTANT_ENVIRONMENT) const bool ENVIRONMENT = false;
-layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAP) uniform samplerCube environment_map;   // a level for each roughness
+layout(set = SET_DATA, binding = BINDING_ENVIRONMENT_MAP) uniform samplerCube environment_map;   // a level for each roughness
 
 // Turns a direction of the world into the axes of the environment map.
 vec3 to_environment(vec3 d) {

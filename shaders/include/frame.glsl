@@ -52,56 +52,56 @@ layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
 
 // On CPU devices texel buffers are faster to read, and storage buffers faster to write. Data that one pass writes and another
 // reads is therefore bound as both; the binding for writers ends in `_out`.
-layout(set = SET_FRAME, binding = BINDING_POSITIONS) uniform textureBuffer positions;
-layout(set = SET_FRAME, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
-layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: length in the world / in the mesh
-layout(set = SET_FRAME, binding = BINDING_TANGENTS) uniform textureBuffer tangents;
-layout(set = SET_FRAME, binding = BINDING_UVS) uniform textureBuffer uvs;
-layout(set = SET_FRAME, binding = BINDING_COLORS) uniform textureBuffer colors;
+layout(set = SET_DATA, binding = BINDING_POSITIONS) uniform textureBuffer positions;
+layout(set = SET_DATA, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
+layout(set = SET_DATA, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: length in the world / in the mesh
+layout(set = SET_DATA, binding = BINDING_TANGENTS) uniform textureBuffer tangents;
+layout(set = SET_DATA, binding = BINDING_UVS) uniform textureBuffer uvs;
+layout(set = SET_DATA, binding = BINDING_COLORS) uniform textureBuffer colors;
 
-layout(set = SET_FRAME, binding = BINDING_MATERIALS) uniform utextureBuffer materials;      // see material.glsl
+layout(set = SET_DATA, binding = BINDING_MATERIALS) uniform utextureBuffer materials;      // see material.glsl
 struct Light {
     vec4 position_range;    // xyz relative to the geometry's origin; w = 1 / range^2, 0 for none
     vec4 direction_kind;    // xyz unit; w = 0 directional, 1 point, 2 spot
     vec4 color_scale;       // rgb; w = spot angular scale
     vec4 offset;            // x = spot angular offset
 };
-layout(std430, set = SET_FRAME, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };
-layout(set = SET_FRAME, binding = BINDING_ALPHA_ATLAS) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
+layout(std430, set = SET_DATA, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };
+layout(set = SET_DATA, binding = BINDING_ALPHA_ATLAS) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
-layout(set = SET_FRAME, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // an instance for every 64 indices
-layout(set = SET_FRAME, binding = BINDING_INSTANCES) uniform utextureBuffer instances;     // see triangle.glsl
-layout(set = SET_FRAME, binding = BINDING_IDS) uniform utexture2D ids;
-layout(set = SET_FRAME, binding = BINDING_BLEND_IDS) uniform utexture2D blend_ids;
-layout(set = SET_FRAME, binding = BINDING_IDS_MS) uniform texture2DMS ids_ms;
-layout(set = SET_FRAME, binding = BINDING_BLEND_IDS_MS) uniform texture2DMS blend_ids_ms;
-layout(set = SET_FRAME, binding = BINDING_DISPLAY) uniform utextureBuffer display;
-layout(std430, set = SET_FRAME, binding = BINDING_DISPLAY_OUT) writeonly buffer DisplayOut { uint display_out[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_COLOR) buffer Color { vec4 color[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_MASKS) buffer Masks { uint masks[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first one, first header, flags; then stretches, see load.glsl
-layout(std430, set = SET_FRAME, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
-layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl
-layout(std430, set = SET_FRAME, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
-layout(set = SET_FRAME, binding = BINDING_RECORDS) uniform utextureBuffer records;
-layout(std430, set = SET_FRAME, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };
-layout(set = SET_FRAME, binding = BINDING_SHADED) uniform textureBuffer shaded;
-layout(std430, set = SET_FRAME, binding = BINDING_SHADED_OUT) writeonly buffer ShadedOut { vec4 shaded_out[]; };
-layout(std430, set = SET_FRAME, binding = BINDING_SHADE_ORDER) buffer ShadeOrder { uint shade_order[]; };
-layout(set = SET_FRAME, binding = BINDING_PATTERN_OFFSETS) uniform textureBuffer pattern_offsets;      // sub-sample offsets, pixels
-layout(std430, set = SET_FRAME, binding = BINDING_BINS) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
-layout(std430, set = SET_FRAME, binding = BINDING_ARGUMENTS) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
+layout(set = SET_DATA, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // an instance for every 64 indices
+layout(set = SET_DATA, binding = BINDING_INSTANCES) uniform utextureBuffer instances;     // see triangle.glsl
+layout(set = SET_DATA, binding = BINDING_IDS) uniform utexture2D ids;
+layout(set = SET_DATA, binding = BINDING_BLEND_IDS) uniform utexture2D blend_ids;
+layout(set = SET_DATA, binding = BINDING_IDS_MS) uniform texture2DMS ids_ms;
+layout(set = SET_DATA, binding = BINDING_BLEND_IDS_MS) uniform texture2DMS blend_ids_ms;
+layout(set = SET_DATA, binding = BINDING_DISPLAY) uniform utextureBuffer display;
+layout(std430, set = SET_DATA, binding = BINDING_DISPLAY_OUT) writeonly buffer DisplayOut { uint display_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_COLOR) buffer Color { vec4 color[]; };
+layout(std430, set = SET_DATA, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };
+layout(std430, set = SET_DATA, binding = BINDING_MASKS) buffer Masks { uint masks[]; };
+layout(std430, set = SET_DATA, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first one, first header, flags; then stretches, see load.glsl
+layout(std430, set = SET_DATA, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
+layout(std430, set = SET_DATA, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
+layout(set = SET_DATA, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl
+layout(std430, set = SET_DATA, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
+layout(set = SET_DATA, binding = BINDING_RECORDS) uniform utextureBuffer records;
+layout(std430, set = SET_DATA, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };
+layout(set = SET_DATA, binding = BINDING_SHADED) uniform textureBuffer shaded;
+layout(std430, set = SET_DATA, binding = BINDING_SHADED_OUT) writeonly buffer ShadedOut { vec4 shaded_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_SHADE_ORDER) buffer ShadeOrder { uint shade_order[]; };
+layout(set = SET_DATA, binding = BINDING_PATTERN_OFFSETS) uniform textureBuffer pattern_offsets;      // sub-sample offsets, pixels
+layout(std430, set = SET_DATA, binding = BINDING_BINS) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
+layout(std430, set = SET_DATA, binding = BINDING_ARGUMENTS) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 
-layout(set = SET_FRAME, binding = BINDING_PAIRS) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
-layout(std430, set = SET_FRAME, binding = BINDING_PAIRS_OUT) writeonly buffer PairsOut { uvec2 pairs_out[]; };
+layout(set = SET_DATA, binding = BINDING_PAIRS) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
+layout(std430, set = SET_DATA, binding = BINDING_PAIRS_OUT) writeonly buffer PairsOut { uvec2 pairs_out[]; };
 // Three words for each tile, a bit a pixel, in three arrays one after the other:
 // - pixels that a thin triangle crosses unseen (`thin`, `shadow`); later cells that a PROBE leaves
 // - the same for triangles close to a surface, like paint; later pixels that contrast with a superpixel beside them
 // - all superpixels before the last growth (`grow`)
-layout(std430, set = SET_FRAME, binding = BINDING_MARKS) buffer Marks { uint marks[]; };
+layout(std430, set = SET_DATA, binding = BINDING_MARKS) buffer Marks { uint marks[]; };
 
 // (n % width, n / width). Integer division is a loop on CPU devices. For quotients below 2^22 the quotient of floats is off by
 // one at the most, and is then corrected.

@@ -4,14 +4,17 @@
 #ifndef INTERFACE_GLSL
 #define INTERFACE_GLSL
 
-// Descriptor sets. Set 0 is the one that all passes of a frame share, or a set of the shader's own. Set 1 has the textures of a
-// material, or is a set of the shader's own beside the frame's.
+// Descriptor sets. Set 0 has the uniform blocks of all passes of a frame. Set 1 has other data of a frame: each shader has a set
+// of what it uses. Set 2 has the textures of a material, or is a set of the shader's own beside the frame's. Shaders without a
+// frame have one set. The uniform blocks have a set of their own so that they stay bound: lavapipe 22.3 compiles a kernel again,
+// with the values of uniform blocks, where they were bound since the last dispatch.
 #define SET_FRAME 0
+#define SET_DATA 1
+#define SET_TEXTURES 2
+#define SET_BESIDE_FRAME 2
 #define SET_OWN 0
-#define SET_TEXTURES 1
-#define SET_BESIDE_FRAME 1
 
-// Bindings of the frame's set.
+// Bindings of the frame's sets.
 #define BINDING_FRAME 0
 #define BINDING_POSITIONS 1
 #define BINDING_TRIANGLES 2

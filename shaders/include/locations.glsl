@@ -14,16 +14,16 @@ layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINT
 // Two vectors a location, floats as bits: (pixel x, y as signed integers, place in the pixel x, y from 0 to 1), (its Jacobian:
 // change of x and y per column of the output, change per row). OCCLUDERS: the second is (depth from which on something lies
 // before the location, ID of the surface's triangle, 0, 0).
-layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
+layout(set = SET_DATA, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
 // Two vectors a cell, floats as bits: (x, y of its middle relative to its tile's centre, half its width and height), (its
 // location, 1, 0, 0). POINTS: the second is (where in `location_order` its locations begin, how many it has, 0, 0).
-layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
+layout(set = SET_DATA, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
 // A vector a group: (tile, first cell, number of cells, number of the first cell within its tile).
-layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
-layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
+layout(set = SET_DATA, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
+layout(std430, set = SET_DATA, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec4 tile_loads[]; };     // cells, samples, first cell, 0
 
 // POINTS: indices of locations, tile by tile, those of a cell one after the other.
-layout(set = SET_FRAME, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
+layout(set = SET_DATA, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
 
 // A record of POINTS holds its location in the lower 31 bits of its first word. The topmost bit marks the record that stands
 // for all that the location sees: its leaf, or its only record.

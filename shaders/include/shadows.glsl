@@ -9,7 +9,7 @@
 // place. If casters may let light pass, a word for each light follows: the share of the light that passes, as a float. It is
 // valid if the light's bit is set.
 layout(constant_id = CONSTANT_SHADOW_WORDS) const uint SHADOW_WORDS = 0u;
-layout(set = SET_FRAME, binding = BINDING_SHADOW_WORDS) uniform utextureBuffer shadow_words;
+layout(set = SET_DATA, binding = BINDING_SHADOW_WORDS) uniform utextureBuffer shadow_words;
 
 uint place_of_record(uint record) { return (LOCATIONS ? 0u : frame.size.x * frame.size.y) + record; }
 

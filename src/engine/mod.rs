@@ -3,12 +3,12 @@
 //!
 //! Nothing in this folder depends on a file format, a material, a light or a feature.
 
-/// Methods of an option struct that set one field each and take and return the struct.
+/// Methods of an option struct that set one field each, named with what it says, and take and return the struct.
 macro_rules! setters {
-    ($options:ident { $($field:ident: $type:ty,)* }) => {
+    ($options:ident { $($field:ident: $type:ty = $what:literal,)* }) => {
         impl $options {
             $(
-                #[doc = concat!("The same with another `", stringify!($field), "`.")]
+                #[doc = concat!("Sets ", $what, ".")]
                 #[must_use]
                 pub fn $field(mut self, $field: $type) -> Self {
                     self.$field = $field;

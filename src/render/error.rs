@@ -12,11 +12,13 @@ pub enum RenderError {
     /// The settings are impossible, memory runs out, or the device refuses something.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// Method that can't sample locations as superpixels.
-    #[error("{method} can't sample locations as superpixels; superpixel and ssaa can")]
+    /// Method that can't sample locations.
+    #[error("{method} can't sample locations{}", methods_of_locations(*.superpixels))]
     LocationMethod {
         /// Method of the request.
         method: MethodKind,
+        /// Whether superpixels were asked for, at each location.
+        superpixels: bool,
     },
     /// Region in a request for locations: only the pixels of an image have regions.
     #[error(
@@ -55,6 +57,14 @@ pub enum RenderError {
         /// Number of lights.
         found: usize,
     },
+}
+
+/// End of the message about a method that can't sample locations: those that can.
+fn methods_of_locations(superpixels: bool) -> &'static str {
+    match superpixels {
+        true => " as superpixels; superpixel and ssaa can",
+        false => "; none, superpixel and ssaa can",
+    }
 }
 
 impl From<VulkanError> for RenderError {

@@ -286,7 +286,10 @@ impl Headless {
                     // tried, which is slow.
                     let rooms = frame.shortfall()?.rooms;
                     if rooms > 1 && frame.lists_can_grow() {
-                        self.prepare_again(frame, frame.capacity().with_lists(rooms))?;
+                        let larger = frame.capacity().with_lists(rooms);
+                        if let Err(error) = self.prepare_again(frame, larger) {
+                            log::warn!("the frame stays slow, with short lists: {error}");
+                        }
                     }
                     return Ok(image);
                 }

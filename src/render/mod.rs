@@ -4,7 +4,6 @@
 //! [`Renderer`].
 
 mod backdrop;
-mod beside_frame;
 pub mod camera;
 mod data;
 mod error;

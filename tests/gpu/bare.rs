@@ -43,10 +43,6 @@ impl Content for Unread {
     fn bin_count(&self) -> u32 {
         1
     }
-
-    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
-        None
-    }
 }
 
 /// Resources of given sizes.
@@ -54,8 +50,8 @@ pub struct Bare {
     pub memory: Memory,
     pub layout: Arc<FrameLayout>,
     pub resources: Resources,
-    /// Objects that descriptors refer to but no pass reads.
-    _shown: (RasterTargets, Buffer),
+    /// Images that descriptors refer to but no pass reads.
+    _targets: RasterTargets,
 }
 
 impl Bare {
@@ -65,16 +61,12 @@ impl Bare {
             unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
         let targets =
             RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let lights = memory
-            .buffer("no lights", 16, storage, MemoryUse::Device)
-            .unwrap();
         let offsets = vec![[0.0; 2]; samples as usize];
         let resources = Resources::new(
             &layout,
             &memory,
             &Unread,
-            (&[], &lights),
+            &[],
             &targets.views(),
             sizes,
             &[Offsets {
@@ -87,7 +79,7 @@ impl Bare {
             memory,
             layout,
             resources,
-            _shown: (targets, lights),
+            _targets: targets,
         }
     }
 

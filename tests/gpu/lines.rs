@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use gpc::reference::edge::triangle_area;
-use gpc::reference::lines::offsets;
+use gpc::reference::sample_lines::offsets;
 use gpc::render::{Headless, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;

@@ -229,6 +229,7 @@ fn at(time: f64) -> PoseRequest {
 
 struct Shown {
     loaded: Loaded,
+    pose: Pose,
     motion: Motion,
     camera: Camera,
     frame: Frame,
@@ -247,6 +248,7 @@ fn shown_of(gpu: &mut Headless, loaded: Loaded, settings: &Settings) -> Shown {
     Shown {
         camera: camera(&pose),
         loaded,
+        pose,
         motion,
         frame,
     }
@@ -419,6 +421,12 @@ fn what_does_not_belong_together_is_refused() {
         let other = crate::blend::panes().build();
         for shadows in [Shadows::None, Shadows::Exact] {
             let request = SceneRequest::new(&other.0, &other.1).moving(&first.motion);
+            let refused = gpu.upload(request.shadowed(shadows));
+            assert!(matches!(refused, Err(RenderError::OtherMotion)));
+            // As many vertices, in other places.
+            let mut moved = first.pose.clone();
+            moved.geometry.positions[0][0] += 1.0;
+            let request = SceneRequest::new(&first.loaded.scene, &moved).moving(&first.motion);
             let refused = gpu.upload(request.shadowed(shadows));
             assert!(matches!(refused, Err(RenderError::OtherMotion)));
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use gpc::reference::prefilter::{Cube, average};
 use gpc::render::Headless;
 use gpc::testing::prefilter::{Prefilter, levels, lobe};
-use gpc::testing::{MemoryUse, Recorder, memory};
+use gpc::testing::{MemoryUse, Recorder, frame_layout, memory};
 use half::f16;
 
 use crate::stage::on_gpu;
@@ -62,14 +62,14 @@ fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     let (side, first) = levels[levels.len() - 1];
     texels.resize((first + 6 * side * side) as usize, [f16::ZERO; 4]);
     // SAFETY: the buffer holds all levels, and is read once the commands have run.
-    let memory = unsafe { memory(gpu.gpu(), None) };
+    let (layout, memory) = unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
     let bytes: &[u8] = bytemuck::cast_slice(&texels);
     let usage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
     let mut buffer = memory
         .buffer("texels", bytes.len() as u64, usage, MemoryUse::Readback)
         .unwrap();
     buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
-    let prefilter = Prefilter::new(&memory, buffer, SIDE).unwrap();
+    let prefilter = Prefilter::new(&layout, &memory, buffer, SIDE).unwrap();
     submit(gpu.gpu(), |commands| {
         // SAFETY: the commands are waited for, and the buffers outlive them.
         let recorder = unsafe { Recorder::new(gpu.gpu(), commands, None) };

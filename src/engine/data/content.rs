@@ -1,7 +1,5 @@
 //! Properties of a scene that the engine's passes need, whatever its source.
 
-use ash::vk;
-
 /// A scene's triangles, as far as passes depend on them.
 pub trait Content: Sync {
     /// Number of triangle slots: every triangle's index is smaller. Some slots may be empty.
@@ -27,7 +25,4 @@ pub trait Content: Sync {
 
     /// Number of shading keys, at least 1.
     fn bin_count(&self) -> u32;
-
-    /// Descriptor of the environment map; `None` if the engine does not shade the surfaces.
-    fn environment_map(&self) -> Option<vk::DescriptorImageInfo>;
 }

@@ -19,6 +19,6 @@ pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
 pub(crate) use draws::{Draws, HostDraw};
 pub use locations::{CellSizes, Cells, ListedLocation, LocationSizes};
-pub use resources::{BoundTexels, IdViews, Offsets, ResourceSizes, Resources, SampleSet, Scratch};
+pub use resources::{IdViews, Offsets, ResourceSizes, Resources, SampleSet, Scratch};
 pub(crate) use triangle_word::TriangleWord;
 pub(crate) use visibility::{VisibilityUniform, VisibleGeometry, visibility_layout};

@@ -3,8 +3,7 @@
 use super::Resources;
 use super::draws::Draws;
 use crate::engine::passes::spirv::gpc_visibility_set;
-use crate::engine::pipelines::own_layout::{OwnSet, SetLayout};
-use crate::vulkan::{Buffer, Gpu, Shown, VulkanError};
+use crate::vulkan::{Buffer, DescriptorSets, Gpu, SetLayout, Shown, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -12,8 +11,9 @@ use std::sync::Arc;
 pub(crate) use crate::engine::passes::spirv::GpcFrame as VisibilityUniform;
 
 /// Makes the layout of the set; hosts use it in the layouts of their pipelines.
-pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
-    SetLayout::new(gpu, &gpc_visibility_set::ALL)
+pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<Arc<SetLayout>, VulkanError> {
+    let bindings = gpc_visibility_set::ALL.map(|binding| (binding, vk::ShaderStageFlags::COMPUTE));
+    Ok(Arc::new(SetLayout::new(gpu, &bindings)?))
 }
 
 /// Geometry that a host's shaders can read, besides a frame's resources.
@@ -35,11 +35,11 @@ impl Resources {
     /// Positions and locations that belong to the host outlive the use of the set.
     pub(crate) unsafe fn visibility_set(
         &self,
-        layout: &SetLayout,
+        (gpu, layout): (&Arc<Gpu>, &Arc<SetLayout>),
         uniform: &Buffer,
         geometry: &VisibleGeometry<'_>,
-    ) -> Result<OwnSet, VulkanError> {
-        let mut own = layout.allocate()?;
+    ) -> Result<DescriptorSets, VulkanError> {
+        let mut own = DescriptorSets::new(gpu, false, std::slice::from_ref(layout), 1)?.remove(0);
         let draw_of = Shown::from(geometry.draw_of);
         let buffers = [
             (gpc_visibility_set::GPC_FRAME, uniform.into()),
@@ -64,7 +64,7 @@ impl Resources {
             ),
         ];
         // SAFETY: the set is new; the caller guarantees the host's buffers, and the others live as long as the frame.
-        unsafe { own.set.write(&buffers) };
+        unsafe { own.write(&buffers) };
         Ok(own)
     }
 }

@@ -4,18 +4,17 @@ use super::content::HostContent;
 use super::draw::{DrawRun, PlacedDraws};
 use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared};
 use crate::engine::data::Draws;
-use crate::engine::passes::{AdoptedCounts, VertexCounts};
-use crate::engine::pipelines::OwnSet;
-use crate::vulkan::{Memory, Pipeline, Recorder};
+use crate::engine::passes::{Adopt, AdoptedCounts, Coordinates, Transform, VertexCounts};
+use crate::vulkan::{DescriptorSets, Memory, Recorder};
 use std::sync::Arc;
 
 /// Passes that read a host's buffers, and the draws of a frame.
 pub(super) struct Adoption {
     pub draws: Draws,
-    transform: Option<Pipeline>,
-    coordinates: Option<Pipeline>,
-    /// Pipelines of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
-    adopt: [Option<Pipeline>; 3],
+    transform: Option<Transform>,
+    coordinates: Option<Coordinates>,
+    /// Kernels of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
+    adopt: [Option<Adopt>; 3],
     /// Descriptor sets of each mesh.
     sets: Vec<MeshSets>,
     geometry: Geometry,
@@ -24,12 +23,12 @@ pub(super) struct Adoption {
 
 /// Descriptor sets with which passes read a mesh.
 struct MeshSets {
-    transform: Option<OwnSet>,
-    coordinates: Option<OwnSet>,
-    adopt: OwnSet,
+    transform: Option<DescriptorSets>,
+    coordinates: Option<DescriptorSets>,
+    adopt: DescriptorSets,
 }
 
-/// Index into `adopt` of the pipeline that reads these indices.
+/// Index into `adopt` of the kernel that reads these indices.
 fn kernel(indices: Option<Indices>) -> usize {
     indices.map_or(0, |indices| if indices.are_short() { 1 } else { 2 })
 }
@@ -43,7 +42,7 @@ impl MeshSets {
         (geometry, mesh): (&Geometry, &Mesh),
         content: &HostContent,
     ) -> Result<Self, HostError> {
-        let limits = shared.gpu.limits();
+        let (limits, layout) = (shared.gpu.limits(), &*shared.frame);
         let (triangles, draw_of) = (content.triangles(), content.draw_of());
         // Without indices, the shader does not read that binding.
         let indices = mesh.indices.map(|indices| indices.lent(limits).info());
@@ -52,16 +51,16 @@ impl MeshSets {
         unsafe {
             let transform = content.made_positions().map(|made| {
                 let lent = mesh.lent_positions(geometry.position_space, limits);
-                shared.transform.set(draws, lent.info(), made)
+                Transform::set(layout, draws, lent.info(), made)
             });
             let coordinates = lent.map(|(alpha, (_, lent))| {
                 let made = &alpha.coordinates.buffer;
-                shared.coordinates.set(draws, lent.info(), made)
+                Coordinates::set(layout, draws, lent.info(), made)
             });
             Ok(Self {
                 transform: transform.transpose()?,
                 coordinates: coordinates.transpose()?,
-                adopt: shared.adopt.set(draws, indices, triangles, draw_of)?,
+                adopt: Adopt::set(layout, draws, indices, triangles, draw_of)?,
             })
         }
     }
@@ -76,7 +75,7 @@ impl Adoption {
         geometry: &Geometry,
         content: &HostContent,
     ) -> Result<Self, HostError> {
-        let gpu = &shared.gpu;
+        let layout = &*shared.frame;
         let has_matrices = geometry.position_space != PositionSpace::Clip;
         let draws = Draws::new(memory, geometry.draw_capacity, has_matrices)?;
         let sets = geometry.meshes.iter().map(|mesh| {
@@ -86,14 +85,14 @@ impl Adoption {
         let sets = sets.collect::<Result<Vec<_>, _>>()?;
         let mut adopt = [None, None, None];
         for mesh in &geometry.meshes {
-            let pipeline = &mut adopt[kernel(mesh.indices)];
-            if pipeline.is_none() {
+            let kernel = &mut adopt[kernel(mesh.indices)];
+            if kernel.is_none() {
                 let are_short = mesh.indices.map(|indices| indices.are_short());
-                *pipeline = Some(shared.adopt.pipeline(gpu, are_short)?);
+                *kernel = Some(Adopt::new(layout, are_short)?);
             }
         }
-        let transform = || shared.transform.pipeline(gpu, &draws);
-        let coordinates = || shared.coordinates.pipeline(gpu, &draws);
+        let transform = || Transform::new(layout, &draws);
+        let coordinates = || Coordinates::new(layout, &draws);
         let transforms = content.made_positions().is_some();
         Ok(Self {
             transform: transforms.then(transform).transpose()?,
@@ -117,7 +116,7 @@ impl Adoption {
         let limits = self.shared.gpu.limits();
         for run in &placed.runs {
             let indices = self.geometry.meshes[run.mesh].indices;
-            let Some(pipeline) = &self.adopt[kernel(indices)] else {
+            let Some(adopt) = &self.adopt[kernel(indices)] else {
                 continue;
             };
             let counts = AdoptedCounts {
@@ -128,8 +127,7 @@ impl Adoption {
                 index_count: indices.map_or(0, |indices| indices.capacity),
                 topology: run.topology as u32,
             };
-            let set = &self.sets[run.mesh].adopt;
-            self.shared.adopt.record(recorder, pipeline, set, counts);
+            adopt.record(recorder, &self.sets[run.mesh].adopt, counts);
         }
     }
 
@@ -143,17 +141,16 @@ impl Adoption {
             first_word: before / 4,
             stride: stride / 4,
         };
-        if let Some(pipeline) = &self.coordinates {
+        if let Some(coordinates) = &self.coordinates {
             for &(mesh, positions) in &parts {
                 let lent = self.geometry.meshes[mesh].lent_coordinates(limits);
                 if let Some((set, (lent, bytes))) = self.sets[mesh].coordinates.as_ref().zip(lent) {
                     let counts = counts(positions, bytes.before, lent.stride);
-                    let coordinates = &self.shared.coordinates;
-                    coordinates.record(recorder, pipeline, set, counts);
+                    coordinates.record(recorder, set, counts);
                 }
             }
         }
-        if let Some(pipeline) = &self.transform {
+        if let Some(transform) = &self.transform {
             for &(mesh, positions) in &parts {
                 let lent = &self.geometry.meshes[mesh];
                 let before = lent
@@ -161,8 +158,7 @@ impl Adoption {
                     .before;
                 if let Some(set) = &self.sets[mesh].transform {
                     let counts = counts(positions, before, lent.position_stride);
-                    let transform = &self.shared.transform;
-                    transform.record(recorder, pipeline, set, counts);
+                    transform.record(recorder, set, counts);
                 }
             }
         }

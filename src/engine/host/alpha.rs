@@ -1,17 +1,18 @@
 //! Alpha maps that a host lends.
 
+use super::HostError;
 use super::content::HostContent;
 use super::geometry::Geometry;
-use super::{HostError, Shared};
 use crate::engine::data::alpha_flags::{
     CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
     TEXTURED, beyond,
 };
-use crate::engine::passes::{AlphaLevel, spirv};
-use crate::engine::pipelines::OwnSet;
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, Specialized, VulkanError};
+use crate::engine::passes::{AlphaLevel, AlphaMaps, spirv};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{
+    BufferView, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
+};
 use ash::vk;
-use std::sync::Arc;
 
 /// Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
 /// equal those of the sampler with which the host's own pass reads the map.
@@ -213,28 +214,30 @@ impl Alpha {
 
 /// Pass that reads the host's alpha maps into the atlas, once.
 pub(super) struct AlphaReading {
-    sets: Vec<OwnSet>,
-    shared: Arc<Shared>,
+    kernel: AlphaMaps,
+    sets: Vec<DescriptorSets>,
 }
 
 impl AlphaReading {
     /// # Safety
     /// The views of the alpha maps outlive the returned value.
     pub unsafe fn new(
-        shared: &Arc<Shared>,
+        layout: &FrameLayout,
         geometry: &Geometry,
         content: &HostContent,
     ) -> Result<Self, VulkanError> {
-        let mut sets = Vec::new();
-        if let Some(alpha) = content.alpha() {
-            for map in &geometry.alpha_maps {
-                // SAFETY: passed on to the caller.
-                sets.push(unsafe { shared.alpha_maps.set(map.view, &alpha.atlas.buffer) }?);
-            }
-        }
+        let set = |alpha: &Alpha, map: &AlphaMap| {
+            // SAFETY: passed on to the caller.
+            unsafe { AlphaMaps::set(layout, map.view, &alpha.atlas.buffer) }
+        };
+        let sets = |alpha| geometry.alpha_maps.iter().map(move |map| set(alpha, map));
         Ok(Self {
-            sets,
-            shared: shared.clone(),
+            kernel: AlphaMaps::new(layout)?,
+            sets: content
+                .alpha()
+                .into_iter()
+                .flat_map(sets)
+                .collect::<Result<_, _>>()?,
         })
     }
 
@@ -250,7 +253,7 @@ impl AlphaReading {
             recorder.unordered(|| {
                 for (set, levels) in self.sets.iter().zip(&places.levels) {
                     for level in levels {
-                        self.shared.alpha_maps.record(recorder, set, level);
+                        self.kernel.record(recorder, set, level);
                     }
                 }
             });

@@ -2,7 +2,7 @@
 
 use super::draw::PlacedDraws;
 use super::{HostError, Shared};
-use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, Resources, SampleSet};
+use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, Resources};
 use crate::engine::passes::{
     Centres, HostImage, Raster, RasterPush, RasterRun, RasterTargets, Sort, Take,
 };
@@ -58,7 +58,7 @@ impl Base {
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
-        (resources, set): (&Resources, &SampleSet),
+        resources: &Resources,
         (uniform, placed): (&FrameUniform, &PlacedDraws),
         targets: Option<&RasterTargets>,
         shading: &dyn RecordShading,
@@ -67,15 +67,7 @@ impl Base {
         if let Some((raster, targets)) = self.raster.as_ref().zip(targets) {
             let runs = runs(placed, &uniform.transform);
             let drawn = [[0, 0], uniform.size];
-            let set = set.set.raw;
-            raster.record(
-                recorder,
-                set,
-                runs.iter().copied(),
-                targets,
-                uniform.size,
-                drawn,
-            );
+            raster.record(recorder, runs.iter().copied(), targets, uniform.size, drawn);
         }
         match &self.colors {
             Colors::Drawn(take) => {

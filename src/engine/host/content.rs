@@ -2,10 +2,11 @@
 
 use super::Geometry;
 use super::alpha::Alpha;
-use crate::engine::data::BoundTexels;
 use crate::engine::data::Content;
 use crate::engine::passes::spirv::frame_set;
-use crate::vulkan::{Buffer, BufferView, Gpu, Memory, MemoryUse, TexelView, VulkanError};
+use crate::vulkan::{
+    Buffer, BufferView, Gpu, Memory, MemoryUse, ShownBinding, TexelView, VulkanError,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -29,7 +30,6 @@ pub(super) struct HostContent {
     /// Placeholders for attributes and materials, which no pass reads for a host's triangles.
     unread_floats: BufferView,
     unread_words: BufferView,
-    unread: Buffer,
     triangle_capacity: u32,
     keys: u32,
     blended: bool,
@@ -80,7 +80,6 @@ impl HostContent {
                 .transpose()?,
             unread_floats: texels("unread vectors", 1, float4)?,
             unread_words: texels("unread words", 1, uint4)?,
-            unread: memory.storage_buffer("unread", 64, usage, MemoryUse::Device)?,
             triangle_capacity: geometry.triangle_capacity,
             keys: geometry.keys,
             blended: geometry.blended,
@@ -119,13 +118,8 @@ impl HostContent {
         }
     }
 
-    /// Placeholder for lights, which the engine does not read.
-    pub fn lights(&self) -> &Buffer {
-        &self.unread
-    }
-
-    /// Texel buffers of `shaders/include/frame.glsl` for a host's triangles, by binding.
-    pub fn texels(&self) -> [BoundTexels; 10] {
+    /// Bindings of `shaders/include/frame.glsl` that show a host's triangles to the passes.
+    pub fn shown(&self) -> Vec<ShownBinding> {
         let positions = match &self.positions {
             Positions::Lent { texels, .. } => texels.texels(),
             Positions::Made(made) => made.texels(),
@@ -137,7 +131,6 @@ impl HostContent {
             (frame_set::POSITIONS, positions),
             (frame_set::TRIANGLES, self.triangles.texels()),
             (frame_set::NORMALS, floats),
-            (frame_set::TANGENTS, floats),
             (frame_set::UVS, coordinates),
             (frame_set::COLORS, coordinates),
             (
@@ -151,6 +144,8 @@ impl HostContent {
             (frame_set::INSTANCE_OF, words),
             (frame_set::INSTANCES, words),
         ]
+        .map(|(binding, texels)| (binding, texels.into()))
+        .to_vec()
     }
 }
 
@@ -187,9 +182,5 @@ impl Content for HostContent {
     /// sorted into lists.
     fn bin_count(&self) -> u32 {
         self.keys + 1
-    }
-
-    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
-        None
     }
 }

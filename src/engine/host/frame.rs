@@ -8,9 +8,8 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
-use crate::engine::data::{Content, FrameUniform, IdViews, Offsets, Resources, SampleSet};
+use crate::engine::data::{Content, FrameUniform, IdViews, Offsets, Resources};
 use crate::engine::passes::{HostImage, ListLength, Patch, Patched, RasterTargets};
-use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::statistics::Shortfall;
@@ -19,7 +18,7 @@ use crate::engine::sampler::{
     PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
 };
 use crate::engine::sampler::{Settings, Statistics};
-use crate::vulkan::{Memory, Recorder, Timings};
+use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -85,7 +84,7 @@ struct Work {
     /// The host's image of colours, where these are read.
     image: Option<Arc<HostImage>>,
     patch: Patch,
-    visibility_set: OwnSet,
+    visibility_set: DescriptorSets,
     timings: Timings,
     /// Whether a recording with the upload was executed.
     is_uploaded: bool,
@@ -126,8 +125,7 @@ impl Work {
             layout,
             &memory,
             &scratch.passes,
-            content,
-            (&content.texels(), content.lights()),
+            &content.shown(),
             plan.sizes,
             &[Offsets {
                 all: &offsets,
@@ -136,7 +134,7 @@ impl Work {
         )?;
         let output = settings.color_constants(content);
         let image = (!options.shade_all)
-            .then(|| shared.host_image.image(kinds.color_encoded))
+            .then(|| HostImage::new(layout, kinds.color_encoded))
             .transpose()?
             .map(Arc::new);
         let cells = PixelCells {
@@ -192,7 +190,7 @@ impl Work {
     ///
     /// # Safety
     /// The commands of the last recording are done, or will never be executed; the images outlive those of the next one.
-    unsafe fn show(&self, set: &SampleSet, images: &Images) {
+    unsafe fn show(&self, images: &Images) {
         let lent = |ids: LentImage| IdViews {
             ids: ids.view,
             blend_ids: None,
@@ -203,7 +201,7 @@ impl Work {
         // SAFETY: passed on to the caller.
         unsafe {
             if let Some(views) = images.ids.map(lent).or_else(drawn) {
-                self.resources.show_ids(set, &views);
+                self.resources.show_ids(&views);
             }
             if let Some(image) = &self.image {
                 image.show(images.color.view);
@@ -364,7 +362,7 @@ impl Frame {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        unsafe { work.show(set, images) };
+        unsafe { work.show(images) };
         let resources = &work.resources;
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
@@ -381,7 +379,7 @@ impl Frame {
         let lending = &self.lending;
         images.record_begin(recorder);
         lending.record_triangles(recorder, &placed);
-        let shading = lending.shading(shading, &work.visibility_set, (resources, set));
+        let shading = lending.shading(shading, &work.visibility_set, resources);
         let settings = &work.settings;
         let footprints = Footprints::new(settings, settings.method.samples());
         let boxes = settings.filters_boxes();
@@ -394,7 +392,7 @@ impl Frame {
         let seen = (&uniform, &placed);
         let targets = work.scratch.targets();
         work.base
-            .record(recorder, (resources, set), seen, targets, &shading);
+            .record(recorder, resources, seen, targets, &shading);
         if shades_all {
             lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.
@@ -410,8 +408,7 @@ impl Frame {
         work.sampler.record(recorder, &run, &shading);
         images.record_draw(recorder);
         let part = images.part(settings.size);
-        work.patch
-            .record(recorder, set.set.raw, images.color.view, part);
+        work.patch.record(recorder, images.color.view, part);
         images.record_end(recorder);
         lending.record_end(recorder);
         Ok(())

@@ -7,14 +7,11 @@ use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
 use super::{Geometry, HostError, Shared};
-use crate::engine::data::{
-    ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
-};
-use crate::engine::pipelines::OwnSet;
+use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
 use crate::engine::sampler::Sampler;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{EngineError, PassTime, Statistics};
-use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -44,7 +41,7 @@ impl Lending {
         // SAFETY: passed on to the caller.
         let content = unsafe { HostContent::new(&shared.gpu, &memory, geometry) }?;
         // SAFETY: passed on to the caller.
-        let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
+        let alpha = unsafe { AlphaReading::new(&shared.frame, geometry, &content) }?;
         // SAFETY: passed on to the caller.
         let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
         let visibility = memory.buffer(
@@ -76,7 +73,7 @@ impl Lending {
         shared: &Shared,
         resources: &Resources,
         locations: Option<vk::DescriptorBufferInfo>,
-    ) -> Result<OwnSet, HostError> {
+    ) -> Result<DescriptorSets, HostError> {
         let visible = VisibleGeometry {
             triangles: self.content.triangles(),
             positions: self.content.positions_info(),
@@ -84,8 +81,9 @@ impl Lending {
             draw_of: self.content.draw_of(),
             locations,
         };
+        let layout = (&shared.gpu, &shared.visibility);
         // SAFETY: the caller guarantees the buffer of locations; the others live as long as this value.
-        Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
+        Ok(unsafe { resources.visibility_set(layout, &self.visibility, &visible) }?)
     }
 
     /// Begins a recording. `upload` records copies to the device. These are recorded again until the device has
@@ -156,18 +154,17 @@ impl Lending {
     pub fn shading<'a>(
         &self,
         shading: &'a dyn ShadeSamples,
-        visibility_set: &OwnSet,
-        (resources, set): (&Resources, &'a SampleSet),
+        visibility_set: &DescriptorSets,
+        resources: &Resources,
     ) -> HostShading<'a> {
         HostShading {
             shading,
             samples: VisibilitySamples {
-                set: visibility_set.set.raw,
+                set: visibility_set.first(),
                 arguments: resources.arguments.handle(),
                 keys: self.geometry.keys,
                 condition: None,
             },
-            set,
         }
     }
 

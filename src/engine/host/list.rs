@@ -9,14 +9,13 @@ use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
-use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
-use crate::vulkan::{Memory, Recorder, TexelView, Timings};
+use crate::vulkan::{DescriptorSets, Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -73,7 +72,7 @@ pub struct List {
     resources: Resources,
     targets: RasterTargets,
     sampler: Sampler,
-    visibility_set: OwnSet,
+    visibility_set: DescriptorSets,
     timings: Timings,
     memory: Memory,
     is_uploaded: bool,
@@ -183,13 +182,13 @@ impl List {
         // SAFETY: passed on to the caller.
         let locations =
             unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
-        let mut shown = content.texels().to_vec();
-        shown.push((frame_set::LOCATIONS, locations.texels()));
+        let mut shown = content.shown();
+        shown.push((frame_set::LOCATIONS, locations.texels().into()));
         let resources = Resources::new(
             layout,
             &memory,
             content,
-            (&shown, content.lights()),
+            &shown,
             &targets.views(),
             sizes,
             &[Offsets {
@@ -326,7 +325,7 @@ impl List {
             resources.record_background(recorder, count, uniform.background, 0);
         }
         resources.record_begin(recorder, set, &uniform);
-        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
+        let shading = lending.shading(shading, &self.visibility_set, resources);
         let run = SamplerRun {
             resources,
             set,

@@ -54,9 +54,8 @@ pub use topology::Topology;
 pub use viewport::Viewport;
 
 use crate::engine::data::visibility_layout;
-use crate::engine::passes::{self, Adopt, AlphaMaps, HostImageLayout, Transform};
-use crate::engine::pipelines::{FrameLayout, SetLayout};
-use crate::vulkan::{Gpu, Host, VulkanError};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Gpu, Host, SetLayout, VulkanError};
 use ash::vk;
 use scratch::ScratchPool;
 use std::sync::Arc;
@@ -70,12 +69,7 @@ pub struct Antialiaser {
 pub(crate) struct Shared {
     gpu: Arc<Gpu>,
     frame: Arc<FrameLayout>,
-    adopt: Adopt,
-    transform: Transform,
-    coordinates: passes::Coordinates,
-    alpha_maps: AlphaMaps,
-    host_image: Arc<HostImageLayout>,
-    visibility: SetLayout,
+    visibility: Arc<SetLayout>,
     scratch: ScratchPool,
 }
 
@@ -98,17 +92,11 @@ impl Antialiaser {
     /// # Errors
     /// If the driver refuses the layouts.
     pub fn in_gpu(gpu: Arc<Gpu>) -> Result<Self, VulkanError> {
-        let frame = FrameLayout::new(&gpu)?;
         Ok(Self {
             shared: Arc::new(Shared {
-                adopt: Adopt::new(&gpu)?,
-                transform: Transform::new(&gpu)?,
-                coordinates: passes::Coordinates::new(&gpu)?,
-                alpha_maps: AlphaMaps::new(&gpu)?,
-                host_image: HostImageLayout::new(&frame)?,
+                frame: FrameLayout::new(&gpu)?,
                 visibility: visibility_layout(&gpu)?,
                 scratch: ScratchPool::default(),
-                frame,
                 gpu,
             }),
         })

@@ -115,19 +115,19 @@ impl Options {
 
 setters! {
     Options {
-        samples: u32,
-        pattern: Pattern,
-        shading: Shading,
-        detection: Detection,
-        contrast: Option<u8>,
-        growths: Option<u8>,
-        thin: bool,
-        background: Option<[f32; 3]>,
-        flat_background: bool,
-        high_dynamic_range: bool,
-        sharp: bool,
-        shade_all: bool,
-        max_memory: Option<u64>,
-        max_rounds: Option<u32>,
+        samples: u32 = "the number of samples of a superpixel",
+        pattern: Pattern = "the pattern of the sample locations in a superpixel",
+        shading: Shading = "the rate of shading within a superpixel",
+        detection: Detection = "the rule by which a pixel becomes a superpixel",
+        contrast: Option<u8> = "the contrast threshold in 8-bit sRGB code values; `None` for the default",
+        growths: Option<u8> = "the number of growths; `None` for the default",
+        thin: bool = "whether a triangle that is too thin to cover a pixel's centre makes the pixel a superpixel",
+        background: Option<[f32; 3]> = "the background as linear light; `None` for transparent",
+        flat_background: bool = "whether the background is visible wherever there is no triangle",
+        high_dynamic_range: bool = "whether the image holds radiance that is tone-mapped later",
+        sharp: bool = "whether textures are filtered over the area that each sample represents",
+        shade_all: bool = "whether the host's shading computes the colours of all pixels",
+        max_memory: Option<u64> = "the largest number of bytes of device memory for a frame",
+        max_rounds: Option<u32> = "the largest number of rounds for the detected superpixels, and for each growth",
     }
 }

@@ -1,6 +1,6 @@
 //! Shading of visibility samples by a host's own pipelines.
 
-use crate::engine::data::{Argument, Resources, SampleSet};
+use crate::engine::data::{Argument, Resources};
 use crate::engine::sampler::RecordShading;
 use crate::vulkan::Recorder;
 use ash::vk;
@@ -104,12 +104,10 @@ impl<F: Fn(vk::CommandBuffer, &VisibilitySamples)> ShadeSamples for F {
 pub(super) struct HostShading<'a> {
     pub shading: &'a dyn ShadeSamples,
     pub samples: VisibilitySamples,
-    /// Set that is bound again after the callback, which binds the host's sets.
-    pub set: &'a SampleSet,
 }
 
 impl RecordShading for HostShading<'_> {
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         let samples = VisibilitySamples {
             condition: recorder.condition(),
             ..self.samples
@@ -117,6 +115,5 @@ impl RecordShading for HostShading<'_> {
         recorder.section("shade", || {
             self.shading.record(recorder.raw(), &samples);
         });
-        resources.record_bind(recorder, self.set);
     }
 }

@@ -1,10 +1,9 @@
 //! alpha_map: converts a host's alpha maps to the form that the alpha test reads.
 
 use super::spirv::{self, alpha_map_set};
-use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{
-    Buffer, Compiled, Gpu, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
-    read_image,
+    Buffer, DescriptorSets, Pipeline, Recorder, Shown, Specialized, VulkanError, read_image,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -24,9 +23,7 @@ impl AlphaLevel {
 
 /// Kernel that reads the levels of a host's images.
 pub(crate) struct AlphaMaps {
-    layout: PipelineLayout,
-    set_layout: SetLayout,
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl AlphaMaps {
@@ -34,36 +31,36 @@ impl AlphaMaps {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        let set_layout = SetLayout::new(gpu, &alpha_map_set::ALL)?;
-        let layout = PipelineLayout::new(gpu, &[set_layout.raw], size_of::<AlphaLevel>() as u32)?;
-        let constants = spirv::AlphaMap.constants();
-        let code = (spirv::AlphaMap::code(), spirv::AlphaMap::INTERFACE);
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         Ok(Self {
-            pipeline: compute_pipeline(gpu, layout.raw, code, &constants, None)?,
-            layout,
-            set_layout,
+            pipeline: layout.compute(&spirv::AlphaMap, None)?,
         })
     }
 
     /// Makes a set with a host's image and the atlas.
     ///
+    /// # Errors
+    /// If the driver refuses it.
+    ///
     /// # Safety
     /// The view outlives the use of the set.
-    pub unsafe fn set(&self, view: vk::ImageView, atlas: &Buffer) -> Result<OwnSet, VulkanError> {
-        let mut own = self.set_layout.allocate()?;
-        // SAFETY: the set is new; the caller guarantees the view, and the atlas lives as long as the frame.
-        unsafe {
-            own.set
-                .write_images(alpha_map_set::MAP, &[read_image(view)]);
-            own.set.write(&[(alpha_map_set::ATLAS, atlas.into())]);
-        }
-        Ok(own)
+    pub unsafe fn set(
+        layout: &FrameLayout,
+        view: vk::ImageView,
+        atlas: &Buffer,
+    ) -> Result<DescriptorSets, VulkanError> {
+        let shown = [
+            (alpha_map_set::MAP, Shown::Image(read_image(view))),
+            (alpha_map_set::ATLAS, atlas.into()),
+        ];
+        // SAFETY: the caller guarantees the view, and the atlas lives as long as the frame.
+        unsafe { layout.own_set(spirv::AlphaMap::INTERFACE, &shown) }
     }
 
     /// Records the pass for a level. Each level writes its own words.
-    pub fn record(&self, recorder: &Recorder<'_>, own: &OwnSet, level: &AlphaLevel) {
-        self.layout.bind(recorder, &[&own.set], level);
+    pub fn record(&self, recorder: &Recorder<'_>, set: &DescriptorSets, level: &AlphaLevel) {
+        recorder.show(set);
+        recorder.push(&self.pipeline, level);
         recorder.dispatch_each(&self.pipeline, level.words());
     }
 }

@@ -3,7 +3,6 @@
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Pass whose counts are used.
@@ -25,7 +24,6 @@ pub(crate) enum After {
 /// Writes the sizes of dispatches. One kernel serves all passes that count, because drivers take longer to compile a
 /// kernel than to run it.
 pub(crate) struct Arguments {
-    layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
     /// Push constants: the pass that counted, and the numbers of subgroups that [`Sample`](super::Sample) uses for an
     /// entry of a list: in the first run, in a run with all samples, and for tiles without a list.
@@ -52,7 +50,6 @@ impl Arguments {
         [first, all, unlisted]: [u32; 3],
     ) -> Result<Self, VulkanError> {
         Ok(Self {
-            layout: layout.pipeline,
             pipeline: layout.compute(&spirv::Arguments, None)?,
             pushed: spirv::ArgumentsPush {
                 after: after as u32,
@@ -65,7 +62,7 @@ impl Arguments {
 
     /// Records the pass.
     pub fn record(&self, recorder: &Recorder<'_>) {
-        recorder.push(self.layout, &self.pushed);
+        recorder.push(&self.pipeline, &self.pushed);
         recorder.dispatch(&self.pipeline, 1);
     }
 }

@@ -5,12 +5,10 @@ use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Lists the pairs, and counts the pairs of each tile.
 pub struct Bin {
-    layout: vk::PipelineLayout,
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
 }
@@ -23,7 +21,6 @@ impl Bin {
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let instanced = scene.is_instanced();
         Ok(Self {
-            layout: layout.pipeline,
             arguments: Arguments::new(layout, After::Cull)?,
             pipeline: layout.compute(&spirv::Bin { instanced }, None)?,
         })
@@ -35,7 +32,7 @@ impl Bin {
             self.arguments.record(recorder);
             recorder.unordered(|| {
                 for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
-                    recorder.push(self.layout, &spirv::BinPush { large });
+                    recorder.push(&self.pipeline, &spirv::BinPush { large });
                     recorder.dispatch_indirect(&self.pipeline, arguments, argument as u32);
                 }
             });

@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 /// Lists pixels that need shading, and gathers their colours.
 pub(crate) struct Centres {
-    layout: Arc<FrameLayout>,
     list: Arc<Pipeline>,
     gather: Arc<Pipeline>,
 }
@@ -19,7 +18,7 @@ impl Centres {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &Arc<FrameLayout>, output: &ColorConstants) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
         let make = |gather| {
             let shader = spirv::Centres {
                 gather,
@@ -31,12 +30,11 @@ impl Centres {
         Ok(Self {
             list: make(false)?,
             gather: make(true)?,
-            layout: layout.clone(),
         })
     }
 
     /// Records the pass for an image of `pixels` pixels, in bands that fit into the room for records. `shade` records
-    /// sorting and shading of each band, and leaves the frame's set bound.
+    /// sorting and shading of each band.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -63,7 +61,7 @@ impl Centres {
             first: band.start,
             count,
         };
-        recorder.push(self.layout.pipeline, &push);
+        recorder.push(pipeline, &push);
         recorder.dispatch_each(pipeline, u64::from(count));
     }
 }

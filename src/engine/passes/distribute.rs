@@ -1,11 +1,10 @@
 //! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells.
 
-use super::spirv::{self, distribute_set};
+use super::spirv;
 use crate::engine::data::CellSizes;
 use crate::engine::data::{Argument, Cells, Resources};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, Texels, VulkanError};
+use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, Texels, VulkanError};
 use std::sync::Arc;
 
 /// Steps of the shader, in their order.
@@ -39,10 +38,8 @@ pub enum ListLength<'a> {
 /// Sorts one list after another into the same memory.
 pub struct Distribute {
     steps: Vec<Arc<Pipeline>>,
-    layout: PipelineLayout,
-    own: OwnSet,
+    own: DescriptorSets,
     sizes: CellSizes,
-    _set_layout: SetLayout,
 }
 
 impl Distribute {
@@ -60,31 +57,20 @@ impl Distribute {
         resources: &Resources,
         locations: Texels,
     ) -> Result<Self, VulkanError> {
-        let gpu = &layout.gpu;
-        let set_layout = SetLayout::new(gpu, &distribute_set::ALL)?;
-        let own_layout = PipelineLayout::new(
-            gpu,
-            &[set_layout.raw],
-            spirv::Distribute::INTERFACE.push_bytes,
-        )?;
         let step = |step: u32| {
             let points = cells.are_points();
-            own_layout.compute(layout, &spirv::Distribute { step, points })
+            layout.compute(&spirv::Distribute { step, points }, None)
         };
-        let steps = STEPS.into_iter().map(step).collect::<Result<_, _>>()?;
-        let mut own = set_layout.allocate()?;
-        // SAFETY: the set is new; the caller guarantees the list, and the other buffers live as long as the resources.
-        unsafe { own.set.write(&resources.location_buffers(locations)) };
+        let shown = resources.location_buffers(locations);
         Ok(Self {
-            steps,
-            layout: own_layout,
-            own,
+            steps: STEPS.into_iter().map(step).collect::<Result<_, _>>()?,
+            // SAFETY: the caller guarantees the list, and the other buffers live as long as the resources.
+            own: unsafe { layout.own_set(spirv::Distribute::INTERFACE, &shown) }?,
             sizes,
-            _set_layout: set_layout,
         })
     }
 
-    /// Records the pass. The frame's set is no longer bound afterwards.
+    /// Records the pass. Its set takes the place of the frame's.
     pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion, length: ListLength<'_>) {
         let push = spirv::DistributePush {
             tiles: region.tiles,
@@ -93,7 +79,8 @@ impl Distribute {
             in_group: self.sizes.in_group,
             samples: self.sizes.samples,
         };
-        self.layout.bind(recorder, &[&self.own.set], &push);
+        recorder.show(&self.own);
+        recorder.push(&self.steps[0], &push);
         recorder.pass(spirv::Distribute::INTERFACE, || {
             for (step, pipeline) in STEPS.into_iter().zip(&self.steps) {
                 let tiles = region.tiles[0] * region.tiles[1];

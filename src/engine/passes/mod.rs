@@ -1,5 +1,5 @@
-//! The passes of a frame: one file for each, with the name of its shader in `shaders/`. `tally` and `enlist` are in `schedule.rs`;
-//! passes that only the renderer needs are in `src/render/passes`.
+//! The passes of a frame: one file for each, with the name of its shader in `shaders/`. Passes that only the renderer needs are in
+//! `src/render/passes`. The scalar twin of a pass, if it has one, has the same name in `src/reference`.
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 //! Some passes run only in some frames:
@@ -23,6 +23,7 @@ mod coordinates;
 mod cull;
 mod detect;
 mod distribute;
+mod enlist;
 mod groups;
 mod grow;
 mod host_image;
@@ -31,6 +32,8 @@ mod points;
 mod raster;
 mod resolve;
 mod sample;
+mod sample_lines;
+mod sample_masks;
 mod scatter;
 mod schedule;
 mod setup;
@@ -40,6 +43,7 @@ mod sort;
 #[rustfmt::skip]
 pub(crate) mod spirv;
 mod take;
+mod tally;
 mod thin;
 mod transform;
 
@@ -54,7 +58,7 @@ pub use detect::{Detect, DetectMode, DetectOptions};
 pub use distribute::{Distribute, ListLength, ListRegion};
 pub use groups::Groups;
 pub use grow::Grow;
-pub(crate) use host_image::{HostImage, HostImageLayout};
+pub(crate) use host_image::HostImage;
 pub(crate) use patch::{Patch, Patched};
 pub use points::Points;
 pub use raster::{Raster, RasterTargets};
@@ -68,3 +72,24 @@ pub use sort::Sort;
 pub(crate) use take::Take;
 pub use thin::Thin;
 pub(crate) use transform::{Transform, VertexCounts};
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    #[test]
+    fn passes_have_the_names_of_their_shaders() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let passes = ["src/engine/passes", "src/render/passes"].map(|folder| root.join(folder));
+        for shader in std::fs::read_dir(root.join("shaders")).unwrap() {
+            let shader = shader.unwrap().path();
+            if shader.is_dir() {
+                continue;
+            }
+            let name = shader.with_extension("rs");
+            let name = name.file_name().unwrap();
+            let files = passes.iter().filter(|folder| folder.join(name).is_file());
+            assert_eq!(files.count(), 1, "{}", shader.display());
+        }
+    }
+}

@@ -19,7 +19,6 @@ pub(crate) enum Patched {
 
 /// Draws colours into an image.
 pub(crate) struct Patch {
-    layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
@@ -30,7 +29,7 @@ impl Patch {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(
-        layout: &Arc<FrameLayout>,
+        layout: &FrameLayout,
         format: vk::Format,
         encoded: bool,
         patched: Patched,
@@ -57,34 +56,19 @@ impl Patch {
                 depth: None,
                 dynamic: &[],
             };
-            pipeline.make(&layout.gpu, layout.pipeline)
+            pipeline.make(layout.of(interface))
         })?;
-        Ok(Self {
-            layout: layout.clone(),
-            pipeline,
-        })
+        Ok(Self { pipeline })
     }
 
     /// Records the pass for a part of a view, whose image has the layout `COLOR_ATTACHMENT_OPTIMAL`.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        set: vk::DescriptorSet,
-        view: vk::ImageView,
-        area: vk::Rect2D,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, view: vk::ImageView, area: vk::Rect2D) {
         recorder.pass(spirv::PatchFragment::INTERFACE, || {
-            self.draw(recorder, set, view, area);
+            self.draw(recorder, view, area);
         });
     }
 
-    fn draw(
-        &self,
-        recorder: &Recorder<'_>,
-        set: vk::DescriptorSet,
-        view: vk::ImageView,
-        area: vk::Rect2D,
-    ) {
+    fn draw(&self, recorder: &Recorder<'_>, view: vk::ImageView, area: vk::Rect2D) {
         let (device, raw) = (recorder.device(), recorder.raw());
         let color = [vk::RenderingAttachmentInfo::default()
             .image_view(view)
@@ -103,22 +87,13 @@ impl Patch {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        // SAFETY: guaranteed by the recorder's caller; the view's image has the named layout, and the set the
-        // pipeline's.
+        // SAFETY: guaranteed by the recorder's caller; the view's image has the named layout.
         unsafe { device.cmd_begin_rendering(raw, &info) };
         recorder.bind(&self.pipeline);
         // SAFETY: as above.
         unsafe {
             device.cmd_set_viewport(raw, 0, &[viewport]);
             device.cmd_set_scissor(raw, 0, &[area]);
-            device.cmd_bind_descriptor_sets(
-                raw,
-                vk::PipelineBindPoint::GRAPHICS,
-                self.layout.pipeline,
-                0,
-                &[set],
-                &[],
-            );
             device.cmd_draw(raw, 3, 1, 0, 0);
             device.cmd_end_rendering(raw);
         }

@@ -135,7 +135,6 @@ pub(crate) struct RasterRun {
 
 /// Draws runs of triangles.
 pub struct Raster {
-    layout: Arc<FrameLayout>,
     opaque: Arc<Pipeline>,
     masked: Option<Arc<Pipeline>>,
 }
@@ -146,7 +145,7 @@ impl Raster {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
-        layout: &Arc<FrameLayout>,
+        layout: &FrameLayout,
         samples: vk::SampleCountFlags,
         scene: &dyn Content,
     ) -> Result<Self, VulkanError> {
@@ -171,11 +170,10 @@ impl Raster {
                     depth: Some(DEPTH),
                     dynamic: &[vk::DynamicState::CULL_MODE],
                 };
-                pipeline.make(&layout.gpu, layout.pipeline)
+                pipeline.make(layout.of(interface))
             })
         };
         Ok(Self {
-            layout: layout.clone(),
             opaque: make(opaque)?,
             masked: scene.has_mask().then(|| make(masked)).transpose()?,
         })
@@ -186,7 +184,6 @@ impl Raster {
     pub(crate) fn record(
         &self,
         recorder: &Recorder<'_>,
-        set: vk::DescriptorSet,
         runs: impl Iterator<Item = RasterRun> + Clone,
         targets: &RasterTargets,
         size: [u32; 2],
@@ -208,7 +205,6 @@ impl Raster {
             recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
             self.draw(
                 recorder,
-                set,
                 runs.clone().filter(|run| !run.blended),
                 targets,
                 &targets.ids,
@@ -220,7 +216,6 @@ impl Raster {
                 recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
                 self.draw(
                     recorder,
-                    set,
                     runs.filter(|run| run.blended),
                     targets,
                     blend_ids,
@@ -241,7 +236,6 @@ impl Raster {
     fn draw(
         &self,
         recorder: &Recorder<'_>,
-        set: vk::DescriptorSet,
         runs: impl Iterator<Item = RasterRun>,
         targets: &RasterTargets,
         ids: &Image,
@@ -272,34 +266,22 @@ impl Raster {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        // SAFETY: guaranteed by the recorder's caller; the images are in the named layouts, and the sets match the
-        // pipelines' layout.
+        // SAFETY: guaranteed by the recorder's caller; the images are in the named layouts.
         unsafe {
             device.cmd_begin_rendering(raw, &info);
             device.cmd_set_viewport(raw, 0, &[viewport]);
             device.cmd_set_scissor(raw, 0, &[scissor]);
-            device.cmd_bind_descriptor_sets(
-                raw,
-                vk::PipelineBindPoint::GRAPHICS,
-                self.layout.pipeline,
-                0,
-                &[set],
-                &[],
-            );
         }
         for run in runs {
-            recorder.bind(
-                self.masked
-                    .as_ref()
-                    .filter(|_| run.masked)
-                    .unwrap_or(&self.opaque),
-            );
+            let masked = self.masked.as_ref().filter(|_| run.masked);
+            let pipeline = masked.unwrap_or(&self.opaque);
+            recorder.bind(pipeline);
             let cull = if run.double_sided {
                 vk::CullModeFlags::NONE
             } else {
                 vk::CullModeFlags::BACK
             };
-            recorder.push(self.layout.pipeline, &run.push);
+            recorder.push(pipeline, &run.push);
             // SAFETY: as above; the shader reads 3 vertices for each triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);

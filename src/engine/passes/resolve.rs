@@ -124,10 +124,11 @@ impl Resolve {
             tonemap_codes: output.tonemap_codes,
             encoded: behind.is_some_and(|image| image.encoded()),
         };
-        match behind {
-            Some(image) => image.pipeline(layout, spirv::RESOLVE_DRAWN, &shader, layout.subgroup()),
-            None => layout.compute_variant(spirv::RESOLVE, &shader, layout.subgroup()),
-        }
+        let code = match behind {
+            Some(_) => spirv::RESOLVE_DRAWN,
+            None => spirv::RESOLVE,
+        };
+        layout.compute_variant(code, &shader, layout.subgroup())
     }
 
     /// Records the pass over the tiles of the round.
@@ -136,7 +137,7 @@ impl Resolve {
             composite.record(recorder, arguments);
         }
         if let Some(image) = &self.behind {
-            image.bind(recorder);
+            recorder.show(&image.sets);
         }
         recorder.pass(spirv::Resolve::INTERFACE, || {
             for (list, pipeline) in &self.kernels {

@@ -1,11 +1,10 @@
 //! sample: finds the nearest triangle of every sample.
 
 use super::arguments::{After, Arguments};
-use super::{Scatter, spirv};
+use super::{Scatter, sample_lines, sample_masks, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
@@ -85,7 +84,7 @@ impl LongLists {
         }
     }
 
-    fn is_apart(self) -> bool {
+    pub(super) fn is_apart(self) -> bool {
         self != Self::Together
     }
 
@@ -143,8 +142,6 @@ const KERNELS: Kernels = [
     (8, spirv::SAMPLE_8),
     (16, spirv::SAMPLE_16),
 ];
-/// Kernels that store the samples of a cell as a mask, each with the largest number of samples that it supports.
-const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
     (2, spirv::SAMPLE_UNLISTED_2),
@@ -178,43 +175,6 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .copied()
         .find(|(has, _)| *has >= rows)
         .unwrap_or(largest)
-}
-
-/// Constants of the kernels with masks, from those of the general kernel. `rolled` says whether loops over samples stay
-/// loops.
-fn of_masks(shader: &spirv::Sample, rolled: bool) -> spirv::SampleMasks {
-    spirv::SampleMasks {
-        local_size: shader.local_size,
-        lanes: shader.lanes,
-        has_mask: shader.has_mask,
-        list: shader.list,
-        by_part: shader.by_part,
-        exact_areas: shader.exact_areas,
-        part: shader.part,
-        rolled,
-        locations: shader.locations,
-        instanced: shader.instanced,
-        unsure: shader.unsure,
-    }
-}
-
-/// Constants of the kernel with lines, from those of the general kernel. A header represents `header` samples, and a
-/// cell has `lines` lines.
-fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLines {
-    spirv::SampleLines {
-        local_size: shader.local_size,
-        lanes: shader.lanes,
-        has_mask: shader.has_mask,
-        list: shader.list,
-        by_part: shader.by_part,
-        part: shader.part,
-        header,
-        lines,
-        locations: shader.locations,
-        occluders: shader.occluders,
-        instanced: shader.instanced,
-        unsure: shader.unsure,
-    }
 }
 
 impl Sample {
@@ -254,15 +214,10 @@ impl Sample {
                 unsure: layout.is_unsure(lanes),
             };
             let pipeline = if first_run && options.by_lines() {
-                let shader = of_lines(&shader, rows * lanes, options.lines_of_cell(lanes));
-                layout.compute(&shader, layout.subgroup())?
+                let lines = options.lines_of_cell(lanes);
+                sample_lines::pipeline(layout, &shader, rows * lanes, lines)?
             } else if first_run && options.by_masks() {
-                let [few, many] = MASKS;
-                let (_, code) = if options.samples <= few.0 { few } else { many };
-                // Compilers of GPU drivers spill registers if these loops are unrolled; CPU drivers are slower if they
-                // are not.
-                let rolled = layout.gpu.limits().device_type != vk::PhysicalDeviceType::CPU;
-                layout.compute_variant(code, &of_masks(&shader, rolled), layout.subgroup())?
+                sample_masks::pipeline(layout, &shader, options.samples)?
             } else {
                 let (_, code) = kernel(kernels, rows);
                 layout.compute_variant(code, &shader, layout.subgroup())?
@@ -426,44 +381,13 @@ impl SampleOptions {
 
     /// Whether special kernels, with masks or lines, process cells of opaque and alpha-tested triangles. They may leave
     /// some cells.
-    fn by_cell(&self) -> bool {
+    pub(super) fn by_cell(&self) -> bool {
         !self.cells.are_points() && !self.always_blends && self.records != RecordRate::Sample
-    }
-
-    /// Whether the special kernels store the samples of a pixel as a mask.
-    fn by_masks(&self) -> bool {
-        let few = (2..=64).contains(&self.samples);
-        let apart = self.long_lists.is_apart();
-        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !apart && few
-    }
-
-    /// Whether the special kernels have samples on lines.
-    fn by_lines(&self) -> bool {
-        self.by_cell() && self.lines && self.samples >= 16
-    }
-
-    /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes
-    /// at least half a line.
-    fn lines_of_cell(&self, lanes: u32) -> u32 {
-        match self.samples {
-            ..=64 if lanes < 32 => 8,
-            ..=64 => 16,
-            _ => 32,
-        }
     }
 
     /// Whether each cell has a single header, except cells that are left to a second run.
     pub(super) fn has_one_header(&self) -> bool {
         self.probes() || self.by_lines()
-    }
-
-    /// Largest number by which a cell's visibility samples may exceed its samples.
-    pub(super) fn more_records(&self) -> u32 {
-        if self.by_lines() {
-            spirv::MORE_RECORDS
-        } else {
-            0
-        }
     }
 
     /// Whether a first run marks cells and leaves them to a second run.

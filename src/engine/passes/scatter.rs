@@ -5,12 +5,10 @@ use super::{SampleOptions, spirv};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Tests the triangles of a tile one by one, so that their number is not limited.
 pub struct Scatter {
-    layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
     /// Sizes of the dispatches over layers; `None` without BLEND triangles.
     of_layers: Option<Arguments>,
@@ -36,7 +34,6 @@ impl Scatter {
         };
         let of_layers = || Arguments::new(layout, After::Scatter);
         Ok(Self {
-            layout: layout.pipeline,
             pipeline: layout.compute(&shader, None)?,
             of_layers: options.has_blend.then(of_layers).transpose()?,
         })
@@ -45,7 +42,7 @@ impl Scatter {
     /// Records the pass over the tiles of the round that have no list. The pass overwrites the lists of candidates.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         let step = |step, every, argument: Argument| {
-            recorder.push(self.layout, &spirv::ScatterPush { step, every });
+            recorder.push(&self.pipeline, &spirv::ScatterPush { step, every });
             recorder.dispatch_indirect(&self.pipeline, arguments, argument as u32);
         };
         let of_owners = |name| step(name, 0, Argument::Owners);

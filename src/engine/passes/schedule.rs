@@ -1,18 +1,18 @@
-//! tally, schedule, enlist: choose the tiles of a round, and allocate their lists.
+//! schedule: chooses the tiles of a round. [`Tally`] counts what they need before, [`Enlist`] lists them afterwards.
 
+use super::enlist::Enlist;
+use super::tally::Tally;
 use super::{RecordRate, Sample, SampleOptions, spirv};
-use crate::engine::data::{Argument, ResourceSizes};
+use crate::engine::data::ResourceSizes;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Adds tiles to a round as long as they fit.
 pub struct Schedule {
-    layout: vk::PipelineLayout,
-    tally: Arc<Pipeline>,
-    schedule: Arc<Pipeline>,
-    enlist: Arc<Pipeline>,
+    tally: Tally,
+    pipeline: Arc<Pipeline>,
+    enlist: Enlist,
     options: SampleOptions,
     /// Largest number of pairs of a triangle and a tile in the device's memory.
     most_pairs: u64,
@@ -32,36 +32,20 @@ impl Schedule {
     pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let options = sample.options();
-        let (locations, points) = (options.cells.are_locations(), options.cells.are_points());
-        let unsure = layout.is_unsure(lanes);
-        let tally = spirv::Tally {
+        let shader = spirv::Schedule {
             local_size: lanes,
             lanes,
-            locations,
-            points,
-            unsure,
-        };
-        let schedule = spirv::Schedule {
-            local_size: lanes,
-            lanes,
-            locations,
-            points,
-            unsure,
-        };
-        let enlist = spirv::Enlist {
-            local_size: lanes,
-            lanes,
-            locations,
-            unsure,
+            locations: options.cells.are_locations(),
+            points: options.cells.are_points(),
+            unsure: layout.is_unsure(lanes),
         };
         let [subgroups_first, subgroups, subgroups_unlisted] = sample.subgroups();
         let [longest_list, longest_layered] = options.long_lists.longest();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
-            layout: layout.pipeline,
-            tally: layout.compute(&tally, layout.subgroup())?,
-            schedule: layout.compute(&schedule, layout.subgroup())?,
-            enlist: layout.compute(&enlist, layout.subgroup())?,
+            tally: Tally::new(layout, options.cells)?,
+            pipeline: layout.compute(&shader, layout.subgroup())?,
+            enlist: Enlist::new(layout, options.cells)?,
             options: *options,
             most_pairs: ResourceSizes::most_pairs(layout.gpu.limits()),
             pushed: spirv::SchedulePush {
@@ -208,18 +192,17 @@ impl Schedule {
         samples.max(lists * (2 + layers))
     }
 
-    /// Records the passes that run once before all rounds, after `bin`.
+    /// Records `tally`, which runs once before all rounds, after `bin`.
     pub fn record_tally(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, &self.pushed);
-        recorder.dispatch_indirect(&self.tally, arguments, Argument::Tally as u32);
+        self.tally.record(recorder, &self.pushed, arguments);
     }
 
-    /// Records the beginning of a round.
+    /// Records the beginning of a round: this pass and `enlist`.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.pass(spirv::Schedule::INTERFACE, || {
-            recorder.push(self.layout, &self.pushed);
-            recorder.dispatch(&self.schedule, 1);
-            recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+            recorder.push(&self.pipeline, &self.pushed);
+            recorder.dispatch(&self.pipeline, 1);
+            self.enlist.record(recorder, &self.pushed, arguments);
         });
     }
 }

@@ -5,12 +5,10 @@ use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Counting sort of a round's visibility samples.
 pub struct Sort {
-    layout: vk::PipelineLayout,
     before: Arguments,
     /// Passes of the sort; `None` for a single bin.
     passes: Option<Passes>,
@@ -47,7 +45,6 @@ impl Sort {
             })
         };
         Ok(Self {
-            layout: layout.pipeline,
             before: Arguments::new(layout, After::Sample)?,
             passes: (!one_bin).then(passes).transpose()?,
         })
@@ -60,7 +57,7 @@ impl Sort {
             self.before.record(recorder);
             if let Some(passes) = &self.passes {
                 let run = |scatter| {
-                    recorder.push(self.layout, &spirv::SortPush { scatter });
+                    recorder.push(&passes.pipeline, &spirv::SortPush { scatter });
                     recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
                 };
                 run(0);

@@ -8,7 +8,7 @@ use ash::vk::DescriptorType as Kind;
 
 include!(concat!(env!("OUT_DIR"), "/spirv.rs"));
 
-/// The set that the passes of a frame share.
+/// The sets that the passes of a frame share.
 pub mod frame_set {
     use super::{Binding, Kind};
 
@@ -70,66 +70,6 @@ pub mod frame_set {
     pub const STROKES: Binding = Binding::new(55, "strokes", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const SHADOW_WORDS: Binding = Binding::new(56, "shadow_words", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const LOCATION_ORDER: Binding = Binding::new(57, "location_order", Kind::UNIFORM_TEXEL_BUFFER, 1);
-    pub const ALL: [Binding; 58] = [
-        FRAME,
-        POSITIONS,
-        TRIANGLES,
-        NORMALS,
-        TANGENTS,
-        UVS,
-        COLORS,
-        MATERIALS,
-        LIGHTS,
-        ALPHA_ATLAS,
-        INSTANCE_OF,
-        INSTANCES,
-        IDS,
-        BLEND_IDS,
-        IDS_MS,
-        BLEND_IDS_MS,
-        DISPLAY,
-        DISPLAY_OUT,
-        COLOR,
-        COUNTERS,
-        MASKS,
-        TILES,
-        TILE_LISTS,
-        SURVIVORS,
-        CANDIDATES,
-        CANDIDATES_OUT,
-        HEADERS,
-        RECORDS,
-        RECORDS_OUT,
-        SHADED,
-        SHADED_OUT,
-        SHADE_ORDER,
-        PATTERN_OFFSETS,
-        BINS,
-        ARGUMENTS,
-        FILTERED,
-        ATTRIBUTES_OUT,
-        ENCODED,
-        PAIRS,
-        PAIRS_OUT,
-        RASTER_DEPTH,
-        MARKS,
-        LOCATIONS,
-        LOCATION_CELLS,
-        LOCATION_GROUPS,
-        TILE_LOADS,
-        MOMENT,
-        RESTING,
-        INFLUENCES,
-        DISPLACEMENTS,
-        POSITIONS_OUT,
-        NORMALS_OUT,
-        TANGENTS_OUT,
-        ENVIRONMENT_MAP,
-        PATTERN,
-        STROKES,
-        SHADOW_WORDS,
-        LOCATION_ORDER,
-    ];
 }
 
 /// An element of the buffer `draws`, as in `shaders/adopt.comp`.
@@ -166,12 +106,6 @@ pub mod adopt_set {
     pub const INDICES: Binding = Binding::new(1, "indices", Kind::STORAGE_BUFFER, 1);
     pub const TRIANGLES_OUT: Binding = Binding::new(2, "triangles_out", Kind::STORAGE_BUFFER, 1);
     pub const DRAW_OF_OUT: Binding = Binding::new(3, "draw_of_out", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 4] = [
-        DRAWS,
-        INDICES,
-        TRIANGLES_OUT,
-        DRAW_OF_OUT,
-    ];
 }
 
 /// Constants of `shaders/adopt.comp`.
@@ -193,6 +127,7 @@ impl Default for Adopt {
 impl Specialized for Adopt {
     const INTERFACE: &'static Interface = &Interface {
         name: "adopt",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: adopt_set::DRAWS, access: Access::Read },
             Use { set: 0, binding: adopt_set::INDICES, access: Access::Read },
@@ -232,10 +167,6 @@ pub mod alpha_map_set {
 
     pub const MAP: Binding = Binding::new(0, "map", Kind::SAMPLED_IMAGE, 1);
     pub const ATLAS: Binding = Binding::new(1, "atlas", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 2] = [
-        MAP,
-        ATLAS,
-    ];
 }
 
 /// `shaders/alpha_map.comp`, which has no constants.
@@ -245,6 +176,7 @@ pub struct AlphaMap;
 impl Specialized for AlphaMap {
     const INTERFACE: &'static Interface = &Interface {
         name: "alpha_map",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: alpha_map_set::MAP, access: Access::Read },
             Use { set: 0, binding: alpha_map_set::ATLAS, access: Access::Write },
@@ -323,11 +255,12 @@ pub struct Arguments;
 impl Specialized for Arguments {
     const INTERFACE: &'static Interface = &Interface {
         name: "arguments",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::ARGUMENTS, access: Access::Write },
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(1),
@@ -365,17 +298,18 @@ impl Default for Attributes {
 impl Specialized for Attributes {
     const INTERFACE: &'static Interface = &Interface {
         name: "attributes",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::NORMALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ATTRIBUTES_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::NORMALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ATTRIBUTES_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -419,17 +353,18 @@ impl Default for Bin {
 impl Specialized for Bin {
     const INTERFACE: &'static Interface = &Interface {
         name: "bin",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::SURVIVORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::PAIRS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::SURVIVORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::PAIRS_OUT, access: Access::Write },
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
@@ -461,10 +396,11 @@ pub struct BoxFilter;
 impl Specialized for BoxFilter {
     const INTERFACE: &'static Interface = &Interface {
         name: "box_filter",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
-            Use { set: 0, binding: frame_set::FILTERED, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 1, binding: frame_set::FILTERED, access: Access::Write },
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
@@ -510,14 +446,15 @@ impl Default for Centres {
 impl Specialized for Centres {
     const INTERFACE: &'static Interface = &Interface {
         name: "centres",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
@@ -556,12 +493,13 @@ impl Default for Composite {
 impl Specialized for Composite {
     const INTERFACE: &'static Interface = &Interface {
         name: "composite",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -598,11 +536,6 @@ pub mod coordinates_set {
     pub const DRAWS: Binding = Binding::new(0, "draws", Kind::STORAGE_BUFFER, 1);
     pub const VERTICES: Binding = Binding::new(1, "vertices", Kind::STORAGE_BUFFER, 1);
     pub const COORDINATES_OUT: Binding = Binding::new(2, "coordinates_out", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 3] = [
-        DRAWS,
-        VERTICES,
-        COORDINATES_OUT,
-    ];
 }
 
 /// Constants of `shaders/coordinates.comp`.
@@ -622,6 +555,7 @@ impl Default for Coordinates {
 impl Specialized for Coordinates {
     const INTERFACE: &'static Interface = &Interface {
         name: "coordinates",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: coordinates_set::DRAWS, access: Access::Read },
             Use { set: 0, binding: coordinates_set::VERTICES, access: Access::Read },
@@ -659,11 +593,6 @@ pub mod crossings_set {
     pub const LOADS: Binding = Binding::new(0, "loads", Kind::STORAGE_BUFFER, 1);
     pub const SEEN: Binding = Binding::new(1, "seen", Kind::STORAGE_BUFFER, 1);
     pub const CELL_MARKS: Binding = Binding::new(2, "cell_marks", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 3] = [
-        LOADS,
-        SEEN,
-        CELL_MARKS,
-    ];
 }
 
 /// Constants of `shaders/crossings.comp`.
@@ -687,19 +616,20 @@ impl Default for Crossings {
 impl Specialized for Crossings {
     const INTERFACE: &'static Interface = &Interface {
         name: "crossings",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::PAIRS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
-            Use { set: 1, binding: crossings_set::LOADS, access: Access::Read },
-            Use { set: 1, binding: crossings_set::SEEN, access: Access::Read },
-            Use { set: 1, binding: crossings_set::CELL_MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::PAIRS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 2, binding: crossings_set::LOADS, access: Access::Read },
+            Use { set: 2, binding: crossings_set::SEEN, access: Access::Read },
+            Use { set: 2, binding: crossings_set::CELL_MARKS, access: Access::ReadWrite },
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
@@ -738,15 +668,16 @@ impl Default for Cull {
 impl Specialized for Cull {
     const INTERFACE: &'static Interface = &Interface {
         name: "cull",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SURVIVORS, access: Access::Write },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SURVIVORS, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -792,16 +723,17 @@ impl Default for Detect {
 impl Specialized for Detect {
     const INTERFACE: &'static Interface = &Interface {
         name: "detect",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::BLEND_IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::BLEND_IDS_MS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Write },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADOW_WORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::BLEND_IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::BLEND_IDS_MS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Write },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADOW_WORDS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -843,18 +775,6 @@ pub mod distribute_set {
     pub const COUNTERS: Binding = Binding::new(7, "counters", Kind::STORAGE_BUFFER, 1);
     pub const LOCATIONS: Binding = Binding::new(8, "locations", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const ORDER: Binding = Binding::new(9, "order", Kind::UNIFORM_TEXEL_BUFFER, 1);
-    pub const ALL: [Binding; 10] = [
-        LOADS,
-        RANKS,
-        ORDER_OUT,
-        CELLS_OUT,
-        GROUPS_OUT,
-        TILE_LOADS,
-        MASKS,
-        COUNTERS,
-        LOCATIONS,
-        ORDER,
-    ];
 }
 
 /// Constants of `shaders/distribute.comp`.
@@ -876,6 +796,7 @@ impl Default for Distribute {
 impl Specialized for Distribute {
     const INTERFACE: &'static Interface = &Interface {
         name: "distribute",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: distribute_set::LOADS, access: Access::ReadWrite },
             Use { set: 0, binding: distribute_set::RANKS, access: Access::ReadWrite },
@@ -922,10 +843,11 @@ impl Default for Encode {
 impl Specialized for Encode {
     const INTERFACE: &'static Interface = &Interface {
         name: "encode",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
-            Use { set: 0, binding: frame_set::ENCODED, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 1, binding: frame_set::ENCODED, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -982,13 +904,14 @@ impl Default for Enlist {
 impl Specialized for Enlist {
     const INTERFACE: &'static Interface = &Interface {
         name: "enlist",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
-            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
@@ -1075,12 +998,13 @@ impl Default for Groups {
 impl Specialized for Groups {
     const INTERFACE: &'static Interface = &Interface {
         name: "groups",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
-            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -1118,11 +1042,12 @@ impl Default for Grow {
 impl Specialized for Grow {
     const INTERFACE: &'static Interface = &Interface {
         name: "grow",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -1157,16 +1082,17 @@ impl Default for Multisample {
 impl Specialized for Multisample {
     const INTERFACE: &'static Interface = &Interface {
         name: "multisample",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS_MS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Write },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Write },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
-            Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::IDS_MS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::ARGUMENTS, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -1203,12 +1129,13 @@ impl Default for Neighbours {
 impl Specialized for Neighbours {
     const INTERFACE: &'static Interface = &Interface {
         name: "neighbours",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -1248,11 +1175,12 @@ impl Default for PatchFragment {
 impl Specialized for PatchFragment {
     const INTERFACE: &'static Interface = &Interface {
         name: "patch_fragment",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
@@ -1279,6 +1207,7 @@ pub struct PatchVertex;
 impl Specialized for PatchVertex {
     const INTERFACE: &'static Interface = &Interface {
         name: "patch_vertex",
+        in_frame: false,
         uses: &[
         ],
         push_bytes: 0,
@@ -1325,20 +1254,21 @@ impl Default for Points {
 impl Specialized for Points {
     const INTERFACE: &'static Interface = &Interface {
         name: "points",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::NORMALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
-            Use { set: 0, binding: frame_set::ATTRIBUTES_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADOW_WORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::NORMALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 1, binding: frame_set::ATTRIBUTES_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADOW_WORDS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -1386,14 +1316,15 @@ pub struct Pose;
 impl Specialized for Pose {
     const INTERFACE: &'static Interface = &Interface {
         name: "pose",
+        in_frame: true,
         uses: &[
-            Use { set: 0, binding: frame_set::MOMENT, access: Access::Read },
-            Use { set: 0, binding: frame_set::RESTING, access: Access::Read },
-            Use { set: 0, binding: frame_set::INFLUENCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLACEMENTS, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::NORMALS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::TANGENTS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::MOMENT, access: Access::Read },
+            Use { set: 1, binding: frame_set::RESTING, access: Access::Read },
+            Use { set: 1, binding: frame_set::INFLUENCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLACEMENTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::NORMALS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::TANGENTS_OUT, access: Access::Write },
         ],
         push_bytes: 44,
         invocations: Invocations::Fixed(64),
@@ -1427,10 +1358,6 @@ pub mod prefilter_set {
 
     pub const TEXELS: Binding = Binding::new(0, "texels", Kind::STORAGE_BUFFER, 1);
     pub const RAYS: Binding = Binding::new(1, "rays", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 2] = [
-        TEXELS,
-        RAYS,
-    ];
 }
 
 /// `shaders/prefilter.comp`, which has no constants.
@@ -1440,6 +1367,7 @@ pub struct Prefilter;
 impl Specialized for Prefilter {
     const INTERFACE: &'static Interface = &Interface {
         name: "prefilter",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: prefilter_set::TEXELS, access: Access::ReadWrite },
             Use { set: 0, binding: prefilter_set::RAYS, access: Access::Read },
@@ -1476,16 +1404,17 @@ impl Default for RasterFragment {
 impl Specialized for RasterFragment {
     const INTERFACE: &'static Interface = &Interface {
         name: "raster_fragment",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
@@ -1512,10 +1441,11 @@ pub struct RasterVertex;
 impl Specialized for RasterVertex {
     const INTERFACE: &'static Interface = &Interface {
         name: "raster_vertex",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
         ],
         push_bytes: 80,
         invocations: Invocations::Drawn,
@@ -1552,10 +1482,6 @@ pub mod receivers_set {
 
     pub const LOCATIONS_OUT: Binding = Binding::new(0, "locations_out", Kind::STORAGE_BUFFER, 1);
     pub const WORDS: Binding = Binding::new(1, "words", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 2] = [
-        LOCATIONS_OUT,
-        WORDS,
-    ];
 }
 
 /// Constants of `shaders/receivers.comp`.
@@ -1585,19 +1511,20 @@ impl Default for Receivers {
 impl Specialized for Receivers {
     const INTERFACE: &'static Interface = &Interface {
         name: "receivers",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 1, binding: receivers_set::LOCATIONS_OUT, access: Access::Write },
-            Use { set: 1, binding: receivers_set::WORDS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 2, binding: receivers_set::LOCATIONS_OUT, access: Access::Write },
+            Use { set: 2, binding: receivers_set::WORDS, access: Access::ReadWrite },
         ],
         push_bytes: 124,
         invocations: Invocations::Fixed(64),
@@ -1625,9 +1552,6 @@ pub mod resolve_set {
     use super::{Binding, Kind};
 
     pub const HOST_IMAGE: Binding = Binding::new(0, "host_image", Kind::SAMPLED_IMAGE, 1);
-    pub const ALL: [Binding; 1] = [
-        HOST_IMAGE,
-    ];
 }
 
 /// Constants of `shaders/resolve.comp`.
@@ -1671,23 +1595,24 @@ impl Default for Resolve {
 impl Specialized for Resolve {
     const INTERFACE: &'static Interface = &Interface {
         name: "resolve",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Read },
-            Use { set: 0, binding: frame_set::HEADERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
-            Use { set: 1, binding: resolve_set::HOST_IMAGE, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 2, binding: resolve_set::HOST_IMAGE, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1756,31 +1681,32 @@ impl Default for Sample {
 impl Specialized for Sample {
     const INTERFACE: &'static Interface = &Interface {
         name: "sample",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::CANDIDATES, access: Access::Read },
-            Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_ORDER, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_ORDER, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1845,29 +1771,30 @@ impl Default for SampleLines {
 impl Specialized for SampleLines {
     const INTERFACE: &'static Interface = &Interface {
         name: "sample_lines",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::CANDIDATES, access: Access::Read },
-            Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1940,28 +1867,29 @@ impl Default for SampleMasks {
 impl Specialized for SampleMasks {
     const INTERFACE: &'static Interface = &Interface {
         name: "sample_masks",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::CANDIDATES, access: Access::Read },
-            Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::PATTERN, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -2018,28 +1946,29 @@ impl Default for Scatter {
 impl Specialized for Scatter {
     const INTERFACE: &'static Interface = &Interface {
         name: "scatter",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Read },
-            Use { set: 0, binding: frame_set::CANDIDATES_OUT, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
-            Use { set: 0, binding: frame_set::PAIRS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATION_ORDER, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::CANDIDATES_OUT, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
+            Use { set: 1, binding: frame_set::PAIRS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATION_ORDER, access: Access::Read },
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
@@ -2090,13 +2019,14 @@ impl Default for Schedule {
 impl Specialized for Schedule {
     const INTERFACE: &'static Interface = &Interface {
         name: "schedule",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
-            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::ARGUMENTS, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
@@ -2135,16 +2065,17 @@ impl Default for Setup {
 impl Specialized for Setup {
     const INTERFACE: &'static Interface = &Interface {
         name: "setup",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 0, binding: frame_set::CANDIDATES_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::PAIRS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::CANDIDATES_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::PAIRS, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -2184,9 +2115,6 @@ pub mod shade_set {
     use super::{Binding, Kind};
 
     pub const TEXTURES: Binding = Binding::new(0, "textures", Kind::COMBINED_IMAGE_SAMPLER, 15);
-    pub const ALL: [Binding; 1] = [
-        TEXTURES,
-    ];
 }
 
 /// Constants of `shaders/shade.comp`.
@@ -2300,30 +2228,31 @@ impl Default for Shade {
 impl Specialized for Shade {
     const INTERFACE: &'static Interface = &Interface {
         name: "shade",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::NORMALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TANGENTS, access: Access::Read },
-            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LIGHTS, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::SHADE_ORDER, access: Access::Read },
-            Use { set: 0, binding: frame_set::BINS, access: Access::Read },
-            Use { set: 0, binding: frame_set::LOCATIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::ENVIRONMENT_MAP, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADOW_WORDS, access: Access::Read },
-            Use { set: 1, binding: shade_set::TEXTURES, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::NORMALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TANGENTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LIGHTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Read },
+            Use { set: 1, binding: frame_set::BINS, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ENVIRONMENT_MAP, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADOW_WORDS, access: Access::Read },
+            Use { set: 2, binding: shade_set::TEXTURES, access: Access::Read },
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
@@ -2405,11 +2334,6 @@ pub mod shadow_set {
     pub const WORDS: Binding = Binding::new(0, "words", Kind::STORAGE_BUFFER, 1);
     pub const LEFT: Binding = Binding::new(1, "left", Kind::STORAGE_BUFFER, 1);
     pub const MARKS_OF_PIXELS: Binding = Binding::new(2, "marks_of_pixels", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 3] = [
-        WORDS,
-        LEFT,
-        MARKS_OF_PIXELS,
-    ];
 }
 
 /// Constants of `shaders/shadow.comp`.
@@ -2429,14 +2353,15 @@ impl Default for Shadow {
 impl Specialized for Shadow {
     const INTERFACE: &'static Interface = &Interface {
         name: "shadow",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADED, access: Access::Read },
-            Use { set: 1, binding: shadow_set::WORDS, access: Access::ReadWrite },
-            Use { set: 1, binding: shadow_set::LEFT, access: Access::ReadWrite },
-            Use { set: 1, binding: shadow_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
+            Use { set: 2, binding: shadow_set::WORDS, access: Access::ReadWrite },
+            Use { set: 2, binding: shadow_set::LEFT, access: Access::ReadWrite },
+            Use { set: 2, binding: shadow_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
@@ -2482,15 +2407,16 @@ impl Default for Sort {
 impl Specialized for Sort {
     const INTERFACE: &'static Interface = &Interface {
         name: "sort",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::SHADE_ORDER, access: Access::Write },
-            Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Write },
+            Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
@@ -2536,15 +2462,16 @@ impl Default for Spans {
 impl Specialized for Spans {
     const INTERFACE: &'static Interface = &Interface {
         name: "spans",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::SHADE_ORDER, access: Access::Write },
-            Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Write },
+            Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
@@ -2584,12 +2511,13 @@ pub struct Stroke;
 impl Specialized for Stroke {
     const INTERFACE: &'static Interface = &Interface {
         name: "stroke",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::NORMALS_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::STROKES, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::NORMALS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::STROKES, access: Access::Read },
         ],
         push_bytes: 48,
         invocations: Invocations::Fixed(64),
@@ -2611,9 +2539,6 @@ pub mod take_set {
     use super::{Binding, Kind};
 
     pub const HOST_IMAGE: Binding = Binding::new(0, "host_image", Kind::SAMPLED_IMAGE, 1);
-    pub const ALL: [Binding; 1] = [
-        HOST_IMAGE,
-    ];
 }
 
 /// Constants of `shaders/take.comp`.
@@ -2637,11 +2562,12 @@ impl Default for Take {
 impl Specialized for Take {
     const INTERFACE: &'static Interface = &Interface {
         name: "take",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::DISPLAY_OUT, access: Access::Write },
-            Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 1, binding: take_set::HOST_IMAGE, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
+            Use { set: 2, binding: take_set::HOST_IMAGE, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -2689,12 +2615,13 @@ impl Default for Tally {
 impl Specialized for Tally {
     const INTERFACE: &'static Interface = &Interface {
         name: "tally",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Write },
-            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
@@ -2746,18 +2673,19 @@ impl Default for Thin {
 impl Specialized for Thin {
     const INTERFACE: &'static Interface = &Interface {
         name: "thin",
+        in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::BLEND_IDS, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::SURVIVORS, access: Access::ReadWrite },
-            Use { set: 0, binding: frame_set::RASTER_DEPTH, access: Access::Read },
-            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::BLEND_IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::SURVIVORS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::RASTER_DEPTH, access: Access::Read },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
         ],
         push_bytes: 12,
         invocations: Invocations::Fixed(64),
@@ -2788,12 +2716,6 @@ pub mod transform_set {
     pub const VERTICES: Binding = Binding::new(1, "vertices", Kind::STORAGE_BUFFER, 1);
     pub const MATRICES: Binding = Binding::new(2, "matrices", Kind::STORAGE_BUFFER, 1);
     pub const POSITIONS_OUT: Binding = Binding::new(3, "positions_out", Kind::STORAGE_BUFFER, 1);
-    pub const ALL: [Binding; 4] = [
-        DRAWS,
-        VERTICES,
-        MATRICES,
-        POSITIONS_OUT,
-    ];
 }
 
 /// Constants of `shaders/transform.comp`.
@@ -2813,6 +2735,7 @@ impl Default for Transform {
 impl Specialized for Transform {
     const INTERFACE: &'static Interface = &Interface {
         name: "transform",
+        in_frame: false,
         uses: &[
             Use { set: 0, binding: transform_set::DRAWS, access: Access::Read },
             Use { set: 0, binding: transform_set::VERTICES, access: Access::Read },
@@ -2834,6 +2757,53 @@ impl Compiled for Transform {
         TRANSFORM
     }
 }
+
+/// Interfaces of all shaders.
+pub const INTERFACES: [&Interface; 43] = [
+    Adopt::INTERFACE,
+    AlphaMap::INTERFACE,
+    Arguments::INTERFACE,
+    Attributes::INTERFACE,
+    Bin::INTERFACE,
+    BoxFilter::INTERFACE,
+    Centres::INTERFACE,
+    Composite::INTERFACE,
+    Coordinates::INTERFACE,
+    Crossings::INTERFACE,
+    Cull::INTERFACE,
+    Detect::INTERFACE,
+    Distribute::INTERFACE,
+    Encode::INTERFACE,
+    Enlist::INTERFACE,
+    Groups::INTERFACE,
+    Grow::INTERFACE,
+    Multisample::INTERFACE,
+    Neighbours::INTERFACE,
+    PatchFragment::INTERFACE,
+    PatchVertex::INTERFACE,
+    Points::INTERFACE,
+    Pose::INTERFACE,
+    Prefilter::INTERFACE,
+    RasterFragment::INTERFACE,
+    RasterVertex::INTERFACE,
+    Receivers::INTERFACE,
+    Resolve::INTERFACE,
+    Sample::INTERFACE,
+    SampleLines::INTERFACE,
+    SampleMasks::INTERFACE,
+    Scatter::INTERFACE,
+    Schedule::INTERFACE,
+    Setup::INTERFACE,
+    Shade::INTERFACE,
+    Shadow::INTERFACE,
+    Sort::INTERFACE,
+    Spans::INTERFACE,
+    Stroke::INTERFACE,
+    Take::INTERFACE,
+    Tally::INTERFACE,
+    Thin::INTERFACE,
+    Transform::INTERFACE,
+];
 
 /// What passes count, a word each, as `shaders/include/interface.glsl` describes it.
 #[repr(C)]

@@ -4,7 +4,7 @@ use super::host_image::HostImage;
 use super::spirv;
 use crate::engine::data::ColorConstants;
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Compiled, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Reads colours, and computes the codes that detection compares.
@@ -29,14 +29,14 @@ impl Take {
             tonemap_codes: output.tonemap_codes,
         };
         Ok(Self {
-            pipeline: image.pipeline(frame, spirv::Take::code(), &shader, None)?,
+            pipeline: frame.compute(&shader, None)?,
             image: image.clone(),
         })
     }
 
-    /// Records the pass for a frame of `pixels` pixels. The frame's set is bound before and afterwards.
+    /// Records the pass for a frame of `pixels` pixels.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
-        self.image.bind(recorder);
+        recorder.show(&self.image.sets);
         recorder.dispatch_each(&self.pipeline, u64::from(pixels));
     }
 }

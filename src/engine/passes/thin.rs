@@ -5,12 +5,10 @@ use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Marks pixels that `detect` turns into superpixels.
 pub struct Thin {
-    layout: vk::PipelineLayout,
     select: Arc<Pipeline>,
     arguments: Arguments,
     walk: Arc<Pipeline>,
@@ -40,7 +38,6 @@ impl Thin {
             layout.compute(&shader, None)
         };
         Ok(Self {
-            layout: layout.pipeline,
             select: thin(true)?,
             arguments: Arguments::new(layout, After::Thin)?,
             walk: thin(false)?,
@@ -69,7 +66,7 @@ impl Thin {
                         depth_factor,
                         depth_constant,
                     };
-                    recorder.push(self.layout, &push);
+                    recorder.push(&self.walk, &push);
                     recorder.dispatch_indirect(&self.walk, arguments, argument as u32);
                 }
             });

@@ -2,9 +2,8 @@
 
 use super::spirv::{self, transform_set};
 use crate::engine::data::Draws;
-use crate::engine::pipelines::OwnSet;
-use crate::engine::pipelines::lent_kernel::LentKernel;
-use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -13,37 +12,36 @@ use std::sync::Arc;
 pub(crate) use spirv::TransformPush as VertexCounts;
 
 /// Kernel that reads vertices, and multiplies them by the matrices of their draws.
-pub(crate) struct Transform(LentKernel<spirv::Transform, VertexCounts>);
+pub(crate) struct Transform {
+    pipeline: Arc<Pipeline>,
+}
 
 impl Transform {
-    /// Makes the layouts.
-    ///
-    /// # Errors
-    /// If the driver refuses one.
-    pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        Ok(Self(LentKernel::new(gpu, &transform_set::ALL)?))
-    }
-
     /// Makes the pipeline. If the draws have matrices, a position has three floats in object space; otherwise, four
     /// floats in clip space.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
+    pub fn new(layout: &FrameLayout, draws: &Draws) -> Result<Self, VulkanError> {
         let object = draws.matrices.is_some();
-        self.0.pipeline(gpu, &spirv::Transform { object })
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Transform { object }, None)?,
+        })
     }
 
     /// Makes a set with the draws, the host's vertices, the matrices and the positions.
     ///
+    /// # Errors
+    /// If the driver refuses it.
+    ///
     /// # Safety
     /// The host's buffer outlives the use of the set.
     pub unsafe fn set(
-        &self,
+        layout: &FrameLayout,
         draws: &Draws,
         vertices: vk::DescriptorBufferInfo,
         positions: &Buffer,
-    ) -> Result<OwnSet, VulkanError> {
+    ) -> Result<DescriptorSets, VulkanError> {
         // Without matrices, the shader does not read this binding.
         let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
         let buffers = [
@@ -53,18 +51,13 @@ impl Transform {
             (transform_set::POSITIONS_OUT, positions.into()),
         ];
         // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
-        unsafe { self.0.set(&buffers) }
+        unsafe { layout.own_set(spirv::Transform::INTERFACE, &buffers) }
     }
 
     /// Records the pass, if there are draws.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        pipeline: &Pipeline,
-        set: &OwnSet,
-        counts: VertexCounts,
-    ) {
-        let invocations = counts.position_count;
-        self.0.record(recorder, pipeline, set, &counts, invocations);
+    pub fn record(&self, recorder: &Recorder<'_>, set: &DescriptorSets, counts: VertexCounts) {
+        recorder.show(set);
+        recorder.push(&self.pipeline, &counts);
+        recorder.dispatch_each(&self.pipeline, counts.position_count.into());
     }
 }

@@ -1,107 +1,98 @@
-//! Layout of the descriptor sets and pipelines that all passes share, and a cache of pipelines.
+//! Layouts of all passes, and a cache of pipelines.
 
 use super::cache::Pipelines;
-use super::pool::DescriptorPool;
-use crate::engine::passes::spirv::{self, frame_set};
+use crate::engine::passes::spirv::INTERFACES;
 use crate::vulkan::{
-    Compiled, Constants, Gpu, PUSH_STAGES, Pipeline, Specialized, VulkanError, compute_pipeline,
+    Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline, SetLayout,
+    SharedLayout, ShownBinding, Specialized, VulkanError, compute_pipeline,
 };
-use ash::vk;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Largest number of distinct textures of a material. Together with the environment map, these need 16 samplers, as
-/// many as every Vulkan device supports.
-pub(crate) const SLOTS: usize = spirv::shade_set::TEXTURES.count as usize;
-
-/// Number of bytes of push constants: a matrix and four words, for `raster`.
-pub(crate) const PUSH_BYTES: u32 = 80;
-
-/// Layouts of both descriptor sets and of the pipelines, and a cache of pipelines.
+/// Layouts of all passes, and a cache of pipelines.
 pub struct FrameLayout {
     pub(crate) gpu: Arc<Gpu>,
-    pub(crate) frame_set: vk::DescriptorSetLayout,
-    pub(crate) texture_set: vk::DescriptorSetLayout,
-    pub(crate) pipeline: vk::PipelineLayout,
-    /// Sampler of the environment, fixed in the layout so that sets are complete even without an environment.
-    environment_sampler: vk::Sampler,
+    /// Layouts by the name of the pass.
+    passes: BTreeMap<&'static str, Arc<PassLayout>>,
+    /// Layouts of the sets of a frame.
+    of_frame: Vec<Arc<SetLayout>>,
     pipelines: Mutex<Pipelines>,
 }
 
 impl FrameLayout {
-    /// The push constants of every pipeline.
-    pub(crate) const PUSH_RANGE: vk::PushConstantRange = vk::PushConstantRange {
-        stage_flags: PUSH_STAGES,
-        offset: 0,
-        size: PUSH_BYTES,
-    };
-
     /// Makes the layouts.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the driver refuses them.
     pub(crate) fn new(gpu: &Arc<Gpu>) -> Result<Arc<Self>, VulkanError> {
-        let stages = vk::ShaderStageFlags::VERTEX
-            | vk::ShaderStageFlags::FRAGMENT
-            | vk::ShaderStageFlags::COMPUTE;
-        let trilinear = vk::SamplerCreateInfo::default()
-            .mag_filter(vk::Filter::LINEAR)
-            .min_filter(vk::Filter::LINEAR)
-            .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
-            .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-            .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-            .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-            .max_lod(vk::LOD_CLAMP_NONE);
-        let textures = vk::DescriptorSetLayoutBinding::default()
-            .binding(spirv::shade_set::TEXTURES.number)
-            .descriptor_type(spirv::shade_set::TEXTURES.kind)
-            .descriptor_count(spirv::shade_set::TEXTURES.count)
-            .stage_flags(vk::ShaderStageFlags::COMPUTE);
-        let mut layout = Self {
-            gpu: gpu.clone(),
-            frame_set: vk::DescriptorSetLayout::null(),
-            texture_set: vk::DescriptorSetLayout::null(),
-            pipeline: vk::PipelineLayout::null(),
-            environment_sampler: vk::Sampler::null(),
-            pipelines: Mutex::new(Pipelines::new(gpu.limits().max_unused_pipelines)),
-        };
-        // SAFETY: plain creations on a live device; `Drop` destroys handles that were made before a failure.
-        unsafe {
-            let make = |bindings: &[vk::DescriptorSetLayoutBinding<'_>]| {
-                let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(bindings);
-                gpu.device
-                    .create_descriptor_set_layout(&info, None)
-                    .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
-            };
-            layout.environment_sampler = gpu
-                .device
-                .create_sampler(&trilinear, None)
-                .map_err(VulkanError::of("vkCreateSampler"))?;
-            let samplers = [layout.environment_sampler];
-            let frame = frame_set::ALL.map(|binding| {
-                let one = vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding.number)
-                    .descriptor_type(binding.kind)
-                    .descriptor_count(binding.count)
-                    .stage_flags(stages);
-                if binding == frame_set::ENVIRONMENT_MAP {
-                    one.immutable_samplers(&samplers)
-                } else {
-                    one
-                }
-            });
-            layout.frame_set = make(&frame)?;
-            layout.texture_set = make(&[textures])?;
-            let sets = [layout.frame_set, layout.texture_set];
-            let push = [Self::PUSH_RANGE];
-            let info = vk::PipelineLayoutCreateInfo::default()
-                .set_layouts(&sets)
-                .push_constant_ranges(&push);
-            layout.pipeline = gpu
-                .device
-                .create_pipeline_layout(&info, None)
-                .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
+        let mut shaders: BTreeMap<&'static str, Vec<&Interface>> = BTreeMap::new();
+        for interface in INTERFACES {
+            shaders.entry(interface.pass()).or_default().push(interface);
         }
-        Ok(Arc::new(layout))
+        let in_frame = INTERFACES.into_iter().filter(|shader| shader.in_frame);
+        let shared = SharedLayout::new(gpu, &in_frame.collect::<Vec<_>>())?;
+        let mut of_frame = vec![shared.set.clone()];
+        let mut passes = BTreeMap::new();
+        for (name, shaders) in shaders {
+            let in_frame = shaders.iter().any(|shader| shader.in_frame);
+            let pass = PassLayout::new(gpu, &shaders, in_frame.then_some(&shared))?;
+            of_frame.extend(pass.sets.get(1).filter(|_| in_frame).cloned());
+            passes.insert(name, Arc::new(pass));
+        }
+        Ok(Arc::new(Self {
+            gpu: gpu.clone(),
+            passes,
+            of_frame,
+            pipelines: Mutex::new(Pipelines::new(gpu.limits().max_unused_pipelines)),
+        }))
+    }
+
+    /// Layouts of the pass to which a shader belongs.
+    pub(crate) fn of(&self, shader: &Interface) -> &Arc<PassLayout> {
+        &self.passes[shader.pass()]
+    }
+
+    /// Makes `count` times the sets that the passes of a frame share.
+    ///
+    /// # Errors
+    /// If the driver refuses them.
+    pub(crate) fn frame_sets(&self, count: usize) -> Result<Vec<DescriptorSets>, VulkanError> {
+        DescriptorSets::new(&self.gpu, true, &self.of_frame, count)
+    }
+
+    /// Makes `count` times the sets that the passes of these shaders have besides those of the frame.
+    ///
+    /// # Errors
+    /// If the driver refuses them.
+    pub(crate) fn own_sets(
+        &self,
+        shaders: &[&Interface],
+        count: usize,
+    ) -> Result<Vec<DescriptorSets>, VulkanError> {
+        let own = |shader: &&Interface| {
+            let number = if shader.in_frame { 2 } else { 0 };
+            self.of(shader).sets[number].clone()
+        };
+        let layouts: Vec<_> = shaders.iter().map(own).collect();
+        DescriptorSets::new(&self.gpu, false, &layouts, count)
+    }
+
+    /// Makes the set that the pass of a shader has besides those of the frame; it shows these buffers.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    ///
+    /// # Safety
+    /// The buffers outlive the use of the set.
+    pub(crate) unsafe fn own_set(
+        &self,
+        shader: &Interface,
+        shown: &[ShownBinding],
+    ) -> Result<DescriptorSets, VulkanError> {
+        let mut own = self.own_sets(&[shader], 1)?.remove(0);
+        // SAFETY: the set is new; the caller guarantees the buffers.
+        unsafe { own.write(shown) };
+        Ok(own)
     }
 
     /// Subgroup size of kernels that depend on it.
@@ -133,8 +124,10 @@ impl FrameLayout {
         subgroup: Option<u32>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let constants = &shader.constants();
-        let shader = (code, S::INTERFACE);
-        let made = || compute_pipeline(&self.gpu, self.pipeline, shader, constants, subgroup);
+        let made = || {
+            let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
+            compute_pipeline(layout, shader, constants, subgroup)
+        };
         self.cached(code, constants, subgroup.unwrap_or(0), made)
     }
 
@@ -159,77 +152,47 @@ impl FrameLayout {
         let made = make()?;
         Ok(known().add(key, made))
     }
-
-    /// Pool for `frames` sets 0 and `bins` sets 1.
-    pub(crate) fn pool(&self, frames: u32, bins: u32) -> Result<DescriptorPool, VulkanError> {
-        let mut sizes: Vec<vk::DescriptorPoolSize> = Vec::new();
-        for binding in frame_set::ALL {
-            let count = frames * binding.count;
-            match sizes.iter_mut().find(|size| size.ty == binding.kind) {
-                Some(size) => size.descriptor_count += count,
-                None => sizes.push(vk::DescriptorPoolSize {
-                    ty: binding.kind,
-                    descriptor_count: count,
-                }),
-            }
-        }
-        sizes.retain(|size| size.descriptor_count > 0);
-        if bins > 0 {
-            sizes.push(vk::DescriptorPoolSize {
-                ty: vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
-                descriptor_count: bins * SLOTS as u32,
-            });
-        }
-        DescriptorPool::new(&self.gpu, frames + bins, &sizes)
-    }
-}
-
-impl Drop for FrameLayout {
-    fn drop(&mut self) {
-        // SAFETY: owners drop the layout after the frames that use it; null handles are ignored.
-        unsafe {
-            self.gpu.device.destroy_pipeline_layout(self.pipeline, None);
-            self.gpu
-                .device
-                .destroy_descriptor_set_layout(self.texture_set, None);
-            self.gpu
-                .device
-                .destroy_descriptor_set_layout(self.frame_set, None);
-            self.gpu
-                .device
-                .destroy_sampler(self.environment_sampler, None);
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vulkan::Requirements;
+    use crate::engine::passes::spirv::gpc_visibility_set;
+    use crate::vulkan::{Binding, Requirements};
+    use ash::vk::DescriptorType as T;
 
     #[test]
-    fn devices_are_asked_for_as_many_descriptors_as_there_are() {
-        use vk::DescriptorType as T;
-        let slots = std::iter::repeat_n(T::COMBINED_IMAGE_SAMPLER, SLOTS);
-        let all: Vec<_> = frame_set::ALL
-            .iter()
-            .map(|binding| binding.kind)
-            .chain(slots)
+    fn devices_are_asked_for_as_many_descriptors_as_a_stage_has() {
+        let of_stages = INTERFACES.iter().map(|shader| {
+            let bindings = shader.uses.iter().map(|used| used.binding);
+            bindings.collect::<Vec<_>>()
+        });
+        let all: Vec<_> = of_stages
+            .chain([gpc_visibility_set::ALL.to_vec()])
             .collect();
-        let count = |kinds: &[T]| all.iter().filter(|kind| kinds.contains(kind)).count() as u32;
-        assert_eq!(count(&[T::STORAGE_BUFFER]), Requirements::STORAGE_BUFFERS);
-        assert_eq!(
-            count(&[
-                T::SAMPLED_IMAGE,
-                T::COMBINED_IMAGE_SAMPLER,
-                T::UNIFORM_TEXEL_BUFFER
-            ]),
-            Requirements::SAMPLED_IMAGES
-        );
-        assert_eq!(all.len() as u32 + 1, Requirements::RESOURCES);
-        // Every device supports 4 storage images, 12 uniform buffers and 16 samplers.
-        assert!(count(&[T::STORAGE_TEXEL_BUFFER]) <= 4);
-        assert!(count(&[T::UNIFORM_BUFFER]) <= 12);
-        assert!(count(&[T::COMBINED_IMAGE_SAMPLER]) <= 16);
+        let most = |kinds: &[T]| {
+            let count = |stage: &Vec<Binding>| {
+                let counted = stage.iter().filter(|binding| kinds.contains(&binding.kind));
+                counted.map(|binding| binding.count).sum::<u32>()
+            };
+            all.iter().map(count).max().unwrap()
+        };
+        let images = [
+            T::SAMPLED_IMAGE,
+            T::COMBINED_IMAGE_SAMPLER,
+            T::UNIFORM_TEXEL_BUFFER,
+        ];
+        assert_eq!(most(&[T::STORAGE_BUFFER]), Requirements::STORAGE_BUFFERS);
+        assert_eq!(most(&images), Requirements::SAMPLED_IMAGES);
+        // Every device supports 4 storage images, 12 uniform buffers, 16 samplers, and 128 resources of a stage.
+        assert!(most(&[T::STORAGE_TEXEL_BUFFER]) <= 4);
+        assert!(most(&[T::UNIFORM_BUFFER]) <= 12);
+        assert!(most(&[T::COMBINED_IMAGE_SAMPLER]) <= 16);
+        let resources = [
+            T::STORAGE_BUFFER,
+            T::UNIFORM_BUFFER,
+            T::STORAGE_TEXEL_BUFFER,
+        ];
+        assert!(most(&[&resources[..], &images].concat()) < 128);
     }
 }

@@ -182,14 +182,14 @@ impl SuperpixelOptions {
 
 setters! {
     SuperpixelOptions {
-        samples: u32,
-        pattern: Pattern,
-        coverage: Coverage,
-        shading: Shading,
-        detection: Detection,
-        contrast: Option<u8>,
-        growths: Option<u8>,
-        thin: bool,
+        samples: u32 = "the number of samples of a superpixel",
+        pattern: Pattern = "the pattern of the sample locations in a superpixel",
+        coverage: Coverage = "the measure of a triangle's coverage of a superpixel",
+        shading: Shading = "the rate of shading within a superpixel",
+        detection: Detection = "the rule by which a pixel becomes a superpixel",
+        contrast: Option<u8> = "the contrast threshold in 8-bit sRGB code values; `None` for the default",
+        growths: Option<u8> = "the number of growths; `None` for the default",
+        thin: bool = "whether triangles and shadows that are too thin to cover a pixel's centre make the pixel a superpixel",
     }
 }
 

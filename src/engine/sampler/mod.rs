@@ -46,8 +46,8 @@ use statistics::Shortfall;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 
-/// Client of a [`Sampler`]. The client owns the surfaces that samples see, and shades them. Set 0 is bound before each
-/// of these calls, and again after each.
+/// Client of a [`Sampler`]. The client owns the surfaces that samples see, and shades them. Passes use the
+/// sets of the run before each of these calls, and after it.
 pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
     /// written to its place in the buffer of shaded records.

@@ -141,7 +141,7 @@ impl Settings {
         }
     }
 
-    /// The same with another method.
+    /// Sets the method of antialiasing.
     #[must_use]
     pub fn method(self, method: impl Into<Method>) -> Self {
         Self {
@@ -150,7 +150,7 @@ impl Settings {
         }
     }
 
-    /// The same with other options of superpixels, where the method has them.
+    /// Changes the options of superpixels, if the method has them.
     #[must_use]
     pub fn map_superpixels(
         self,
@@ -269,19 +269,19 @@ fn shadowed(options: SuperpixelOptions) -> SuperpixelOptions {
 
 setters! {
     Settings {
-        size: [u32; 2],
-        region: Option<PixelRect>,
-        background: Option<[f32; 3]>,
-        exposure: f32,
-        reference: Reference,
-        tonemapped_detection: bool,
-        attributes: bool,
-        footprint: Footprint,
-        shadows: Shadows,
-        line_width: f32,
-        point_size: f32,
-        edge_width: f32,
-        max_memory: Option<u64>,
-        time_rounds: bool,
+        size: [u32; 2] = "the width and height in pixels",
+        region: Option<PixelRect> = "the part of the image to render; `None` for the whole image",
+        background: Option<[f32; 3]> = "the linear colour of the background; `None` for transparent",
+        exposure: f32 = "the exposure in stops: 1 is twice as bright",
+        reference: Reference = "the meaning of the numbers in the image",
+        tonemapped_detection: bool = "whether detection compares tone-mapped colours even if the image is scene-referred",
+        attributes: bool = "whether depth, ID, normal and number of samples of every pixel are output too",
+        footprint: Footprint = "the area for which texture levels are chosen",
+        shadows: Shadows = "the shadows of the scene's lights",
+        line_width: f32 = "the width of lines in output pixels",
+        point_size: f32 = "the diameter of points in output pixels",
+        edge_width: f32 = "the width of edges of meshes in output pixels",
+        max_memory: Option<u64> = "the limit for device memory in bytes; `None` for no limit",
+        time_rounds: bool = "whether the passes of all rounds are timed one by one",
     }
 }

@@ -2,30 +2,32 @@
 
 use super::barriers::{Accesses, Barriers, Ordered};
 use super::conditions::{Change, Conditions};
-use super::descriptor_set::ShownBuffers;
+use super::descriptor_set::ShownSets;
 use super::trace::Dispatched;
-use super::{Access, Buffer, DescriptorSet, Gpu, Image, Interface, Pipeline, VulkanError};
+use super::{Access, Buffer, DescriptorSets, Gpu, Image, Interface, Pipeline, VulkanError};
 use ash::vk;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-/// Shader stages to which push constants are visible.
-pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
-    vk::ShaderStageFlags::VERTEX.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
-);
+/// Number of descriptor sets that a pipeline may use.
+const SETS: usize = 3;
 
 /// Recorder of a frame's commands into a caller's command buffer.
 ///
+/// It binds the descriptor sets of a pipeline, of those that show the data that the caller named.
+///
 /// It records a barrier before a command that depends on an earlier one: the interface of a dispatch's shader says which bindings it
-/// reads and writes, and the bound sets say which buffers these are. Copies and fills name their buffers. Before and after commands of
+/// reads and writes, and the sets say which buffers these are. Copies and fills name their buffers. Before and after commands of
 /// which it knows nothing, it orders everything.
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
     raw: vk::CommandBuffer,
     barriers: RefCell<Barriers>,
     conditions: Cell<Conditions>,
-    /// What the sets show that are bound for compute shaders.
-    bound: RefCell<Vec<ShownBuffers>>,
+    /// Descriptor sets that pipelines use from now on: a frame's, and a pass's own.
+    shown: RefCell<[Option<Arc<ShownSets>>; 2]>,
+    /// What is bound.
+    bound: Cell<Bound>,
     timings: RefCell<Option<&'a mut Timings>>,
     /// Whether timing has begun.
     is_timed: Cell<bool>,
@@ -58,7 +60,8 @@ impl<'a> Recorder<'a> {
             raw,
             barriers: RefCell::new(Barriers::new()),
             conditions: Cell::new(Conditions::default()),
-            bound: RefCell::default(),
+            shown: RefCell::default(),
+            bound: Cell::default(),
             timings: RefCell::new(timings),
             is_timed: Cell::new(false),
             in_section: Cell::new(false),
@@ -73,6 +76,8 @@ impl<'a> Recorder<'a> {
         self.change_condition(Conditions::before_others);
         let barrier = self.barriers.borrow_mut().before_unknown();
         self.record_barrier(barrier, &[]);
+        // The commands may bind other sets.
+        self.bound.take();
         self.raw
     }
 
@@ -117,22 +122,22 @@ impl<'a> Recorder<'a> {
 
     /// Command buffer for a dispatch of a pipeline that also reads a buffer.
     fn dispatching(&self, pipeline: &Pipeline, read: Option<vk::Buffer>) -> vk::CommandBuffer {
-        let barrier = match self.accesses(pipeline, read) {
-            Some(accesses) => self.barriers.borrow_mut().before(&accesses),
-            None => self.barriers.borrow_mut().before_unknown(),
-        };
+        let accesses = self.accesses(pipeline, read);
+        let barrier = self.barriers.borrow_mut().before(&accesses);
         self.record_barrier(barrier, &[]);
         self.change_condition(Conditions::before_dispatch);
         self.raw
     }
 
-    /// Accesses of a dispatch of a pipeline that also reads a buffer; `None` if the recorder does not know the bound sets.
-    fn accesses(&self, pipeline: &Pipeline, read: Option<vk::Buffer>) -> Option<Accesses> {
+    /// Accesses of a dispatch of a pipeline that also reads a buffer.
+    fn accesses(&self, pipeline: &Pipeline, read: Option<vk::Buffer>) -> Accesses {
         let mut accesses = Accesses::default();
-        let bound = self.bound.borrow();
+        let shown = self.shown.borrow();
+        let sets = sets_of(pipeline, &shown);
         for used in pipeline.interface().uses {
-            // What a set does not show, a shader does not use with its constants.
-            let Some(buffer) = bound.get(used.set as usize)?.get(used.binding.number) else {
+            // What no set shows, a shader does not use with its constants.
+            let set = sets[used.set as usize];
+            let Some(buffer) = set.and_then(|(_, set)| set.buffer(used.binding.number)) else {
                 continue;
             };
             if used.access != Access::Write {
@@ -145,12 +150,7 @@ impl<'a> Recorder<'a> {
         for buffer in read.into_iter().chain(self.condition()) {
             accesses.read(buffer);
         }
-        Some(accesses)
-    }
-
-    /// Command buffer for binding and pushing, which need no barrier.
-    pub(crate) fn bindings(&self) -> vk::CommandBuffer {
-        self.raw
+        accesses
     }
 
     /// Command buffer, after the barrier that a dispatch, copy or fill with these accesses needs.
@@ -218,42 +218,37 @@ impl<'a> Recorder<'a> {
         self.barriers.borrow_mut().all_ordered();
     }
 
-    /// Binds a pipeline.
+    /// Has pipelines read and write what these sets show, from now on: instead of the frame whose sets were named before, or of what
+    /// a pass's own sets have shown.
+    pub(crate) fn show(&self, sets: &DescriptorSets) {
+        let slot = usize::from(!sets.are_of_frame());
+        self.shown.borrow_mut()[slot] = Some(sets.shown().clone());
+    }
+
+    /// Binds a pipeline, and its sets from the first one on that is not bound.
     pub fn bind(&self, pipeline: &Pipeline) {
-        // SAFETY: `new`'s contract.
+        let (raw, point, layout) = (self.raw, pipeline.bind_point, &pipeline.layout);
+        let shown = self.shown.borrow();
+        let known = sets_of(pipeline, &shown);
+        let set = |number: usize| Some((layout.sets.get(number)?.raw, known[number]?.0));
+        let sets: [_; SETS] = std::array::from_fn(set);
+        let (bound_to, bound) = self.bound.replace((point, sets));
+        let is_bound = |number: &usize| bound_to == point && bound[*number] == sets[*number];
+        let first = (0..SETS).take_while(is_bound).count();
+        let missing = sets[first..].iter().map_while(|set| Some((*set)?.1));
+        let missing: Vec<_> = missing.collect();
+        // SAFETY: `new`'s contract; the sets were made with the pipeline's layouts.
         unsafe {
-            self.gpu
-                .device
-                .cmd_bind_pipeline(self.bindings(), pipeline.bind_point, pipeline.raw)
+            let device = &self.gpu.device;
+            device.cmd_bind_pipeline(raw, point, pipeline.raw);
+            if !missing.is_empty() {
+                let (layout, first) = (layout.raw, first as u32);
+                device.cmd_bind_descriptor_sets(raw, point, layout, first, &missing, &[]);
+            }
         };
         if self.traces && pipeline.bind_point == vk::PipelineBindPoint::GRAPHICS {
             self.gpu
                 .trace(pipeline, Dispatched::Drawn, !self.repeats.get());
-        }
-    }
-
-    /// Binds sets for compute shaders, the first of them as set `first`.
-    pub(crate) fn bind_sets(
-        &self,
-        layout: vk::PipelineLayout,
-        first: usize,
-        sets: &[&DescriptorSet],
-    ) {
-        let mut bound = self.bound.borrow_mut();
-        let end = first + sets.len();
-        let places = bound.len().max(end);
-        bound.resize_with(places, ShownBuffers::default);
-        for (place, set) in bound[first..end].iter_mut().zip(sets) {
-            *place = set.buffers().clone();
-        }
-        let sets: Vec<_> = sets.iter().map(|set| set.raw).collect();
-        let point = vk::PipelineBindPoint::COMPUTE;
-        let (raw, first) = (self.bindings(), first as u32);
-        // SAFETY: `new`'s contract.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_bind_descriptor_sets(raw, point, layout, first, &sets, &[]);
         }
     }
 
@@ -343,14 +338,19 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sets the push constants of `layout`.
-    pub fn push(&self, layout: vk::PipelineLayout, pushed: &impl bytemuck::NoUninit) {
-        let bytes = bytemuck::bytes_of(pushed);
-        // SAFETY: `new`'s contract; layouts have room for the push constants of their passes.
+    /// Sets the push constants of a pipeline.
+    pub fn push(&self, pipeline: &Pipeline, pushed: &impl bytemuck::NoUninit) {
+        let (layout, bytes) = (&pipeline.layout, bytemuck::bytes_of(pushed));
+        debug_assert!(bytes.len() <= layout.push.size as usize);
+        // SAFETY: `new`'s contract; the layout has room for the push constants of its pass.
         unsafe {
-            self.gpu
-                .device
-                .cmd_push_constants(self.bindings(), layout, PUSH_STAGES, 0, bytes)
+            self.gpu.device.cmd_push_constants(
+                self.raw,
+                layout.raw,
+                layout.push.stage_flags,
+                0,
+                bytes,
+            )
         };
     }
 
@@ -437,6 +437,24 @@ impl<'a> Recorder<'a> {
             timings.mark(self.raw, name);
         }
     }
+}
+
+/// Bind point and sets of the pipeline that was bound last, each set with its layout.
+type Bound = (
+    vk::PipelineBindPoint,
+    [Option<(vk::DescriptorSetLayout, vk::DescriptorSet)>; SETS],
+);
+
+/// The sets that a pipeline uses, by number, with what they show.
+fn sets_of<'a>(
+    pipeline: &Pipeline,
+    shown: &'a [Option<Arc<ShownSets>>; 2],
+) -> [Option<(vk::DescriptorSet, &'a ShownSets)>; SETS] {
+    std::array::from_fn(|number| {
+        let layout = pipeline.layout.sets.get(number)?;
+        let mut shown = shown.iter().flatten();
+        shown.find_map(|shown| Some((shown.of(layout)?, &**shown)))
+    })
 }
 
 impl Drop for Recorder<'_> {

@@ -70,12 +70,37 @@ pub enum Invocations {
 pub struct Interface {
     /// Name of the shader's file, with its stage for shaders that draw.
     pub name: &'static str,
+    /// Whether sets 0 and 1 show data of a frame.
+    pub in_frame: bool,
     /// Bindings that the shader uses, by set and number.
     pub uses: &'static [Use],
     /// Number of bytes of its push constants.
     pub push_bytes: u32,
     /// Number of invocations of a workgroup.
     pub invocations: Invocations,
+}
+
+impl Interface {
+    /// Name of the pass to which the shader belongs.
+    pub(crate) fn pass(&self) -> &'static str {
+        self.parts().0
+    }
+
+    /// Stage of the shader.
+    pub(crate) fn stage(&self) -> vk::ShaderStageFlags {
+        self.parts().1
+    }
+
+    fn parts(&self) -> (&'static str, vk::ShaderStageFlags) {
+        let drawing = [
+            ("_vertex", vk::ShaderStageFlags::VERTEX),
+            ("_fragment", vk::ShaderStageFlags::FRAGMENT),
+        ];
+        drawing
+            .into_iter()
+            .find_map(|(suffix, stage)| Some((self.name.strip_suffix(suffix)?, stage)))
+            .unwrap_or((self.name, vk::ShaderStageFlags::COMPUTE))
+    }
 }
 
 /// Specialisation constants of a shader.

@@ -1,6 +1,6 @@
 //! Shader modules, specialisation and pipelines.
 
-use super::{Gpu, Interface, Invocations, VulkanError};
+use super::{Gpu, Interface, Invocations, PassLayout, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -92,22 +92,25 @@ pub struct Pipeline {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Pipeline,
     pub(crate) bind_point: vk::PipelineBindPoint,
+    pub(super) layout: Arc<PassLayout>,
     interface: &'static Interface,
 }
 
 impl Pipeline {
     /// A pipeline of a shader with this interface; for debuggers, it is named like the shader.
     fn new(
-        gpu: &Arc<Gpu>,
+        layout: &Arc<PassLayout>,
         raw: vk::Pipeline,
         bind_point: vk::PipelineBindPoint,
         interface: &'static Interface,
     ) -> Self {
+        let gpu = &layout.gpu;
         gpu.name(raw, interface.name);
         Self {
             gpu: gpu.clone(),
             raw,
             bind_point,
+            layout: layout.clone(),
             interface,
         }
     }
@@ -139,12 +142,12 @@ impl Drop for Pipeline {
 /// # Errors
 /// [`VulkanError::Call`] if the driver refuses it.
 pub(crate) fn compute_pipeline(
-    gpu: &Arc<Gpu>,
-    layout: vk::PipelineLayout,
+    layout: &Arc<PassLayout>,
     (spirv, interface): (&[u8], &'static Interface),
     constants: &Constants,
     subgroup: Option<u32>,
 ) -> Result<Pipeline, VulkanError> {
+    let gpu = &layout.gpu;
     let shader = Shader::new(gpu, spirv)?;
     let (map, data) = constants.packed();
     let specialization = vk::SpecializationInfo::default()
@@ -161,9 +164,9 @@ pub(crate) fn compute_pipeline(
         stage = stage.push_next(&mut size);
     }
     let info = vk::ComputePipelineCreateInfo::default()
-        .layout(layout)
+        .layout(layout.raw)
         .stage(stage);
-    // SAFETY: the layout covers the bindings of the crate's shader; all structures live until after the call.
+    // SAFETY: the layout follows from the shader's interface; all structures live until after the call.
     let pipelines = unsafe {
         gpu.device
             .create_compute_pipelines(gpu.pipeline_cache, &[info], None)
@@ -171,7 +174,7 @@ pub(crate) fn compute_pipeline(
     .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
     let point = vk::PipelineBindPoint::COMPUTE;
-    Ok(Pipeline::new(gpu, raw, point, interface))
+    Ok(Pipeline::new(layout, raw, point, interface))
 }
 
 /// Graphics pipeline of triangles without vertex buffers, into one image and, if it has a format, a depth image in
@@ -196,11 +199,8 @@ impl GraphicsPipeline<'_> {
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the driver refuses it.
-    pub fn make(
-        &self,
-        gpu: &Arc<Gpu>,
-        layout: vk::PipelineLayout,
-    ) -> Result<Pipeline, VulkanError> {
+    pub fn make(&self, layout: &Arc<PassLayout>) -> Result<Pipeline, VulkanError> {
+        let gpu = &layout.gpu;
         let vertex = Shader::new(gpu, self.vertex)?;
         let fragment = Shader::new(gpu, self.fragment)?;
         let (map, data) = self.constants.packed();
@@ -257,9 +257,9 @@ impl GraphicsPipeline<'_> {
             .depth_stencil_state(&depth)
             .color_blend_state(&blend)
             .dynamic_state(&dynamic)
-            .layout(layout)
+            .layout(layout.raw)
             .push_next(&mut rendering);
-        // SAFETY: all structures live until after the call; the layout covers what the crate's shaders bind.
+        // SAFETY: all structures live until after the call; the layout follows from the shaders' interfaces.
         let pipelines = unsafe {
             gpu.device
                 .create_graphics_pipelines(gpu.pipeline_cache, &[info], None)
@@ -267,6 +267,6 @@ impl GraphicsPipeline<'_> {
         .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
         let raw = pipelines.first().copied().unwrap_or_default();
         let point = vk::PipelineBindPoint::GRAPHICS;
-        Ok(Pipeline::new(gpu, raw, point, self.interface))
+        Ok(Pipeline::new(layout, raw, point, self.interface))
     }
 }

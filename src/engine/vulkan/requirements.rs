@@ -101,12 +101,10 @@ const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
 impl Requirements {
     /// API version for which to create instance and device.
     pub const API_VERSION: u32 = vk::API_VERSION_1_3;
-    /// Number of storage buffers in a pipeline layout that are visible to one stage.
-    pub(crate) const STORAGE_BUFFERS: u32 = 20;
-    /// Number of sampled images and texel buffers that are visible to one stage.
-    pub(crate) const SAMPLED_IMAGES: u32 = 47;
-    /// Number of all resources that are visible to one stage, including an attachment.
-    pub(crate) const RESOURCES: u32 = 74;
+    /// Largest number of storage buffers of a stage: of hosts' shaders, without those of the host's own.
+    pub(crate) const STORAGE_BUFFERS: u32 = 9;
+    /// Largest number of sampled images and texel buffers of a stage: of `shade`.
+    pub(crate) const SAMPLED_IMAGES: u32 = 29;
 
     /// Features to enable when creating a device, in Vulkan 1.3's structure: `dynamicRendering`, `synchronization2`,
     /// `maintenance4`, `subgroupSizeControl` and `shaderDemoteToHelperInvocation` (to which the compiler translates
@@ -270,11 +268,6 @@ impl Requirements {
                 "maxPerStageDescriptorSampledImages",
                 Self::SAMPLED_IMAGES,
                 limits.max_per_stage_descriptor_sampled_images,
-            ),
-            (
-                "maxPerStageResources",
-                Self::RESOURCES,
-                limits.max_per_stage_resources,
             ),
         ] {
             if found < needed {

@@ -80,15 +80,6 @@ impl Gpu {
 }
 
 impl Interface {
-    /// Name of the pass to which the shader belongs.
-    pub(crate) fn pass(&self) -> &'static str {
-        let stages = ["_vertex", "_fragment"].into_iter();
-        let pass = stages
-            .filter_map(|stage| self.name.strip_suffix(stage))
-            .next();
-        pass.unwrap_or(self.name)
-    }
-
     /// Names of the data that the shader accesses in this way, in the order of bindings. Data with two bindings, a
     /// texel buffer for reading and a storage buffer for writing, has one name.
     pub(crate) fn data(&self, access: Access) -> Vec<&'static str> {

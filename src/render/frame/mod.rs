@@ -119,13 +119,13 @@ impl Frame {
         };
         let geometry = FrameGeometry::new(&memory, scene, true)?;
         let look = FrameLook::new(&memory, scene)?;
-        let mut texels = geometry.texels(scene);
-        texels.push(look.texels(scene));
+        let mut shown = geometry.shown(scene);
+        shown.extend(look.shown(scene));
         let resources = Resources::new(
             layout,
             &memory,
             &**scene,
-            (&texels, look.lights(scene)),
+            &shown,
             &targets.views(),
             plan.sizes,
             &[centre, offsets],

@@ -148,7 +148,6 @@ impl Recording<'_> {
         }
         passes.raster.record(
             recorder,
-            main.set.raw,
             self.geometry.runs(scene),
             self.targets,
             [width, height],

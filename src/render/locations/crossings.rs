@@ -106,7 +106,7 @@ impl CrossingFinder {
             resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
             cull.record(recorder, &resources.arguments);
             bin.record(recorder, &resources.arguments);
-            crossings.record(recorder, (resources, set), output);
+            crossings.record(recorder, resources, output);
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));

@@ -14,7 +14,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
-use crate::render::data::{FrameLook, OutputCells, OutputPlane};
+use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, Neighbours};
 use crate::render::{
     EngineError, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
@@ -287,7 +287,6 @@ impl BandDetector {
         let sizes = band_sizes(layout.gpu.limits(), settings, left);
         sizes.check("a band of the output", layout.gpu.limits())?;
         let cells = OutputCells::new(&memory, sizes.region)?;
-        let look = FrameLook::default();
         let no_offsets = Offsets {
             all: &[[0.0; 2]],
             count: 1,
@@ -296,7 +295,7 @@ impl BandDetector {
             layout,
             &memory,
             scene,
-            (&[], look.lights(scene)),
+            &[],
             &cells.views(),
             sizes,
             &[no_offsets],

@@ -51,6 +51,7 @@ impl Headless {
             Method::Msaa { .. } => {
                 return Err(RenderError::LocationMethod {
                     method: MethodKind::Msaa,
+                    superpixels: false,
                 });
             }
             // Superpixels with every sample shaded equal supersampling, and read textures as it does.

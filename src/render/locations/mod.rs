@@ -122,8 +122,10 @@ impl Headless {
         settings: &Settings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
         if let Method::None | Method::Msaa { .. } = settings.method {
-            let method = settings.method.kind();
-            return Err(RenderError::LocationMethod { method });
+            return Err(RenderError::LocationMethod {
+                method: settings.method.kind(),
+                superpixels: true,
+            });
         }
         let settings = &settings.with_shadowed_samples();
         let partition = Partition::new(locations, Cells::Superpixels)?;

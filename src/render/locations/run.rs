@@ -50,13 +50,13 @@ impl RunMemory {
         )?;
         let geometry = FrameGeometry::new(&memory, scene, false)?;
         let look = FrameLook::default();
-        let mut texels = geometry.texels(scene);
-        texels.push(look.texels(scene));
+        let mut shown = geometry.shown(scene);
+        shown.extend(look.shown(scene));
         let resources = Resources::new(
             layout,
             &memory,
             scene,
-            (&texels, look.lights(scene)),
+            &shown,
             &targets.views(),
             sizes,
             &[offsets],

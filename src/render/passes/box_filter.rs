@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 /// Averages squares of pixels.
 pub struct BoxFilter {
-    layout: ash::vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
 }
 
@@ -17,16 +16,14 @@ impl BoxFilter {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(&spirv::BoxFilter, None)?;
         Ok(Self {
-            layout: layout.pipeline,
-            pipeline,
+            pipeline: layout.compute(&spirv::BoxFilter, None)?,
         })
     }
 
     /// Records the pass for a region that becomes `pixels` pixels, each the mean of `side` x `side`.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
-        recorder.push(self.layout, &spirv::BoxFilterPush { side });
+        recorder.push(&self.pipeline, &spirv::BoxFilterPush { side });
         recorder.dispatch_each(&self.pipeline, u64::from(pixels));
     }
 }

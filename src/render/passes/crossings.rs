@@ -1,11 +1,10 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
-use crate::engine::data::{Argument, Content, Resources, SampleSet};
+use crate::engine::data::{Argument, Content, Resources};
 use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv::{self, crossings_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::render::beside_frame::BesideFrame;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
+use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Surfaces at a location, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
@@ -30,7 +29,7 @@ pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 pub struct Crossings {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
-    beside: BesideFrame<MarkedOutput>,
+    own: DescriptorSets,
 }
 
 impl Crossings {
@@ -54,8 +53,6 @@ impl Crossings {
             (crossings_set::SEEN, seen.into()),
             (crossings_set::CELL_MARKS, marks.into()),
         ];
-        // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
-        let beside = unsafe { BesideFrame::new(layout, &crossings_set::ALL, &shown) }?;
         let shader = spirv::Crossings {
             blend_ids: scene.has_blend(),
             occluders: false,
@@ -63,21 +60,18 @@ impl Crossings {
         };
         Ok(Self {
             arguments: Arguments::new(layout, After::Pairs)?,
-            pipeline: beside.pipeline(layout, &shader)?,
-            beside,
+            pipeline: layout.compute(&shader, None)?,
+            // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
+            own: unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?,
         })
     }
 
-    /// Records the pass, after `bin`. Other passes must bind the frame's set again afterwards.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        (resources, set): (&Resources, &SampleSet),
-        output: &MarkedOutput,
-    ) {
+    /// Records the pass, after `bin`.
+    pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, output: &MarkedOutput) {
         recorder.pass(spirv::Crossings::INTERFACE, || {
             self.arguments.record(recorder);
-            self.beside.bind(recorder, set, output);
+            recorder.show(&self.own);
+            recorder.push(&self.pipeline, output);
             let arguments = &resources.arguments;
             recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Thin as u32);
         });

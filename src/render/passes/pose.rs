@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 /// Applies morph targets, skins and transforms to meshes.
 pub struct Pose {
-    layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
@@ -18,9 +17,8 @@ impl Pose {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         Ok(Self {
-            layout: layout.clone(),
             pipeline: layout.compute(&spirv::Pose, None)?,
         })
     }
@@ -62,7 +60,7 @@ impl Pose {
                         weight_count: at.weight_count,
                         flags,
                     };
-                    recorder.push(self.layout.pipeline, &push);
+                    recorder.push(&self.pipeline, &push);
                     recorder.dispatch_each(&self.pipeline, part.vertex_count.into());
                 }
             });

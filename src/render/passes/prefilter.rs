@@ -6,13 +6,12 @@
 //! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
 use crate::engine::passes::spirv::{self, prefilter_set};
-use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use crate::vulkan::{
-    Buffer, Compiled, Memory, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
-};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Buffer, DescriptorSets, Memory, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Number of levels of the cube, for roughnesses from 0 to 1.
 const LEVELS: u32 = 6;
@@ -23,10 +22,8 @@ const DIRECTIONS: u32 = 64;
 
 /// Filters an environment.
 pub struct Prefilter {
-    layout: PipelineLayout,
-    _set_layout: SetLayout,
-    pipeline: Pipeline,
-    own: OwnSet,
+    pipeline: Arc<Pipeline>,
+    own: DescriptorSets,
     texels: Buffer,
     _rays: Buffer,
     cubes: Vec<spirv::PrefilterPush>,
@@ -52,17 +49,12 @@ impl Prefilter {
     ///
     /// # Errors
     /// If the driver refuses it, or memory runs out.
-    pub fn new(memory: &Memory, texels: Buffer, side: u32) -> Result<Self, VulkanError> {
-        let gpu = memory.gpu();
-        let set_layout = SetLayout::new(gpu, &prefilter_set::ALL)?;
-        let layout = PipelineLayout::new(
-            gpu,
-            &[set_layout.raw],
-            spirv::Prefilter::INTERFACE.push_bytes,
-        )?;
-        let code = (spirv::Prefilter::code(), spirv::Prefilter::INTERFACE);
-        let constants = spirv::Prefilter.constants();
-        let pipeline = compute_pipeline(gpu, layout.raw, code, &constants, None)?;
+    pub fn new(
+        layout: &FrameLayout,
+        memory: &Memory,
+        texels: Buffer,
+        side: u32,
+    ) -> Result<Self, VulkanError> {
         let mut rays = Vec::new();
         let mut cubes = Vec::new();
         let steps = levels(side).count() as u32 - 1;
@@ -79,18 +71,14 @@ impl Prefilter {
         }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let rays = memory.filled("prefilter rays", bytemuck::cast_slice(&rays), usage)?;
-        let mut own = set_layout.allocate()?;
         let shown = [
             (prefilter_set::TEXELS, (&texels).into()),
             (prefilter_set::RAYS, (&rays).into()),
         ];
-        // SAFETY: the set is new, and both buffers live as long as it.
-        unsafe { own.set.write(&shown) };
         Ok(Self {
-            layout,
-            _set_layout: set_layout,
-            pipeline,
-            own,
+            pipeline: layout.compute(&spirv::Prefilter, None)?,
+            // SAFETY: both buffers live as long as the set.
+            own: unsafe { layout.own_set(spirv::Prefilter::INTERFACE, &shown) }?,
             texels,
             _rays: rays,
             cubes,
@@ -105,10 +93,11 @@ impl Prefilter {
 
     /// Records the pass; the averages were written before.
     pub fn record(&self, recorder: &Recorder<'_>) {
+        recorder.show(&self.own);
         // Each cube writes its own texels, and none reads another's.
         recorder.unordered(|| {
             for cube in &self.cubes {
-                self.layout.bind(recorder, &[&self.own.set], cube);
+                recorder.push(&self.pipeline, cube);
                 let texels = 6 * cube.side * cube.side;
                 recorder.dispatch_each(&self.pipeline, u64::from(texels));
             }

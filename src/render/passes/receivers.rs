@@ -3,9 +3,8 @@
 use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
 use crate::engine::passes::spirv::{self, receivers_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::render::beside_frame::BesideFrame;
 use crate::render::data::GpuScene;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
 use std::sync::Arc;
 
 /// Plane of a light, as the pass takes it; `shaders/receivers.comp` describes the fields.
@@ -48,7 +47,7 @@ pub enum Receiving {
 pub struct Receivers {
     of_pixels: Arc<Pipeline>,
     of_records: Arc<Pipeline>,
-    beside: BesideFrame<LightPlane>,
+    own: DescriptorSets,
 }
 
 impl Receivers {
@@ -71,8 +70,6 @@ impl Receivers {
                 (&resources.shadow_words.buffer).into(),
             ),
         ];
-        // SAFETY: both buffers live as long as the frame to which this belongs.
-        let beside = unsafe { BesideFrame::new(layout, &receivers_set::ALL, &shown) }?;
         let pipeline = |pixels: bool| {
             let shader = spirv::Receivers {
                 pixels,
@@ -82,16 +79,17 @@ impl Receivers {
                 shadow_words: resources.sizes().shadow_words,
                 diffuse_transmission: scene.is_backlit(),
             };
-            beside.pipeline(layout, &shader)
+            layout.compute(&shader, None)
         };
         Ok(Self {
             of_pixels: pipeline(true)?,
             of_records: pipeline(false)?,
-            beside,
+            // SAFETY: both buffers live as long as the frame to which this belongs.
+            own: unsafe { layout.own_set(spirv::Receivers::INTERFACE, &shown) }?,
         })
     }
 
-    /// Records the pass for a plane. Other passes must bind the frame's set again afterwards.
+    /// Records the pass for a plane. Passes use the sets `set` from here on.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -99,7 +97,9 @@ impl Receivers {
         receiving: Receiving,
         plane: &LightPlane,
     ) {
-        self.beside.bind(recorder, set, plane);
+        recorder.show(&set.sets);
+        recorder.show(&self.own);
+        recorder.push(&self.of_pixels, plane);
         match receiving {
             Receiving::Pixels(count) => {
                 recorder.dispatch_each(&self.of_pixels, u64::from(count));

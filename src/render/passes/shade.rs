@@ -26,7 +26,6 @@ pub enum ShadeSource {
 
 /// Shades each material bin with a pipeline that computes only what its materials and the scene's lights need.
 pub struct Shade {
-    layout: Arc<FrameLayout>,
     source: ShadeSource,
     /// Whether textures are averaged over footprints.
     box_filter: bool,
@@ -42,7 +41,7 @@ impl Shade {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
-        layout: &Arc<FrameLayout>,
+        layout: &FrameLayout,
         scene: &GpuScene,
         (source, shadow_words): (ShadeSource, u32),
         output: &ColorConstants,
@@ -88,7 +87,6 @@ impl Shade {
             bins.push(pipelines.len() - 1);
         }
         Ok(Self {
-            layout: layout.clone(),
             source,
             box_filter: output.box_filter,
             pipelines,
@@ -100,7 +98,6 @@ impl Shade {
     pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
         let every_record =
             matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
-        let layout = self.layout.pipeline;
         recorder.pass(spirv::Shade::INTERFACE, || {
             // Bins write different places.
             recorder.unordered(|| {
@@ -114,8 +111,8 @@ impl Shade {
                     } else {
                         &material_bin.textures
                     };
-                    recorder.bind_sets(layout, 1, &[textures]);
-                    recorder.push(layout, &spirv::ShadePush { bin });
+                    recorder.show(textures);
+                    recorder.push(pipeline, &spirv::ShadePush { bin });
                     let argument = if every_record {
                         Argument::Sort as u32
                     } else {

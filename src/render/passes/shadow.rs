@@ -1,11 +1,12 @@
 //! shadow: finds the receivers of light that another triangle occludes.
 
-use crate::engine::data::{Argument, Resources, SampleSet};
+use crate::engine::data::{Argument, Resources};
 use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv::{self, shadow_set};
 use crate::engine::pipelines::FrameLayout;
-use crate::render::beside_frame::BesideFrame;
-use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{
+    Buffer, DescriptorSets, Memory, MemoryUse, Pipeline, Recorder, Specialized, VulkanError,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ const LEFT_WORDS: usize = 2;
 pub struct Shadow {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
-    beside: BesideFrame<spirv::ShadowPush>,
+    own: DescriptorSets,
     left: Buffer,
     kept: Buffer,
 }
@@ -56,14 +57,12 @@ impl Shadow {
             (shadow_set::LEFT, (&left).into()),
             (shadow_set::MARKS_OF_PIXELS, (&receivers.marks).into()),
         ];
-        // SAFETY: the buffers live as long as the frame to which this belongs.
-        let beside = unsafe { BesideFrame::new(layout, &shadow_set::ALL, &shown) }?;
         let shadow_words = receivers.sizes().shadow_words;
-        let pipeline = beside.pipeline(layout, &spirv::Shadow { shadow_words })?;
         Ok(Self {
             arguments: Arguments::new(layout, After::Sample)?,
-            pipeline,
-            beside,
+            pipeline: layout.compute(&spirv::Shadow { shadow_words }, None)?,
+            // SAFETY: the buffers live as long as the frame to which this belongs.
+            own: unsafe { layout.own_set(spirv::Shadow::INTERFACE, &shown) }?,
             left,
             kept,
         })
@@ -74,11 +73,11 @@ impl Shadow {
         recorder.clear(&self.left);
     }
 
-    /// Records the pass for the occluders of a round, whose descriptor set is bound.
+    /// Records the pass for the occluders of a round, whose descriptor sets passes use.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
-        (occluders, set): (&Resources, &SampleSet),
+        occluders: &Resources,
         target: ShadowTarget,
         light: u32,
     ) {
@@ -93,20 +92,24 @@ impl Shadow {
             width,
             ..spirv::ShadowPush::default()
         };
-        self.beside.bind(recorder, set, &push);
+        self.push(recorder, &push);
         let sort = Argument::Sort as u32;
         recorder.dispatch_indirect(&self.pipeline, &occluders.arguments, sort);
-        occluders.record_bind(recorder, set);
     }
 
     /// Records the count of unfinished work, after the last round.
-    pub fn record_left(&self, recorder: &Recorder<'_>, set: &SampleSet) {
+    pub fn record_left(&self, recorder: &Recorder<'_>) {
         let push = spirv::ShadowPush {
             ends: 1,
             ..spirv::ShadowPush::default()
         };
-        self.beside.bind(recorder, set, &push);
+        self.push(recorder, &push);
         recorder.dispatch(&self.pipeline, 1);
+    }
+
+    fn push(&self, recorder: &Recorder<'_>, pushed: &spirv::ShadowPush) {
+        recorder.show(&self.own);
+        recorder.push(&self.pipeline, pushed);
     }
 
     /// Records the end of a frame.

@@ -5,12 +5,10 @@ use crate::engine::passes::arguments::{After, Arguments};
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use ash::vk;
 use std::sync::Arc;
 
 /// Lists the pixels of a region that need shading.
 pub struct Spans {
-    layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
     /// Whether there is a single bin, so that spans need not be counted first.
     one_bin: bool,
@@ -35,7 +33,6 @@ impl Spans {
             unsure: layout.is_unsure(lanes),
         };
         Ok(Self {
-            layout: layout.pipeline,
             pipeline: layout.compute(&shader, layout.subgroup())?,
             one_bin,
             arguments: Arguments::new(layout, After::Spans)?,
@@ -48,7 +45,7 @@ impl Spans {
         recorder.pass(spirv::Spans::INTERFACE, || {
             recorder.clear(bins);
             let run = |scatter| {
-                recorder.push(self.layout, &spirv::SpansPush { scatter });
+                recorder.push(&self.pipeline, &spirv::SpansPush { scatter });
                 recorder.dispatch(&self.pipeline, groups);
             };
             run(u32::from(self.one_bin));

@@ -14,7 +14,6 @@ const APART: f32 = 2.0;
 
 /// Gives points and lines their size on the screen.
 pub struct Stroke {
-    layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
@@ -36,9 +35,8 @@ impl Stroke {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         Ok(Self {
-            layout: layout.clone(),
             pipeline: layout.compute(&spirv::Stroke, None)?,
         })
     }
@@ -70,7 +68,7 @@ impl Stroke {
             apart: APART * side,
             edges: strokes.edge_count,
         };
-        recorder.push(self.layout.pipeline, &push);
+        recorder.push(&self.pipeline, &push);
         let corners = u64::from(strokes.corner_count)
             + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
         recorder.dispatch_each(&self.pipeline, corners);

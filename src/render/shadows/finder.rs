@@ -53,7 +53,6 @@ pub(in crate::render) struct Shadowed<'a> {
 /// Client of the sampler that finds occluders between a plane of a light and receivers.
 struct Occlusion<'a> {
     finder: &'a ShadowFinder,
-    set: &'a SampleSet,
     target: ShadowTarget,
     /// Bit of the light in the words of receivers.
     light: u32,
@@ -74,9 +73,10 @@ impl RecordShading for Occlusion<'_> {
     }
 
     fn record_round_end(&self, recorder: &Recorder<'_>) {
-        let occluders = (&self.finder.resources, self.set);
-        let shadow = &self.finder.shadow;
-        shadow.record(recorder, occluders, self.target, self.light);
+        let ShadowFinder {
+            shadow, resources, ..
+        } = self.finder;
+        shadow.record(recorder, resources, self.target, self.light);
     }
 }
 
@@ -147,8 +147,8 @@ impl ShadowFinder {
         let targets = RasterTargets::new(memory, 1, 1, once, false)?;
         let geometry = FrameGeometry::new(memory, occluding, true)?;
         let look = FrameLook::new(memory, occluding)?;
-        let mut texels = geometry.texels(occluding);
-        texels.push(look.texels(occluding));
+        let mut shown = geometry.shown(occluding);
+        shown.extend(look.shown(occluding));
         let locations = memory.texel_buffer(
             "receivers of light",
             2 * u64::from(shading.sizes().receivers()),
@@ -156,12 +156,12 @@ impl ShadowFinder {
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
             MemoryUse::Device,
         )?;
-        texels.push((frame_set::LOCATIONS, locations.texels()));
+        shown.push((frame_set::LOCATIONS, locations.texels().into()));
         let resources = Resources::new(
             layout,
             memory,
             occluding,
-            (&texels, look.lights(occluding)),
+            &shown,
             &targets.views(),
             sizes,
             &[offsets],
@@ -236,7 +236,7 @@ impl ShadowFinder {
             (&self.moment, &self.pose, self.resources.set(0))
         {
             self.geometry.write_moment(moment);
-            self.resources.record_bind(recorder, set);
+            recorder.show(&set.sets);
             pose.record(recorder, &self.casters.scene, &self.geometry, moment);
         }
     }
@@ -246,8 +246,8 @@ impl ShadowFinder {
         self.shadow.record_end(recorder);
     }
 
-    /// Records the search for the lights that reach the places to be shaded next. The places' descriptor set is bound
-    /// before and after.
+    /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
+    /// descriptor sets before and after.
     pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
         recorder.section("shadows", || {
             if shaded.views.is_empty() {
@@ -262,12 +262,12 @@ impl ShadowFinder {
             for view in shaded.views {
                 self.record_view(recorder, shaded, receiving, (view, &view.plane), target);
             }
-            shaded.resources.record_bind(recorder, shaded.set);
+            recorder.show(&shaded.set.sets);
         });
     }
 
     /// Records marks for the pixels of a region in which a probe is reached by other lights than the centre. The
-    /// shadows of the centres must have been found before. The region's descriptor set is bound before and after.
+    /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.section("shadows", || {
             let receiving = Receiving::Pixels(shaded.pixels());
@@ -279,7 +279,7 @@ impl ShadowFinder {
                     self.record_view(recorder, shaded, receiving, (view, &plane), target);
                 }
             }
-            shaded.resources.record_bind(recorder, shaded.set);
+            recorder.show(&shaded.set.sets);
         });
     }
 
@@ -317,12 +317,11 @@ impl ShadowFinder {
         };
         let occlusion = Occlusion {
             finder: self,
-            set,
             target,
             light: view.bit,
         };
         self.sampler.record(recorder, &run, &occlusion);
-        self.shadow.record_left(recorder, set);
+        self.shadow.record_left(recorder);
     }
 
     /// Adds the work that the last recording could not finish.

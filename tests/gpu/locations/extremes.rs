@@ -70,7 +70,15 @@ fn sets_that_cannot_be_sampled_are_named() {
         ));
         let msaa = Settings::new(64, 64).method(Method::Msaa { samples: 4 });
         let rendered = gpu.render_locations(&prepared, &rig, SIZE, &msaa);
-        assert!(matches!(rendered, Err(RenderError::LocationMethod { .. })));
+        assert_eq!(
+            rendered.unwrap_err().to_string(),
+            "msaa can't sample locations; none, superpixel and ssaa can"
+        );
+        let sampled = gpu.sample_superpixels(&prepared, &pinhole(SIZE), &[good], &msaa);
+        assert_eq!(
+            sampled.unwrap_err().to_string(),
+            "msaa can't sample locations as superpixels; superpixel and ssaa can"
+        );
     });
 }
 

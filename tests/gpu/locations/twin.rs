@@ -1,7 +1,7 @@
 //! Results at locations, compared with the exact twin.
 
 use gpc::camera::SampleLocation;
-use gpc::reference::lines;
+use gpc::reference::sample_lines;
 use gpc::render::Shading;
 use gpc::sampling::Pattern;
 
@@ -65,7 +65,7 @@ fn points(samples: u32) -> Offsets {
 
 fn rows_or_columns(lines: u32) -> Offsets {
     [false, true]
-        .map(|columns| lines::offsets(columns, lines))
+        .map(|columns| sample_lines::offsets(columns, lines))
         .to_vec()
 }
 

@@ -1,13 +1,9 @@
 //! Buffers and images of a frame's descriptor sets.
 
 use super::{Resources, SampleSet};
-use crate::engine::data::Content;
 use crate::engine::passes::spirv::frame_set;
-use crate::vulkan::{Binding, Buffer, Shown, Texels, read_image};
+use crate::vulkan::{Shown, ShownBinding, read_image};
 use ash::vk;
-
-/// A binding of the frame's set, and the texel buffer for it.
-pub type BoundTexels = (Binding, Texels);
 
 /// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 #[derive(Clone, Copy, Debug)]
@@ -23,14 +19,9 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes a set that was just allocated, except its images of triangle IDs and depth. `texels` and `lights` belong
-    /// to the scene, or to the frame's view of the scene.
-    pub(super) fn write_set(
-        &self,
-        set: &mut SampleSet,
-        scene: &dyn Content,
-        (texels, lights): (&[BoundTexels], &Buffer),
-    ) {
+    /// Writes sets that were just allocated, except the images of triangle IDs and depth; `others` belong to the scene,
+    /// or to the frame's view of the scene.
+    pub(super) fn write_set(&self, set: &mut SampleSet, others: &[ShownBinding]) {
         let own_texels = [
             (frame_set::DISPLAY, &self.display),
             (frame_set::CANDIDATES, &self.candidates),
@@ -47,11 +38,10 @@ impl Resources {
         .map(|(binding, texels)| (binding, texels.texels()));
         let listed = self.locations.locations.as_ref();
         let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.texels()));
-        let texels = texels.iter().copied().chain(own_texels).chain(listed);
+        let texels = own_texels.into_iter().chain(listed);
         let texels = texels.map(|(binding, texels)| (binding, Shown::from(texels)));
         let buffers = [
             (frame_set::FRAME, &set.uniform),
-            (frame_set::LIGHTS, lights),
             (frame_set::DISPLAY_OUT, &self.display.buffer),
             (frame_set::COLOR, &self.color.buffer),
             (frame_set::CANDIDATES_OUT, &self.candidates.buffer),
@@ -74,21 +64,21 @@ impl Resources {
             (frame_set::PATTERN, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, Shown::from(buffer)));
-        let shown: Vec<_> = texels.chain(buffers).collect();
-        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
-        unsafe {
-            set.set.write(&shown);
-            if let Some(map) = scene.environment_map() {
-                set.set.write_images(frame_set::ENVIRONMENT_MAP, &[map]);
-            }
-        }
+        let shown: Vec<_> = others
+            .iter()
+            .copied()
+            .chain(texels)
+            .chain(buffers)
+            .collect();
+        // SAFETY: the sets were just allocated and no frame uses them; every handle is alive and outlives them.
+        unsafe { set.sets.write(&shown) };
     }
 
-    /// Sets the images of triangle IDs and depth that a descriptor set shows.
+    /// Sets the images of triangle IDs and depth that the descriptor sets show.
     ///
     /// # Safety
-    /// No commands that use the set are pending, and the views outlive those that are recorded with it from now on.
-    pub(crate) unsafe fn show_ids(&self, set: &SampleSet, shown: &IdViews) {
+    /// No commands that use the sets are pending, and the views outlive those that are recorded from now on.
+    pub(crate) unsafe fn show_ids(&self, shown: &IdViews) {
         // Pipelines read either the single-sampled or the multisampled IDs. With multisampled IDs, the bindings of
         // single-sampled IDs hold a placeholder, which no pipeline reads. Without BLEND IDs, their bindings hold the
         // opaque IDs, which no pipeline reads there either.
@@ -108,9 +98,11 @@ impl Resources {
             ],
             (None, None) => vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids)],
         };
-        for (binding, view) in images {
-            // SAFETY: passed on to the caller.
-            unsafe { set.set.write_images(binding, &[read_image(view)]) };
+        for set in &self.sets {
+            for &(binding, view) in &images {
+                // SAFETY: passed on to the caller.
+                unsafe { set.sets.write_images(binding, &[read_image(view)]) };
+            }
         }
     }
 }

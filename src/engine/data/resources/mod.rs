@@ -6,15 +6,14 @@ mod sample_set;
 mod scratch;
 mod sizes;
 
-pub use descriptors::{BoundTexels, IdViews};
+pub use descriptors::IdViews;
 pub use sample_set::{Offsets, SampleSet};
 pub use scratch::Scratch;
 pub use sizes::ResourceSizes;
 
 use super::{Content, Counter};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::pool::DescriptorPool;
-use crate::vulkan::{Buffer, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, Memory, MemoryUse, ShownBinding, VulkanError};
 use ash::vk;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -25,8 +24,6 @@ pub struct Resources {
     sizes: ResourceSizes,
     /// A word for each [`Counter`].
     pub counters: Buffer,
-    layout: Arc<FrameLayout>,
-    _pool: DescriptorPool,
     sets: Vec<SampleSet>,
     scratch: Arc<Scratch>,
 }
@@ -46,8 +43,8 @@ impl Deref for Resources {
 }
 
 impl Resources {
-    /// Allocates a frame's memory, and a descriptor set for each list of sample offsets. `texels_of_others` and
-    /// `lights` are buffers with other owners.
+    /// Allocates a frame's memory, and descriptor sets for each list of sample offsets; `others` are buffers and images
+    /// with other owners, which outlive the resources.
     ///
     /// # Errors
     /// If memory runs out or a buffer exceeds a limit of the device.
@@ -55,26 +52,16 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &dyn Content,
-        (texels_of_others, lights): (&[BoundTexels], &Buffer),
+        others: &[ShownBinding],
         ids: &IdViews,
         sizes: ResourceSizes,
         offset_lists: &[Offsets<'_>],
     ) -> Result<Self, VulkanError> {
         let scratch = Scratch::new(layout, memory, scene.bin_count(), &sizes)?;
-        let others = (texels_of_others, lights);
-        let resources = Self::with_scratch(
-            layout,
-            memory,
-            &Arc::new(scratch),
-            scene,
-            others,
-            sizes,
-            offset_lists,
-        )?;
-        for set in &resources.sets {
-            // SAFETY: the set is new; its images outlive it.
-            unsafe { resources.show_ids(set, ids) };
-        }
+        let scratch = Arc::new(scratch);
+        let resources = Self::with_scratch(layout, memory, &scratch, others, sizes, offset_lists)?;
+        // SAFETY: the sets are new; the images outlive them.
+        unsafe { resources.show_ids(ids) };
         Ok(resources)
     }
 
@@ -87,15 +74,15 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scratch: &Arc<Scratch>,
-        scene: &dyn Content,
-        others: (&[BoundTexels], &Buffer),
+        others: &[ShownBinding],
         sizes: ResourceSizes,
         offset_lists: &[Offsets<'_>],
     ) -> Result<Self, VulkanError> {
-        let pool = layout.pool(offset_lists.len() as u32, 0)?;
-        let mut sets = offset_lists
-            .iter()
-            .map(|offsets| SampleSet::new(layout, memory, &pool, offsets))
+        let sets = layout.frame_sets(offset_lists.len())?;
+        let mut sets = sets
+            .into_iter()
+            .zip(offset_lists)
+            .map(|(set, offsets)| SampleSet::new(memory, set, offsets))
             .collect::<Result<Vec<_>, VulkanError>>()?;
         let mut resources = Self {
             sizes,
@@ -105,13 +92,11 @@ impl Resources {
                 STORAGE,
                 MemoryUse::Device,
             )?,
-            layout: layout.clone(),
-            _pool: pool,
             sets: Vec::new(),
             scratch: scratch.clone(),
         };
         for set in &mut sets {
-            resources.write_set(set, scene, others);
+            resources.write_set(set, others);
         }
         resources.sets = sets;
         Ok(resources)

@@ -14,17 +14,12 @@ impl Resources {
         recorder.clear(&self.counters);
     }
 
-    /// Records the beginning of a region: uniform block, cleared counters and tiles, bound sets.
+    /// Records the beginning of a region: uniform block, cleared counters and tiles. Passes use the sets `set` from here on.
     pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
         recorder.fill(&self.counters, Counter::CLEARED_BYTES, 0);
         recorder.clear(&self.tiles);
-        self.record_bind(recorder, set);
-    }
-
-    /// Records binding the set of the passes.
-    pub(crate) fn record_bind(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        recorder.bind_sets(self.layout.pipeline, 0, &[&set.set]);
+        recorder.show(&set.sets);
     }
 
     /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.

@@ -1,10 +1,8 @@
-//! Sample offsets on the device, and the descriptor set of the passes that read them.
+//! Sample offsets on the device, and the descriptor sets of the passes that read them.
 
 use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
-use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::pool::DescriptorPool;
-use crate::vulkan::{Buffer, BufferView, DescriptorSet, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, BufferView, DescriptorSets, Memory, MemoryUse, VulkanError};
 use ash::vk;
 
 /// Sample offsets from the pixel's centre, in pixels.
@@ -16,22 +14,21 @@ pub struct Offsets<'a> {
     pub count: u32,
 }
 
-/// Sample offsets, and the descriptor set that contains them.
+/// Sample offsets, and the descriptor sets that contain them.
 pub struct SampleSet {
     pub(crate) uniform: Buffer,
     pub(crate) offsets: BufferView,
     pub(crate) upload: Upload,
     count: u32,
-    /// Descriptor set of the passes.
-    pub(crate) set: DescriptorSet,
+    /// Descriptor sets of the passes.
+    pub(crate) sets: DescriptorSets,
 }
 
 impl SampleSet {
-    /// Allocates a list of offsets, its uniform block and its set, which is not yet written.
+    /// Allocates a list of offsets and its uniform block, for sets that show nothing yet.
     pub(crate) fn new(
-        layout: &FrameLayout,
         memory: &Memory,
-        pool: &DescriptorPool,
+        sets: DescriptorSets,
         Offsets { all, count }: &Offsets<'_>,
     ) -> Result<Self, VulkanError> {
         let mut content = all.to_vec();
@@ -61,7 +58,7 @@ impl SampleSet {
             offsets,
             upload,
             count: *count,
-            set: pool.allocate(layout.frame_set)?,
+            sets,
         })
     }
 

@@ -1,12 +1,11 @@
 //! The part of the geometry that belongs to a frame.
 
 use super::{MovingVertices, PlacedInstances, double_sided};
-use crate::engine::data::BoundTexels;
 use crate::engine::passes::RasterRun;
 use crate::engine::passes::spirv::frame_set;
 use crate::render::data::GpuScene;
 use crate::scene::{DrawClass, Moment};
-use crate::vulkan::{Memory, Recorder, VulkanError};
+use crate::vulkan::{Memory, Recorder, ShownBinding, VulkanError};
 use glam::DMat4;
 
 /// Instances as a frame's camera sees them, and the vertices that move at the frame's moment.
@@ -36,9 +35,9 @@ impl FrameGeometry {
         PlacedInstances::bytes(&scene.geometry) + MovingVertices::bytes(&scene.geometry)
     }
 
-    /// Texel buffers of the scene and of the frame.
+    /// Bindings that show the vertices of the scene and of the frame.
     #[must_use]
-    pub fn texels(&self, scene: &GpuScene) -> Vec<BoundTexels> {
+    pub fn shown(&self, scene: &GpuScene) -> Vec<ShownBinding> {
         let geometry = &scene.geometry;
         let (positions, normals) = match &self.moving {
             Some(moving) => (&moving.positions, &moving.normals),
@@ -85,7 +84,7 @@ impl FrameGeometry {
         }
         texels
             .into_iter()
-            .map(|(binding, texels)| (binding, texels.texels()))
+            .map(|(binding, texels)| (binding, texels.texels().into()))
             .collect()
     }
 

@@ -4,9 +4,8 @@ use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::pool::DescriptorPool;
 use crate::scene::{Geometry, Material, Scene, TextureRole};
-use crate::vulkan::{DescriptorSet, VulkanError};
+use crate::vulkan::{DescriptorSets, Specialized, VulkanError};
 use std::collections::HashMap;
 
 /// Features for which a shading pipeline is specialised.
@@ -112,9 +111,9 @@ impl ShadeFeatures {
 pub(in crate::render) struct MaterialBin {
     pub(in crate::render) features: ShadeFeatures,
     /// Textures with the samplers of the scene.
-    pub(in crate::render) textures: DescriptorSet,
+    pub(in crate::render) textures: DescriptorSets,
     /// Textures with samplers for means over footprints.
-    pub(in crate::render) averaged_textures: DescriptorSet,
+    pub(in crate::render) averaged_textures: DescriptorSets,
 }
 
 /// Key of a material bin.
@@ -175,33 +174,24 @@ impl Bins {
         self.bin_of.get(&material).copied().unwrap_or(0)
     }
 
-    /// Makes the bins, with descriptor sets from a pool of their own if there are any.
+    /// Makes the bins, with a descriptor set of textures for each.
     pub(super) fn allocate(
         &self,
         layout: &FrameLayout,
         textures: &TextureSet<'_>,
-    ) -> Result<(Vec<MaterialBin>, Option<DescriptorPool>), VulkanError> {
-        if self.keys.is_empty() {
-            return Ok((Vec::new(), None));
-        }
-        let pool = layout.pool(0, 2 * self.keys.len() as u32)?;
-        let bins = self
-            .keys
-            .iter()
-            .map(|key| {
-                let set = |averaging| {
-                    let set = pool.allocate(layout.texture_set)?;
-                    textures.write(&set, &key.textures, averaging);
-                    Ok(set)
-                };
-                Ok(MaterialBin {
-                    features: key.features,
-                    textures: set(false)?,
-                    averaged_textures: set(true)?,
-                })
-            })
-            .collect::<Result<_, VulkanError>>()?;
-        Ok((bins, Some(pool)))
+    ) -> Result<Vec<MaterialBin>, VulkanError> {
+        let sets = || layout.own_sets(&[spirv::Shade::INTERFACE], self.keys.len());
+        let sets = sets()?.into_iter().zip(sets()?);
+        let bin = |(key, (plain, averaged)): (&BinKey, _)| {
+            textures.write(&plain, &key.textures, false);
+            textures.write(&averaged, &key.textures, true);
+            MaterialBin {
+                features: key.features,
+                textures: plain,
+                averaged_textures: averaged,
+            }
+        };
+        Ok(self.keys.iter().zip(sets).map(bin).collect())
     }
 }
 

@@ -1,9 +1,11 @@
 //! Environment in the form that shaders read.
 
+use super::texture::DeviceSampler;
 use crate::engine::data::upload::Uploader;
+use crate::engine::pipelines::FrameLayout;
 use crate::render::passes::prefilter::{self, Prefilter};
-use crate::scene::Environment;
-use crate::vulkan::{Buffer, Image, Recorder, VulkanError};
+use crate::scene::{Environment, Filter, Sampler, Wrap};
+use crate::vulkan::{Buffer, Image, Recorder, VulkanError, read_image};
 use ash::vk;
 use half::f16;
 
@@ -11,6 +13,7 @@ use half::f16;
 /// environment the cube is black, has one texel a face and is not read.
 pub(in crate::render) struct GpuEnvironment {
     image: Image,
+    sampler: DeviceSampler,
     pub(super) uniform: EnvironmentUniform,
     /// Side of each level's faces in texels, and the index of its first texel in the source of the copy.
     levels: Vec<(u32, u32)>,
@@ -34,12 +37,21 @@ pub struct EnvironmentUniform {
     pub axes: [[f32; 4]; 3],
 }
 
+const TRILINEAR: Sampler = Sampler {
+    mag: Filter::Linear,
+    min: Filter::Linear,
+    mip: Some(Filter::Linear),
+    wrap_u: Wrap::ClampToEdge,
+    wrap_v: Wrap::ClampToEdge,
+};
+
 /// Largest value that is stored; half floats end at 65,504.
 const LARGEST: f32 = 60_000.0;
 
 impl GpuEnvironment {
     /// Makes the cube of an environment, and its source.
     pub(super) fn new(
+        layout: &FrameLayout,
         uploader: &mut Uploader<'_>,
         environment: Option<&Environment>,
     ) -> Result<(Self, EnvironmentUpload), VulkanError> {
@@ -72,7 +84,7 @@ impl GpuEnvironment {
                 .max();
             texels.resize(texels.len().max(end.unwrap_or(0) as usize), [f16::ZERO; 4]);
             let buffer = uploader.storage(name, bytemuck::cast_slice(&texels))?;
-            let prefilter = Prefilter::new(uploader.memory, buffer, finest)?;
+            let prefilter = Prefilter::new(layout, uploader.memory, buffer, finest)?;
             EnvironmentUpload::Averages(Box::new(prefilter))
         };
         let info = vk::ImageCreateInfo::default()
@@ -106,6 +118,7 @@ impl GpuEnvironment {
         });
         let this = Self {
             image,
+            sampler: DeviceSampler::new(&layout.gpu, &TRILINEAR)?,
             uniform,
             levels,
         };
@@ -114,9 +127,7 @@ impl GpuEnvironment {
 
     /// Descriptor of the cube.
     pub(in crate::render) fn descriptor(&self) -> vk::DescriptorImageInfo {
-        vk::DescriptorImageInfo::default()
-            .image_view(self.image.view)
-            .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
+        read_image(self.image.view).sampler(self.sampler.given)
     }
 
     /// Records the copies to the cube; its buffers have been uploaded before.

@@ -3,10 +3,11 @@
 use super::light::GpuLight;
 use super::material::MaterialRow;
 use super::{GpuScene, Slots};
-use crate::engine::data::BoundTexels;
 use crate::engine::passes::spirv::frame_set;
 use crate::scene::{Moment, Motion};
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{
+    Buffer, BufferView, Memory, MemoryUse, Recorder, Shown, ShownBinding, VulkanError,
+};
 use ash::vk;
 
 /// Materials and lights of a scene that change.
@@ -92,19 +93,17 @@ impl FrameLook {
         })
     }
 
-    /// Table of materials of the frame.
+    /// Bindings that show the materials and lights of the frame, and the environment.
     #[must_use]
-    pub fn texels(&self, scene: &GpuScene) -> BoundTexels {
-        (
-            frame_set::MATERIALS,
-            self.materials.as_ref().unwrap_or(&scene.materials).texels(),
-        )
-    }
-
-    /// Buffer of lights of the frame.
-    #[must_use]
-    pub fn lights<'a>(&'a self, scene: &'a GpuScene) -> &'a Buffer {
-        self.lights.as_ref().unwrap_or(&scene.lights)
+    pub fn shown(&self, scene: &GpuScene) -> [ShownBinding; 3] {
+        let materials = self.materials.as_ref().unwrap_or(&scene.materials);
+        let lights = self.lights.as_ref().unwrap_or(&scene.lights);
+        let environment = Shown::Image(scene.environment.descriptor());
+        [
+            (frame_set::MATERIALS, materials.texels().into()),
+            (frame_set::LIGHTS, lights.into()),
+            (frame_set::ENVIRONMENT_MAP, environment),
+        ]
     }
 
     /// Records initial copies of the scene's materials and lights.

@@ -21,7 +21,6 @@ use super::geometry::GpuGeometry;
 use crate::engine::data::Content;
 use crate::engine::data::upload::{Upload, Uploader};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::pipelines::pool::DescriptorPool;
 use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
@@ -56,7 +55,6 @@ pub struct GpuScene {
     light_features: LightFeatures,
     textures: Vec<Texture>,
     _samplers: Vec<DeviceSampler>,
-    _pool: Option<DescriptorPool>,
     memory: Memory,
     /// Whether the copies that fill the device memory have been executed.
     uploaded: AtomicBool,
@@ -117,10 +115,11 @@ impl GpuScene {
             .map(|light| GpuLight::of_scene(light, geometry.origin))
             .collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let (bins, pool) = bins.allocate(layout, &textures)?;
+        let bins = bins.allocate(layout, &textures)?;
         let surroundings = pose.environment(scene);
         let mut uploader = Uploader::new(memory);
-        let (environment, environment_upload) = GpuEnvironment::new(&mut uploader, surroundings)?;
+        let (environment, environment_upload) =
+            GpuEnvironment::new(layout, &mut uploader, surroundings)?;
         let device_geometry =
             GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
         let TextureSet {
@@ -150,7 +149,6 @@ impl GpuScene {
             light_features: LightFeatures::of(&pose.lights),
             textures,
             _samplers: samplers.into_iter().map(|(_, sampler)| sampler).collect(),
-            _pool: pool,
             memory: memory.clone(),
             uploaded: AtomicBool::new(false),
         };
@@ -286,9 +284,5 @@ impl Content for GpuScene {
 
     fn bin_count(&self) -> u32 {
         (self.bins.len() as u32).max(1)
-    }
-
-    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
-        Some(self.environment.descriptor())
     }
 }

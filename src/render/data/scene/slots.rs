@@ -1,8 +1,12 @@
 //! Texture slots of a material: textures that are read in the same way share a slot, and are read once.
 
-pub(super) use crate::engine::pipelines::layout::SLOTS;
+use crate::engine::passes::spirv::shade_set;
 use crate::scene::{Material, Scene, TextureRole, TextureUse};
 use crate::vulkan::VulkanError;
+
+/// Largest number of distinct textures of a material. Together with the environment map, these need 16 samplers, as
+/// many as every Vulkan device supports.
+pub(super) const SLOTS: usize = shade_set::TEXTURES.count as usize;
 
 /// Slot of each role, by the role's number.
 pub(in crate::render) type RoleSlots = [Option<u8>; TextureRole::COUNT];

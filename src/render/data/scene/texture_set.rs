@@ -3,7 +3,7 @@
 use super::texture::{DeviceSampler, Texture};
 use crate::engine::passes::spirv::shade_set;
 use crate::scene::{Image as SceneImage, Sampler, Scene};
-use crate::vulkan::{Buffer, DescriptorSet, Memory, VulkanError, read_image};
+use crate::vulkan::{Buffer, DescriptorSets, Memory, VulkanError, read_image};
 use ash::vk;
 use std::collections::HashMap;
 
@@ -96,7 +96,7 @@ impl<'a> TextureSet<'a> {
 
     /// Writes textures to the slots of a descriptor set, in their order, with samplers for means over footprints where that is
     /// wanted.
-    pub(super) fn write(&self, set: &DescriptorSet, textures: &[TextureIndex], averaging: bool) {
+    pub(super) fn write(&self, set: &DescriptorSets, textures: &[TextureIndex], averaging: bool) {
         let infos: Vec<vk::DescriptorImageInfo> = textures
             .iter()
             .filter_map(|(image, sampler)| {

@@ -196,7 +196,7 @@ mod tests {
         });
         Motion {
             identity: Arc::default(),
-            vertex_count: 2 * VERTICES + 3,
+            first_pose: 0,
             request: PoseRequest::default(),
             origin: DVec3::splat(10.0),
             lights: Vec::new(),

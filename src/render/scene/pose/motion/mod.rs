@@ -5,7 +5,12 @@ mod bounds;
 
 pub(crate) use bounds::MovingBounds;
 
-use std::{collections::BTreeMap, mem::discriminant, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    hash::{DefaultHasher, Hash, Hasher},
+    mem::discriminant,
+    sync::Arc,
+};
 
 use glam::{DAffine3, DVec3};
 use gltf::json::{Node, animation::Property};
@@ -81,8 +86,8 @@ impl Moving {
 pub struct Motion {
     /// Identity that the motion shares only with its moments.
     pub(crate) identity: Arc<()>,
-    /// Number of vertices of the geometry.
-    vertex_count: usize,
+    /// Fingerprint of the vertices of the first pose.
+    first_pose: u64,
     request: PoseRequest,
     origin: DVec3,
     /// Lights of the first pose.
@@ -147,6 +152,14 @@ pub struct MomentPart {
     pub weight_count: u32,
 }
 
+/// Fingerprint of a pose's vertices.
+fn fingerprint(pose: &Pose) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let positions: &[u8] = bytemuck::cast_slice(&pose.geometry.positions);
+    positions.hash(&mut hasher);
+    hasher.finish()
+}
+
 impl Motion {
     pub(super) fn new(
         request: &PoseRequest,
@@ -156,7 +169,7 @@ impl Motion {
     ) -> Self {
         let mut motion = Self {
             identity: Arc::new(()),
-            vertex_count: pose.geometry.positions.len(),
+            first_pose: fingerprint(pose),
             request: request.clone(),
             origin: pose.geometry.origin,
             lights: pose.lights.clone(),
@@ -233,9 +246,9 @@ impl Motion {
         }
     }
 
-    /// Whether a pose can be the one of this motion: both have the same number of vertices.
+    /// Whether a pose has the vertices of the one that was made with this motion.
     pub(crate) fn is_of(&self, pose: &Pose) -> bool {
-        self.vertex_count == pose.geometry.positions.len()
+        self.first_pose == fingerprint(pose)
     }
 
     /// Largest number of vectors of a [`Moment`].

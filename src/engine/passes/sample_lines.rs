@@ -1,0 +1,60 @@
+//! sample_lines: finds the nearest triangle of samples that lie on straight lines, for many of them at once.
+
+use super::{SampleOptions, spirv};
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Pipeline, VulkanError};
+use std::sync::Arc;
+
+/// Makes the kernel, with the constants of the general kernel that it takes the place of. A header represents `header`
+/// samples, and a cell has `lines` lines.
+///
+/// # Errors
+/// If the driver refuses it.
+pub(super) fn pipeline(
+    layout: &FrameLayout,
+    shader: &spirv::Sample,
+    header: u32,
+    lines: u32,
+) -> Result<Arc<Pipeline>, VulkanError> {
+    let shader = spirv::SampleLines {
+        local_size: shader.local_size,
+        lanes: shader.lanes,
+        has_mask: shader.has_mask,
+        list: shader.list,
+        by_part: shader.by_part,
+        part: shader.part,
+        header,
+        lines,
+        locations: shader.locations,
+        occluders: shader.occluders,
+        instanced: shader.instanced,
+        unsure: shader.unsure,
+    };
+    layout.compute(&shader, layout.subgroup())
+}
+
+impl SampleOptions {
+    /// Whether the special kernels have samples on lines.
+    pub(super) fn by_lines(&self) -> bool {
+        self.by_cell() && self.lines && self.samples >= 16
+    }
+
+    /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes
+    /// at least half a line.
+    pub(super) fn lines_of_cell(&self, lanes: u32) -> u32 {
+        match self.samples {
+            ..=64 if lanes < 32 => 8,
+            ..=64 => 16,
+            _ => 32,
+        }
+    }
+
+    /// Largest number by which a cell's visibility samples may exceed its samples.
+    pub(super) fn more_records(&self) -> u32 {
+        if self.by_lines() {
+            spirv::MORE_RECORDS
+        } else {
+            0
+        }
+    }
+}
