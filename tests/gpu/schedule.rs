@@ -234,15 +234,21 @@ impl<'a> Passes<'a> {
         submit(gpu.gpu(), |commands| {
             // SAFETY: the commands are waited for, and everything to which they refer outlives them.
             let recorder = || unsafe { Recorder::new(gpu.gpu(), commands, None) };
+            let set = resources.set(0).unwrap();
+            let shown = || {
+                let recorder = recorder();
+                set.show(&recorder);
+                recorder
+            };
             resources.record_upload(&recorder());
-            resources.record_begin(&recorder(), resources.set(0).unwrap(), uniform);
+            resources.record_begin(&recorder(), set, uniform);
             copy(gpu, commands, &mask_upload, &resources.masks);
             copy(gpu, commands, &tile_upload, &resources.tiles);
             copy(gpu, commands, &counter_upload, &resources.counters);
             copy(gpu, commands, &argument_upload, &resources.arguments);
-            schedule.record_tally(&recorder(), &resources.arguments);
+            schedule.record_tally(&shown(), &resources.arguments);
             for kept in &kept {
-                schedule.record(&recorder(), &resources.arguments);
+                schedule.record(&shown(), &resources.arguments);
                 copy(gpu, commands, &resources.counters, &kept.counters);
                 copy(gpu, commands, &resources.tiles, &kept.tiles);
                 copy(gpu, commands, &resources.tile_lists, &kept.work);

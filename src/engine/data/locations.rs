@@ -243,7 +243,7 @@ impl Resources {
         recorder.clear(&self.locations.loads);
         distribute.record(recorder, region, length);
         self.record_reach(recorder, set);
-        recorder.show(&set.sets);
+        set.show(recorder);
     }
 }
 

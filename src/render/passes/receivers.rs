@@ -97,7 +97,7 @@ impl Receivers {
         receiving: Receiving,
         plane: &LightPlane,
     ) {
-        recorder.show(&set.sets);
+        set.show(recorder);
         recorder.show(&self.own);
         recorder.push(&self.of_pixels, plane);
         match receiving {

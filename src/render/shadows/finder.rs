@@ -236,7 +236,7 @@ impl ShadowFinder {
             (&self.moment, &self.pose, self.resources.set(0))
         {
             self.geometry.write_moment(moment);
-            recorder.show(&set.sets);
+            set.show(recorder);
             pose.record(recorder, &self.casters.scene, &self.geometry, moment);
         }
     }
@@ -262,7 +262,7 @@ impl ShadowFinder {
             for view in shaded.views {
                 self.record_view(recorder, shaded, receiving, (view, &view.plane), target);
             }
-            recorder.show(&shaded.set.sets);
+            shaded.set.show(recorder);
         });
     }
 
@@ -279,7 +279,7 @@ impl ShadowFinder {
                     self.record_view(recorder, shaded, receiving, (view, &plane), target);
                 }
             }
-            recorder.show(&shaded.set.sets);
+            shaded.set.show(recorder);
         });
     }
 

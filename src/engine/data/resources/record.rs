@@ -19,7 +19,7 @@ impl Resources {
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
         recorder.fill(&self.counters, Counter::CLEARED_BYTES, 0);
         recorder.clear(&self.tiles);
-        recorder.show(&set.sets);
+        set.show(recorder);
     }
 
     /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.

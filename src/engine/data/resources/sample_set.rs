@@ -2,7 +2,7 @@
 
 use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
-use crate::vulkan::{Buffer, BufferView, DescriptorSets, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, BufferView, DescriptorSets, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// Sample offsets from the pixel's centre, in pixels.
@@ -60,6 +60,11 @@ impl SampleSet {
             count: *count,
             sets,
         })
+    }
+
+    /// Has passes that `recorder` records from now on use these offsets, and the memory that the sets show.
+    pub fn show(&self, recorder: &Recorder<'_>) {
+        recorder.show(&self.sets);
     }
 
     /// Number of sample offsets of a cell.
