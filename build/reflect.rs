@@ -733,7 +733,7 @@ fn of_shader(
         by_set.entry(*set).or_default().push((*number, bound));
     }
     let is_frames = |set: u32| set < 2 && *in_frame;
-    for (set, bound) in by_set.iter().filter(|(set, _)| !is_frames(**set)) {
+    for (_, bound) in by_set.iter().filter(|(set, _)| !is_frames(**set)) {
         let beside = if *in_frame {
             "beside the frame's"
         } else {
