@@ -265,6 +265,8 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     let notes = scene["notes"].to_string();
     assert!(notes.contains("msaa") && notes.contains("16"), "{notes}");
 
+    let surfaces = number(scene, "/surface_fraction");
+    assert!(0.0 < surfaces && surfaces < 1.0, "{surfaces}");
     for row in rows {
         assert_eq!(row["gpu_ms"]["count"], 2);
         let [median, least] = ["median", "min"].map(|of| number(row, &format!("/gpu_ms/{of}")));
@@ -379,7 +381,7 @@ fn writes_a_report_that_needs_no_other_file() {
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
     let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
     let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
-    assert_eq!(columns, vec![34; rows + 1]);
+    assert_eq!(columns, vec![35; rows + 1]);
 }
 
 #[test]
