@@ -73,10 +73,12 @@ if(NOT TARGET gpc::gpc)
         INTERFACE_LINK_LIBRARIES "util;rt;pthread;m;dl")
 endif()
 END
-# A program that asks for an earlier version with the same major version gets this one.
+# A program that asks for an earlier version with the same major version gets this one. While that is 0, the minor version has to
+# be the same, too.
 cat >"$root/lib/cmake/gpc/gpc-config-version.cmake" <<END
 set(PACKAGE_VERSION $version)
-if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR NOT PACKAGE_FIND_VERSION_MAJOR EQUAL ${version%%.*})
+if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR NOT PACKAGE_FIND_VERSION_MAJOR EQUAL ${version%%.*}
+    OR (PACKAGE_FIND_VERSION_MAJOR EQUAL 0 AND PACKAGE_FIND_VERSION VERSION_LESS ${version%.*}))
     set(PACKAGE_VERSION_COMPATIBLE FALSE)
 else()
     set(PACKAGE_VERSION_COMPATIBLE TRUE)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes docs/window.png, the picture of the window in the README, and docs/window.webp, the animation in the gallery. Needs
+# Makes docs/window.png, the picture of the window in docs/viewer.md, and docs/window.webp, the animation in the gallery. Needs
 # ffmpeg, and the packages that `tools/setup.sh window display` installs.
 set -eu
 cd "$(dirname "$0")/.."
