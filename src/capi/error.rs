@@ -50,9 +50,9 @@ pub enum GpcResult {
 pub(super) enum Error {
     #[error("{0} is NULL")]
     Null(&'static str),
-    #[error("{what} is {found}; {}", sizes(what, name, *found, *expected))]
+    #[error("{} is {found}; {}", given.named(name), given.expectation(name, *found, *expected))]
     StructSize {
-        what: String,
+        given: GivenSize,
         name: &'static str,
         found: usize,
         expected: usize,
@@ -97,28 +97,49 @@ pub(super) enum Error {
     Panic(String),
 }
 
-/// Message about a size that the struct does not have, with the possible sizes. `what` is the member or argument that
-/// holds the size.
-fn sizes(what: &str, name: &str, found: usize, expected: usize) -> String {
-    // A struct that nothing has filled may hold any size.
-    let filled = what.ends_with(".size");
-    if found > expected {
-        let version = env!("CARGO_PKG_VERSION");
-        let unfilled = if filled {
-            "either the struct's gpc_init function was not called, or "
+/// Where a program gave the size of a struct.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum GivenSize {
+    /// In the struct's first member, which its `gpc_init` function sets.
+    Member,
+    /// In an argument of a function.
+    Argument,
+    /// In the stride of an array with this name.
+    Stride(&'static str),
+}
+
+impl GivenSize {
+    /// What held the size, of a struct called `name`.
+    fn named(self, name: &str) -> String {
+        match self {
+            Self::Member => format!("{name}.size"),
+            Self::Argument => format!("the size of a {name}"),
+            Self::Stride(stride) => stride.to_owned(),
+        }
+    }
+
+    /// Message about a size that the struct does not have, with the possible sizes.
+    fn expectation(self, name: &str, found: usize, expected: usize) -> String {
+        // A struct that nothing has filled may hold any size.
+        let may_be_unfilled = matches!(self, Self::Member);
+        if found > expected {
+            let version = env!("CARGO_PKG_VERSION");
+            let unfilled = if may_be_unfilled {
+                "either the struct's gpc_init function was not called, or "
+            } else {
+                ""
+            };
+            format!(
+                "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: {unfilled}the program was compiled with the header of a later version; then link the library of that version"
+            )
         } else {
-            ""
-        };
-        format!(
-            "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: {unfilled}the program was compiled with the header of a later version; then link the library of that version"
-        )
-    } else {
-        let by = if filled {
-            ", as the struct's gpc_init function sets it"
-        } else {
-            ""
-        };
-        format!("it can be sizeof({name}), which is {expected}{by}")
+            let by = if may_be_unfilled {
+                ", as the struct's gpc_init function sets it"
+            } else {
+                ""
+            };
+            format!("it can be sizeof({name}), which is {expected}{by}")
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! versions of the library add members at the end. So every struct begins with its size, and every array has a stride.
 //! Members that the application's header lacks have the values that the `gpc_init` function sets.
 
-use super::error::{Error, GpcResult, answer};
+use super::error::{Error, GivenSize, GpcResult, answer};
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 
@@ -88,7 +88,7 @@ pub(super) const fn bytes_of<T, M>(_: fn(&T) -> &M) -> usize {
 }
 
 /// Checks that a size is the struct's in some version of the header.
-fn check_size<T: Element>(found: usize, of: impl Fn(&str) -> String) -> Result<(), Error> {
+fn check_size<T: Element>(found: usize, given: GivenSize) -> Result<(), Error> {
     const {
         assert!(
             T::SIZES[T::SIZES.len() - 1] == size_of::<T>(),
@@ -99,7 +99,7 @@ fn check_size<T: Element>(found: usize, of: impl Fn(&str) -> String) -> Result<(
         return Ok(());
     }
     Err(Error::StructSize {
-        what: of(T::NAME),
+        given,
         name: T::NAME,
         found,
         expected: size_of::<T>(),
@@ -141,7 +141,7 @@ unsafe fn check<T: Struct>(pointer: *const T) -> Result<Head, Error> {
     }
     // SAFETY: the caller's pointer is not null, and the size is the first member.
     let size = unsafe { pointer.cast::<u32>().read() };
-    check_size::<T>(size as usize, |name| format!("{name}.size"))?;
+    check_size::<T>(size as usize, GivenSize::Member)?;
     // SAFETY: the smallest struct has a head.
     let head = unsafe { pointer.cast::<Head>().read() };
     if head.kind != T::TYPE as u32 {
@@ -171,7 +171,7 @@ pub(super) unsafe fn init<T: Struct>(pointer: *mut T, size: usize) -> GpcResult 
         if pointer.is_null() {
             return Err(Error::Null(T::NAME));
         }
-        check_size::<T>(size, |name| format!("the size of a {name}"))?;
+        check_size::<T>(size, GivenSize::Argument)?;
         // SAFETY: passed on to the caller.
         unsafe { put(pointer, T::defaults(), size, std::ptr::null()) };
         Ok(())
@@ -233,7 +233,7 @@ pub(super) unsafe fn elements<T: Element>(
         return Err(Error::Null(array));
     }
     let stride = stride as usize;
-    check_size::<T>(stride, |_| stride_name.to_owned())?;
+    check_size::<T>(stride, GivenSize::Stride(stride_name))?;
     // SAFETY: passed on to the caller; the stride is the size of the element in a version of the header.
     let element = |index| unsafe { copied(pointer.byte_add(index * stride), stride) };
     Ok((0..count as usize).map(element).collect())
