@@ -11,6 +11,8 @@ mod arguments;
 #[path = "../src/bin/gpc/cli/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "only the options are wanted")]
 mod cli;
+#[path = "../src/bin/gpc/scene_files.rs"]
+mod scene_files;
 #[cfg(feature = "view")]
 #[path = "../src/bin/gpc/view/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "only the options are wanted")]

@@ -1,6 +1,7 @@
 //! The `gpc` command.
 
 mod cli;
+mod scene_files;
 #[cfg(feature = "view")]
 mod view;
 

@@ -1,12 +1,10 @@
 //! Advice on wrong command lines.
 
+use crate::scene_files::is_scene;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use gpc::output::Format;
 use std::path::Path;
-
-/// Endings of the names of scenes.
-const SCENES: [&str; 5] = ["glb", "gltf", "obj", "stl", "ply"];
 
 /// A usage error, with a tip where the command line shows what was meant.
 pub fn explained(mut error: clap::Error) -> clap::Error {
@@ -29,7 +27,7 @@ fn tip(error: &clap::Error) -> Option<String> {
                 "this gpc was built without its window; in the repository: cargo install --path . --features view"
                     .to_owned(),
             ),
-            scene if is_scene(scene) => {
+            scene if is_scene(Path::new(scene)) => {
                 Some(format!("to render a scene: gpc render {scene} -o image.png"))
             }
             _ => None,
@@ -41,11 +39,4 @@ fn tip(error: &clap::Error) -> Option<String> {
         }
         _ => None,
     }
-}
-
-fn is_scene(word: &str) -> bool {
-    Path::new(word)
-        .extension()
-        .and_then(|ending| ending.to_str())
-        .is_some_and(|ending| SCENES.contains(&ending.to_ascii_lowercase().as_str()))
 }

@@ -1,10 +1,8 @@
 //! Files that the viewer opens and writes.
 
+use crate::scene_files::{EXTENSIONS, is_scene};
 use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
-
-/// Extensions of scene files.
-const SCENES: [&str; 5] = ["glb", "gltf", "obj", "ply", "stl"];
 
 /// `path` itself if it is a file; the scene files of a folder, sorted by name.
 ///
@@ -18,12 +16,7 @@ pub fn scenes_at(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let mut scenes = Vec::new();
     for entry in std::fs::read_dir(path).with_context(unreadable)? {
         let file = entry.with_context(unreadable)?.path();
-        let is_scene = file.extension().is_some_and(|extension| {
-            SCENES
-                .iter()
-                .any(|known| extension.eq_ignore_ascii_case(known))
-        });
-        if is_scene && file.is_file() {
+        if is_scene(&file) && file.is_file() {
             scenes.push(file);
         }
     }
@@ -32,7 +25,7 @@ pub fn scenes_at(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
         bail!(
             "{} has no scene file: none ends in .{}",
             path.display(),
-            SCENES.join(", .")
+            EXTENSIONS.join(", .")
         );
     }
     Ok(scenes)
