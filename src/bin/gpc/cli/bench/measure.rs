@@ -24,9 +24,10 @@ impl Bench<'_> {
         let settings = self.settings(MethodKind::None, 1);
         let wanted = subject.wanted(&settings, self.args.reference, "its truth");
         let (truth, reference_seconds) = self.reference(&wanted)?;
-        let (_, one_sample) = self.warm_up(&subject, &settings)?;
+        let (_, one_sample) = self.warm_up(&subject, &settings.clone().attributes(true))?;
         let triangles = one_sample.statistics.triangles.total;
-        let surface_fraction = self.surface_fraction(&subject, &settings)?;
+        let seeing = one_sample.attributes.iter().filter(|pixel| pixel.id != 0);
+        let surface_fraction = seeing.count() as f64 / one_sample.attributes.len() as f64;
         let one_sample = Picture::new(settings.size, &one_sample.colors)?;
         let truth = Picture::new(settings.size, &truth)?;
         let yardstick = Yardstick::new(&truth, &one_sample)?;
@@ -107,18 +108,6 @@ impl Bench<'_> {
         };
         let gallery = Gallery::new(&yardstick, ssaa.as_ref(), superpixels.as_ref())?;
         Ok((scene, gallery))
-    }
-
-    /// Share of the pixels whose centre sees an opaque or alpha-tested surface.
-    fn surface_fraction(
-        &mut self,
-        subject: &Subject,
-        settings: &Settings,
-    ) -> Result<f64, RenderError> {
-        let settings = settings.clone().attributes(true);
-        let (_, rendered) = self.warm_up(subject, &settings)?;
-        let seeing = rendered.attributes.iter().filter(|pixel| pixel.id != 0);
-        Ok(seeing.count() as f64 / rendered.attributes.len() as f64)
     }
 
     /// Samples of the superpixels that the report shows: the default number, or otherwise the largest that is
