@@ -115,10 +115,6 @@ impl Measurement {
 }
 
 impl Row {
-    pub fn has(&self, column: &str) -> bool {
-        self.0.contains_key(column)
-    }
-
     pub fn text(&self, column: &str) -> &str {
         let value = self.0.get(column);
         value.unwrap_or_else(|| panic!("no column {column}"))

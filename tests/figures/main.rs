@@ -3,6 +3,7 @@
 //!
 //! `make figures` writes them: it runs this test with `GPC_FIGURES=write`.
 
+mod by_scene;
 mod checks;
 mod data;
 mod documents;

@@ -1,7 +1,8 @@
 //! The most important figure: how fast superpixels reach the error of supersampling.
 
-use crate::data::{self, Measurement, Row, Spread, spread};
-use crate::text::{Table, cells, grouped, short};
+use crate::by_scene;
+use crate::data::{Measurement, Row, Spread, spread};
+use crate::text::short;
 
 /// Time in which superpixels reach the RMSE of supersampling with `samples` samples, over the time of supersampling. Of the
 /// numbers of samples that reach it, the fastest counts; the share is 1 if none does.
@@ -24,40 +25,7 @@ pub fn shares<'a>(of: &'a Measurement, scenes: &[&'a str], samples: u32) -> Opti
 
 /// Table of the shares, scene by scene and in the median.
 pub fn table() -> String {
-    let mut text = String::new();
-    for of in &data::load("quality") {
-        let samples = of.samples("superpixel");
-        if samples.is_empty() {
-            continue;
-        }
-        let mut head = cells(&["scene"]);
-        head.extend(samples.iter().map(|n| grouped(u64::from(*n))));
-        let mut table = Table::new(&head);
-        let mut scenes = of.scenes();
-        for scene in &scenes {
-            let mut row = cells(&[*scene]);
-            row.extend(
-                samples
-                    .iter()
-                    .map(|n| share(of, scene, *n).map_or_else(String::new, percent)),
-            );
-            table.row(&row);
-        }
-        scenes.retain(|scene| of.textured(scene));
-        let mut row = vec![format!(
-            "**{} textured scenes, median (worst)**",
-            scenes.len()
-        )];
-        row.extend(samples.iter().map(|n| {
-            let shares = shares(of, &scenes, *n);
-            shares.map_or_else(String::new, |s| {
-                format!("{} ({})", percent(s.median), percent(s.worst.0))
-            })
-        }));
-        table.row(&row);
-        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
-    }
-    text
+    by_scene::tables(&[], share, percent)
 }
 
 fn percent(share: f64) -> String {
