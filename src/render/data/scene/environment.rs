@@ -127,7 +127,7 @@ impl GpuEnvironment {
 
     /// Descriptor of the cube.
     pub(in crate::render) fn descriptor(&self) -> vk::DescriptorImageInfo {
-        read_image(self.image.view).sampler(self.sampler.given)
+        read_image(self.image.view).sampler(self.sampler.raw)
     }
 
     /// Records the copies to the cube; its buffers have been uploaded before.

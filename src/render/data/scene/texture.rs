@@ -83,14 +83,10 @@ impl Texture {
     }
 }
 
-/// The samplers of a texture; they are destroyed with their owner.
+/// A sampler that is destroyed with its owner.
 pub(super) struct DeviceSampler {
     gpu: Arc<Gpu>,
-    /// Filters as the scene says.
-    pub(super) given: vk::Sampler,
-    /// Filters for means over a footprint (`BOX_FILTER` of the shaders). Texels that are smaller than the footprint are read
-    /// linearly, and from mipmaps: the nearest texel of the full image is a sample of a mean, not the mean.
-    pub(super) averaging: vk::Sampler,
+    pub(super) raw: vk::Sampler,
 }
 
 impl DeviceSampler {
@@ -106,44 +102,31 @@ impl DeviceSampler {
         };
         let info = vk::SamplerCreateInfo::default()
             .mag_filter(filter(sampler.mag))
-            .address_mode_u(wrap(sampler.wrap_u))
-            .address_mode_v(wrap(sampler.wrap_v));
-        let given = info
             .min_filter(filter(sampler.min))
             .mipmap_mode(match sampler.mip {
                 Some(Filter::Linear) => vk::SamplerMipmapMode::LINEAR,
                 _ => vk::SamplerMipmapMode::NEAREST,
             })
+            .address_mode_u(wrap(sampler.wrap_u))
+            .address_mode_v(wrap(sampler.wrap_v))
             .max_lod(if sampler.mip.is_some() {
                 vk::LOD_CLAMP_NONE
             } else {
                 0.25
             });
-        // Means are read from whole levels.
-        let averaging = info
-            .min_filter(vk::Filter::LINEAR)
-            .mipmap_mode(vk::SamplerMipmapMode::NEAREST)
-            .max_lod(vk::LOD_CLAMP_NONE);
-        let mut made = Self {
+        // SAFETY: plain creation on a live device.
+        let raw = unsafe { gpu.device.create_sampler(&info, None) }
+            .map_err(VulkanError::of("vkCreateSampler"))?;
+        Ok(Self {
             gpu: gpu.clone(),
-            given: vk::Sampler::null(),
-            averaging: vk::Sampler::null(),
-        };
-        for (sampler, info) in [(&mut made.given, given), (&mut made.averaging, averaging)] {
-            // SAFETY: plain creation on a live device; `Drop` destroys what was made before a failure.
-            *sampler = unsafe { gpu.device.create_sampler(&info, None) }
-                .map_err(VulkanError::of("vkCreateSampler"))?;
-        }
-        Ok(made)
+            raw,
+        })
     }
 }
 
 impl Drop for DeviceSampler {
     fn drop(&mut self) {
-        // SAFETY: owners drop samplers after the frames that use them; null handles are ignored.
-        unsafe {
-            self.gpu.device.destroy_sampler(self.given, None);
-            self.gpu.device.destroy_sampler(self.averaging, None);
-        }
+        // SAFETY: owners drop samplers after the frames that use them.
+        unsafe { self.gpu.device.destroy_sampler(self.raw, None) };
     }
 }

@@ -2,7 +2,7 @@
 
 use super::texture::{DeviceSampler, Texture};
 use crate::engine::passes::spirv::shade_set;
-use crate::scene::{Image as SceneImage, Sampler, Scene};
+use crate::scene::{Filter, Image as SceneImage, Sampler, Scene};
 use crate::vulkan::{Buffer, DescriptorSets, Memory, VulkanError, read_image};
 use ash::vk;
 use std::collections::HashMap;
@@ -64,7 +64,13 @@ impl<'a> TextureSet<'a> {
         Ok(self.textures.len() - 1)
     }
 
+    /// Index of a texture's sampler; the one for means is there, too.
     fn sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
+        self.add_sampler(averaging(sampler))?;
+        self.add_sampler(sampler)
+    }
+
+    fn add_sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
         if let Some(index) = self
             .samplers
             .iter()
@@ -94,22 +100,32 @@ impl<'a> TextureSet<'a> {
         Ok((index, self.sampler(Sampler::default())?))
     }
 
-    /// Writes textures to the slots of a descriptor set, in their order, with samplers for means over footprints where that is
-    /// wanted.
-    pub(super) fn write(&self, set: &DescriptorSets, textures: &[TextureIndex], averaging: bool) {
+    /// Writes textures to the slots of a descriptor set, in their order, with samplers for means over footprints where
+    /// `averages` is true.
+    pub(super) fn write(&self, set: &DescriptorSets, textures: &[TextureIndex], averages: bool) {
         let infos: Vec<vk::DescriptorImageInfo> = textures
             .iter()
             .filter_map(|(image, sampler)| {
                 let view = self.textures.get(*image)?.image.view;
-                let sampler = &self.samplers.get(*sampler)?.1;
-                Some(read_image(view).sampler(if averaging {
-                    sampler.averaging
-                } else {
-                    sampler.given
-                }))
+                let (given, _) = self.samplers.get(*sampler)?;
+                let wanted = if averages { averaging(*given) } else { *given };
+                let mut samplers = self.samplers.iter();
+                let (_, sampler) = samplers.find(|(known, _)| *known == wanted)?;
+                Some(read_image(view).sampler(sampler.raw))
             })
             .collect();
         // SAFETY: the set was just allocated; images and samplers live as long as the scene that holds the set.
         unsafe { set.write_images(shade_set::TEXTURES, &infos) };
+    }
+}
+
+/// Sampler with which means over a footprint (`BOX_FILTER` of the shaders) are read, from whole levels. Texels that are
+/// smaller than the footprint are read linearly, and from mipmaps: the nearest texel of the full image is a sample of a
+/// mean, not the mean.
+fn averaging(sampler: Sampler) -> Sampler {
+    Sampler {
+        min: Filter::Linear,
+        mip: Some(Filter::Nearest),
+        ..sampler
     }
 }
