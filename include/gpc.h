@@ -963,7 +963,8 @@ GpcResult gpc_frame_record(struct GpcFrame *frame,
                            void *user);
 
 // Result of the last recording, available once its commands are done, until the next recording begins. The call does
-// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
+// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY. If the commands are
+// submitted again, call this only when that submission is done: until the device begins it, it is taken for done.
 //
 // Threads: no gpc_frame_record of the frame runs at the same time.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
@@ -1061,7 +1062,8 @@ GpcResult gpc_list_record(struct GpcList *list,
                           void *user);
 
 // Result of the last recording, available once its commands are done, until the next recording begins. The call does
-// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
+// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY. If the commands are
+// submitted again, call this only when that submission is done: until the device begins it, it is taken for done.
 //
 // Threads: no gpc_list_record of the list runs at the same time.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.

@@ -283,7 +283,8 @@ pub unsafe extern "C" fn gpc_list_record(
 }
 
 /// Result of the last recording, available once its commands are done, until the next recording begins. The call does
-/// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY.
+/// not wait: if the commands were not submitted or still run, the result is GPC_RESULT_NOT_READY. If the commands are
+/// submitted again, call this only when that submission is done: until the device begins it, it is taken for done.
 ///
 /// Threads: no gpc_list_record of the list runs at the same time.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.

@@ -325,6 +325,8 @@ impl Frame {
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
+    /// - If the commands are submitted again, results are read only when that submission is done: until the device begins
+    ///   it, it is taken for done.
     /// - The commands are executed on the queue that those of all frames of the antialiaser are executed on.
     /// - Images and views are alive, of this device, of the size and formats that the frame was prepared for, made with the usage flags
     ///   that [`Images`] names, and in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold

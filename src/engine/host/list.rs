@@ -272,6 +272,8 @@ impl List {
     ///   device and a queue family with compute. The caller must bind and push its state again afterwards.
     /// - The commands of this list's last recording are done, or will never be executed, because its memory is used
     ///   again.
+    /// - If the commands are submitted again, results are read only when that submission is done: until the device begins
+    ///   it, it is taken for done.
     /// - Alpha maps are in `SHADER_READ_ONLY_OPTIMAL` in all recordings up to the first one that is executed. Earlier
     ///   writes to them were made on the same queue or made visible to it.
     /// - The device's earlier writes to the lent buffers were recorded into the same queue or made visible to it;

@@ -229,6 +229,8 @@ impl Frame {
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
     /// - The commands of this frame's previous recording have run, or will never be executed: the frame's memory is
     ///   used again.
+    /// - If the commands are submitted again, results are read only when that submission is done: until the device begins
+    ///   it, it is taken for done.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
     /// - The target has the settings' output size and the properties that [`Target`] requires.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
