@@ -4,13 +4,13 @@
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
-layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;            // 8, 16 or 32
+layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;            // 8, 16, 32 or 64
 
 const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
 const uint HALVES = BITS / 32u;                             // words of a line
 const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // words of one line that an invocation holds
 const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines of which an invocation holds words
-const uint LOG_LINES = 5u;                                  // binary logarithm of the largest number of lines
+const uint LOG_LINES = 6u;                                  // binary logarithm of the largest number of lines
 
 // The line of word number `own` of this invocation, and the half of the line.
 uint line_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) / HALVES; }
@@ -21,7 +21,7 @@ float line_at(uint line) { return (float(line) + 0.5) * (1.0 / float(LINES)) - 0
 
 // The position of a line's first sample, counted from the beginning of the line in distances of samples, from 0 to 1. These
 // phases are evenly spread over the lines.
-float line_phase(uint line) { return (float(bitfieldReverse(line) >> 27) + 0.5 * 32.0 / float(LINES)) * (1.0 / 32.0); }
+float line_phase(uint line) { return (float(bitfieldReverse(line) >> 26) + 0.5 * 64.0 / float(LINES)) * (1.0 / 64.0); }
 
 // Edges are linear functions E = along.x u + along.y v + c, where u is the position along lines and v the position across them,
 // relative to the cell's centre.
@@ -144,11 +144,13 @@ void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
     merge_own_lines(found, g, 1u);
     merge_own_lines(found, g, 2u);
     merge_own_lines(found, g, 4u);
+    merge_own_lines(found, g, 8u);
     merge_lanes_lines(found, g, 1u);
     merge_lanes_lines(found, g, 2u);
     merge_lanes_lines(found, g, 4u);
     merge_lanes_lines(found, g, 8u);
     merge_lanes_lines(found, g, 16u);
+    merge_lanes_lines(found, g, 32u);
 }
 
 // Copies the marks that merge_own_lines has moved to the first line back to the second one.
@@ -168,6 +170,7 @@ void find_rest(uint bits[WORDS], Grid g, uint found[WORDS], out uint rest[WORDS]
     spread_own_lines(found, g, 1u);
     spread_own_lines(found, g, 2u);
     spread_own_lines(found, g, 4u);
+    spread_own_lines(found, g, 8u);
     [[unroll]] for (uint r = 0u; r < WORDS; r++) rest[r] = bits[r] & ~(found[r] * field_bits(g));
 }
 

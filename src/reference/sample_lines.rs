@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn each_row_and_each_column_has_its_samples() {
-        for lines in [8, 16, 32] {
+        for lines in [8, 16, 32, 64] {
             let rows = offsets(false, lines);
             assert_eq!(rows.len(), (lines * BITS) as usize);
             let mut columns: Vec<u32> = rows

@@ -214,7 +214,7 @@ impl Sample {
                 unsure: layout.is_unsure(lanes),
             };
             let pipeline = if first_run && options.by_lines() {
-                let lines = options.lines_of_cell(lanes);
+                let lines = options.lines_of_cell(lanes, *mask);
                 sample_lines::pipeline(layout, &shader, rows * lanes, lines)?
             } else if first_run && options.by_masks() {
                 sample_masks::pipeline(layout, &shader, options.samples)?

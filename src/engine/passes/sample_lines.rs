@@ -40,12 +40,15 @@ impl SampleOptions {
     }
 
     /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes
-    /// at least half a line.
-    pub(super) fn lines_of_cell(&self, lanes: u32) -> u32 {
+    /// at least half a line. `masked` says whether the cell's tile has alpha-tested triangles: alpha is read `samples`
+    /// times, and the reads are spread more evenly over 32 lines than over 64.
+    pub(super) fn lines_of_cell(&self, lanes: u32, masked: bool) -> u32 {
         match self.samples {
             ..=64 if lanes < 32 => 8,
             ..=64 => 16,
-            _ => 32,
+            ..=256 => 32,
+            _ if masked => 32,
+            _ => 64,
         }
     }
 
