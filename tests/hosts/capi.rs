@@ -269,16 +269,19 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
         figure(&said, "error of one sample: ") > 20.0 * brute,
         "{said}"
     );
-    assert!(figure(&said, "error of superpixels: ") <= brute, "{said}");
+    assert!(
+        figure(&said, "error of superpixels: ") <= 0.97 * brute,
+        "{said}"
+    );
     let placed = figure(
         &said,
         "error of superpixels, samples where brute force has them: ",
     );
-    assert!(placed <= 1.25 * brute, "{said}");
+    assert!(placed <= 1.2 * brute, "{said}");
     let each = figure(
         &said,
         "error of superpixels, each of these samples shaded: ",
     );
-    assert!(each <= 1.2 * brute, "{said}");
+    assert!(each <= 1.15 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.45, "{said}");
 }
