@@ -19,6 +19,8 @@ install -m 755 "$built/libgpc.so" "$root/lib/libgpc.so.$version"
 ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
 install -m 644 docs/embedding.md docs/swapchains.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
+install -d "$root/share/doc/gpc/pictures"
+install -m 644 docs/pictures/besides-*.png "$root/share/doc/gpc/pictures/"
 
 # The static library is a single object in which only the interface is visible, so that programs can be linked with another
 # library written in Rust, too.

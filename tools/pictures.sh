@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Renders the pictures of the README and of docs/gallery.md again, with the commands that are printed there. Look at each picture.
+# Renders the pictures of the README and of docs/gallery.md again, with the commands that are printed there, and those of
+# docs/embedding.md, which a test makes. Look at each picture.
 #
 # Scenes that are not part of the repository (docs/scenes.md says where they come from) are expected in ../shared/scenes. If a
 # scene is missing, its pictures stay as they are. Enlarging needs ffmpeg. tools/window.sh makes the pictures of the window.
@@ -82,3 +83,6 @@ cp "$work/edges-superpixel.png" $out/edges.png
 for scene in letters fence; do
     gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact --quiet
 done
+
+# What a host draws besides the triangles that it lends.
+GPC_PICTURES=write cargo test --release --test gpu host::besides

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 const EXAMPLE: &str = "examples/forward/forward.cpp";
+const BESIDES: &str = "pictures/besides-right.png";
 const EXAMPLE_SHADER: &str = "examples/forward/shaders/spirv/samples.spv";
 
 /// Folder in which the library is installed for these tests.
-fn prefix() -> &'static Path {
+pub fn prefix() -> &'static Path {
     static PREFIX: OnceLock<PathBuf> = OnceLock::new();
     PREFIX.get_or_init(|| {
         let prefix = Path::new(env!("CARGO_TARGET_TMPDIR")).join("capi");
@@ -27,7 +28,7 @@ fn prefix() -> &'static Path {
 }
 
 /// Runs a program and returns its standard output.
-fn said(program: &mut Command) -> String {
+pub fn said(program: &mut Command) -> String {
     let run = program.output().unwrap_or_else(|error| {
         panic!("{program:?}: {error}; tools/setup.sh build c installs what is needed")
     });
@@ -37,7 +38,7 @@ fn said(program: &mut Command) -> String {
 }
 
 /// Options that pkg-config prints for the installed library.
-fn pkg_config(options: &[&str]) -> Vec<String> {
+pub fn pkg_config(options: &[&str]) -> Vec<String> {
     let mut program = Command::new("pkg-config");
     program
         .args(options)
@@ -47,7 +48,7 @@ fn pkg_config(options: &[&str]) -> Vec<String> {
 }
 
 /// Compiles a program against the installed library; warnings are errors.
-fn compiled(compiler: &str, source: &str, options: &[&str], libraries: &[String]) -> PathBuf {
+pub fn compiled(compiler: &str, source: &str, options: &[&str], libraries: &[String]) -> PathBuf {
     let source = Path::new(ROOT).join(source);
     let program = prefix().join(source.file_stem().unwrap());
     let flags = pkg_config(&["--cflags", "gpc", "vulkan"]);
@@ -200,6 +201,7 @@ fn the_manual_the_example_and_the_licences_are_installed() {
     for (folder, file, source) in [
         ("doc/gpc", "embedding.md", "docs/embedding.md"),
         ("doc/gpc", "swapchains.md", "docs/swapchains.md"),
+        ("doc/gpc", BESIDES, "docs/pictures/besides-right.png"),
         ("doc/gpc", "LICENSE-MIT", "LICENSE-MIT"),
         ("doc/gpc", "LICENSE-APACHE", "LICENSE-APACHE"),
         ("doc/gpc", "CHANGELOG.md", "CHANGELOG.md"),
@@ -267,16 +269,19 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
         figure(&said, "error of one sample: ") > 20.0 * brute,
         "{said}"
     );
-    assert!(figure(&said, "error of superpixels: ") <= brute, "{said}");
+    assert!(
+        figure(&said, "error of superpixels: ") <= 0.97 * brute,
+        "{said}"
+    );
     let placed = figure(
         &said,
         "error of superpixels, samples where brute force has them: ",
     );
-    assert!(placed <= 1.25 * brute, "{said}");
+    assert!(placed <= 1.2 * brute, "{said}");
     let each = figure(
         &said,
         "error of superpixels, each of these samples shaded: ",
     );
-    assert!(each <= 1.2 * brute, "{said}");
+    assert!(each <= 1.15 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.45, "{said}");
 }

@@ -5,4 +5,5 @@ mod capi;
 mod difference;
 mod embed;
 mod example;
+mod layout;
 mod visibility;

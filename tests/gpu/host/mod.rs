@@ -3,6 +3,7 @@
 
 mod base;
 mod behind;
+mod besides;
 mod blend;
 mod completion;
 mod draws;

@@ -132,14 +132,14 @@ pub struct Drawn {
     pub colors: Vec<[f32; 4]>,
 }
 
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
+pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|column| {
         std::array::from_fn(|row| (0..4).map(|i| a[i][row] * b[column][i]).sum())
     })
 }
 
 /// Perspective projection, y down, with depth from 1 at the near plane to 0 at infinity.
-fn projection() -> Matrix {
+pub fn projection() -> Matrix {
     let mut matrix = [[0.0; 4]; 4];
     (matrix[0][0], matrix[1][1]) = (1.3, -1.3);
     (matrix[2][3], matrix[3][2]) = (-1.0, 0.1);
@@ -147,7 +147,7 @@ fn projection() -> Matrix {
 }
 
 /// Rotation about the view direction and the vertical axis, followed by a translation.
-fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
+pub fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
     let ((s, c), (t, d)) = (around.sin_cos(), turned.sin_cos());
     [
         [c * d, s, -c * t, 0.0],
