@@ -46,7 +46,7 @@ impl SampleOptions {
         match self.samples {
             ..=64 if lanes < 32 => 8,
             ..=64 => 16,
-            ..=256 => 32,
+            65..=256 => 32,
             _ if masked => 32,
             _ => 64,
         }
