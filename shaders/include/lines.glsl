@@ -21,7 +21,7 @@ float line_at(uint line) { return (float(line) + 0.5) * (1.0 / float(LINES)) - 0
 
 // The position of a line's first sample, counted from the beginning of the line in distances of samples, from 0 to 1. These
 // phases are evenly spread over the lines.
-float line_phase(uint line) { return (float(bitfieldReverse(line) >> 26) + 0.5 * 64.0 / float(LINES)) * (1.0 / 64.0); }
+float line_phase(uint line) { return float(bitfieldReverse(line)) * (1.0 / 4294967296.0) + 0.5 / float(LINES); }
 
 // Edges are linear functions E = along.x u + along.y v + c, where u is the position along lines and v the position across them,
 // relative to the cell's centre.

@@ -1,6 +1,6 @@
 //! Tables of a value by scene and number of samples, with the median over the textured scenes.
 
-use crate::data::{self, Measurement, spread};
+use crate::data::{self, Measurement, Spread, spread};
 use crate::text::{Table, cells, grouped};
 
 /// Value of a scene with a number of samples; `None` if it was not measured.
@@ -15,6 +15,17 @@ pub fn tables(further: &[Column], value: Value, write: fn(f64) -> String) -> Str
     let with_superpixels = all.iter().filter(|of| !of.samples("superpixel").is_empty());
     let tables = with_superpixels.map(|of| table(of, further, value, write));
     tables.collect()
+}
+
+/// Median and worst of the values of some scenes; `None` if no value was measured.
+pub fn spread_of<'a>(
+    value: Value,
+    of: &Measurement,
+    scenes: &[&'a str],
+    samples: u32,
+) -> Option<Spread<'a>> {
+    let measured = |scene: &&'a str| Some((value(of, scene, samples)?, *scene));
+    spread(scenes.iter().filter_map(measured).collect())
 }
 
 fn table(of: &Measurement, further: &[Column], value: Value, write: fn(f64) -> String) -> String {
@@ -38,11 +49,7 @@ fn table(of: &Measurement, further: &[Column], value: Value, write: fn(f64) -> S
     )];
     row.extend(further.iter().map(|_| String::new()));
     row.extend(samples.iter().map(|n| {
-        let values = scenes
-            .iter()
-            .filter_map(|scene| Some((value(of, scene, *n)?, *scene)));
-        let spread = spread(values.collect());
-        spread.map_or_else(String::new, |s| {
+        spread_of(value, of, &scenes, *n).map_or_else(String::new, |s| {
             format!("{} ({})", write(s.median), write(s.worst.0))
         })
     }));

@@ -1,7 +1,7 @@
 //! The most important figure: how fast superpixels reach the error of supersampling.
 
 use crate::by_scene;
-use crate::data::{Measurement, Row, Spread, spread};
+use crate::data::{Measurement, Row, Spread};
 use crate::text::short;
 
 /// Time in which superpixels reach the RMSE of supersampling with `samples` samples, over the time of supersampling. Of the
@@ -19,8 +19,7 @@ fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
 
 /// The share of each scene.
 pub fn shares<'a>(of: &'a Measurement, scenes: &[&'a str], samples: u32) -> Option<Spread<'a>> {
-    let share = |scene: &&'a str| Some((share(of, scene, samples)?, *scene));
-    spread(scenes.iter().filter_map(share).collect())
+    by_scene::spread_of(share, of, scenes, samples)
 }
 
 /// Table of the shares, scene by scene and in the median.

@@ -8,7 +8,6 @@ use std::sync::OnceLock;
 pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 const EXAMPLE: &str = "examples/forward/forward.cpp";
-const BESIDES: &str = "pictures/besides-right.png";
 const EXAMPLE_SHADER: &str = "examples/forward/shaders/spirv/samples.spv";
 
 /// Folder in which the library is installed for these tests.
@@ -201,7 +200,11 @@ fn the_manual_the_example_and_the_licences_are_installed() {
     for (folder, file, source) in [
         ("doc/gpc", "embedding.md", "docs/embedding.md"),
         ("doc/gpc", "swapchains.md", "docs/swapchains.md"),
-        ("doc/gpc", BESIDES, "docs/pictures/besides-right.png"),
+        (
+            "doc/gpc/pictures",
+            "besides-right.png",
+            "docs/pictures/besides-right.png",
+        ),
         ("doc/gpc", "LICENSE-MIT", "LICENSE-MIT"),
         ("doc/gpc", "LICENSE-APACHE", "LICENSE-APACHE"),
         ("doc/gpc", "CHANGELOG.md", "CHANGELOG.md"),

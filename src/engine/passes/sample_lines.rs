@@ -46,8 +46,7 @@ impl SampleOptions {
         match self.samples {
             ..=64 if lanes < 32 => 8,
             ..=64 => 16,
-            65..=256 => 32,
-            _ if masked => 32,
+            samples if samples <= 256 || masked => 32,
             _ => 64,
         }
     }
