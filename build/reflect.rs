@@ -708,8 +708,12 @@ fn of_shader(
         );
         blocks.push((block.name.clone(), block.clone()));
     }
+    let push_type = match interface.push {
+        Some(_) => format!("{title}Push"),
+        None => "()".to_owned(),
+    };
     let push = interface.push.as_ref().map(|push| {
-        let name = format!("{title}Push");
+        let name = push_type.clone();
         match pushed
             .iter()
             .find(|(_, known)| known.members == push.members)
@@ -778,7 +782,7 @@ fn of_shader(
         }
         code += "        }\n    }\n}\n";
     }
-    writeln!(code, "\nimpl Specialized for {title} {{\n    const INTERFACE: &'static Interface = &Interface {{\n        name: {name:?},\n        in_frame: {in_frame},\n        uses: &[").expect("a string");
+    writeln!(code, "\nimpl Specialized for {title} {{\n    type Push = {push_type};\n\n    const INTERFACE: &'static Interface = &Interface {{\n        name: {name:?},\n        in_frame: {in_frame},\n        uses: &[").expect("a string");
     for (set, bound) in &by_set {
         for (number, bound) in bound {
             let what = if is_frames(*set) {
@@ -807,8 +811,9 @@ fn of_shader(
     };
     writeln!(
         code,
-        "        ],\n        push_bytes: {},\n        invocations: {invocations},\n    }};",
-        push.unwrap_or(0)
+        "        ],\n        push_bytes: {},\n        invocations: {invocations},\n        needs_subgroup_size: {},\n    }};",
+        push.unwrap_or(0),
+        interface.constants.values().any(|constant| constant.name == "unsure")
     )
     .expect("a string");
     let values: String = interface

@@ -4,11 +4,8 @@
 //! 1,024 samples in the superpixels alone: it finds which triangle each sample sees, shades these visibility samples and averages
 //! them.
 //!
-//! ```text
-//!                 ┌────────── every pixel ──────────┐   ┌──────── superpixels alone ────────┐
-//!   triangles ──▶ raster ──▶ shade ──▶ thin, detect ──▶ bin ──▶ sample ──▶ shade ──▶ resolve ──▶ image
-//!                  IDs, depth  colours   superpixels     tiles   visibility   colours
-//! ```
+//! <!-- figures: passes-in-short -->
+//! <!-- end -->
 //!
 //! # Three levels of use
 //!

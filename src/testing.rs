@@ -10,14 +10,16 @@ pub use crate::engine::data::{
     Offsets, ResourceSizes, Resources,
 };
 pub use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, Sample,
-    SampleOptions, Schedule,
+    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks,
+    SampleOptions,
 };
-pub use crate::engine::pipelines::FrameLayout;
+pub use crate::engine::pipelines::{FrameLayout, Pass};
+pub use crate::engine::sampler::Load;
 pub use crate::render::passes::prefilter;
 pub use crate::vulkan::commands::Recorder;
 pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};
 
+use crate::engine::passes::{schedule, tally};
 use crate::vulkan::{Gpu, VulkanError};
 use std::sync::Arc;
 
@@ -39,4 +41,19 @@ pub unsafe fn memory(gpu: &Arc<Gpu>, limit: Option<u64>) -> Memory {
 /// Passes are made with it with options that their documentation allows.
 pub unsafe fn frame_layout(gpu: &Arc<Gpu>) -> Result<Arc<FrameLayout>, VulkanError> {
     FrameLayout::new(gpu)
+}
+
+/// The passes `tally` and `schedule` for tiles of these cells.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+pub fn load_passes(
+    layout: &FrameLayout,
+    cells: Cells,
+    load: &Load,
+) -> Result<[Pass; 2], VulkanError> {
+    Ok([
+        tally::pass(layout, cells, load.pushed())?,
+        schedule::pass(layout, cells, load.pushed())?,
+    ])
 }

@@ -1,13 +1,13 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{help, passes, plot, sets, superpixel_price, table, time_to_error};
+use crate::{help, passes, pipeline, plot, sets, superpixel_price, table, time_to_error};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 15] = [
+const PARTS: [(&str, Make); 16] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
@@ -20,14 +20,16 @@ const PARTS: [(&str, Make); 15] = [
     ("growth", table::growth),
     ("help", help::every),
     ("passes", passes::frame),
+    ("passes-in-short", pipeline::in_short),
     ("list-passes", passes::list),
     ("shadow-passes", passes::shadows),
     ("image-passes", passes::image),
 ];
 
-const PLOTS: [(&str, Make); 3] = [
+const PLOTS: [(&str, Make); 4] = [
     ("error-time", plot::error_time),
     ("growth", plot::growth),
+    ("pipeline", pipeline::draw),
     ("sets", sets::draw),
 ];
 
@@ -37,11 +39,14 @@ const END: &str = "<!-- end -->";
 /// Every file with generated parts, and the text that it should have.
 pub fn generate() -> Vec<(PathBuf, String)> {
     let mut used = Vec::new();
-    let mut files: Vec<_> = markdown()
-        .into_iter()
-        .filter_map(|path| {
+    let documents = markdown().into_iter().map(|path| (path, ""));
+    // The documentation of the crate.
+    let documents = documents.chain([(root().join("src/lib.rs"), "//! ")]);
+    let mut files: Vec<_> = documents
+        .filter_map(|(path, margin)| {
             let text = std::fs::read_to_string(&path).unwrap();
-            text.contains(BEGIN).then(|| (path, fill(&text, &mut used)))
+            let has_parts = text.contains(BEGIN);
+            has_parts.then(|| (path, fill(&text, margin, &mut used)))
         })
         .collect();
     for (name, _) in PARTS {
@@ -69,8 +74,8 @@ pub fn markdown() -> Vec<PathBuf> {
     paths
 }
 
-/// Text of a document with its marked parts generated again.
-fn fill(text: &str, used: &mut Vec<String>) -> String {
+/// Text of a document with its marked parts generated again. Each line begins with `margin`.
+fn fill(text: &str, margin: &str, used: &mut Vec<String>) -> String {
     let mut filled = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once(BEGIN) {
@@ -80,7 +85,10 @@ fn fill(text: &str, used: &mut Vec<String>) -> String {
         let end = after
             .find(END)
             .unwrap_or_else(|| panic!("the part \"{name}\" has no end"));
-        filled += &format!("{before}{BEGIN}{name} -->\n\n{}\n\n{END}", make().trim());
+        let part = format!("{BEGIN}{name} -->\n\n{}\n\n{END}", make().trim());
+        let lines: Vec<_> = part.split('\n').collect();
+        let part = lines.join(&format!("\n{margin}"));
+        filled += &format!("{before}{}", part.replace("//! \n", "//!\n"));
         used.push(name.to_owned());
         rest = &after[end + END.len()..];
     }

@@ -9,6 +9,7 @@ mod data;
 mod documents;
 mod help;
 mod passes;
+mod pipeline;
 mod plot;
 mod sets;
 mod superpixel_price;

@@ -2,7 +2,7 @@
 
 use crate::data::root;
 use gpc::camera::set::SamplingSet;
-use gpc::camera::{Camera, Pinhole};
+use gpc::camera::{Camera, Orbit, Pinhole};
 use gpc::render::{
     FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, Settings, Shadows,
     SuperpixelOptions,
@@ -18,10 +18,15 @@ const SHARED: [&str; 3] = ["frame", "counters", "arguments"];
 
 /// Passes of a frame.
 pub fn frame() -> String {
-    let (mut headless, scene, camera) = stage("letters", Shadows::None);
+    draw(&of_frame("letters"))
+}
+
+/// Passes of a frame of the scene in the file `asset`.
+pub fn of_frame(asset: &str) -> Vec<FramePass> {
+    let (mut headless, scene, camera) = stage(asset, Shadows::None);
     let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
     let mut frame = headless.prepare(&scene, &settings).unwrap();
-    draw(&headless.passes(&mut frame, &camera).unwrap().passes)
+    headless.passes(&mut frame, &camera).unwrap().passes
 }
 
 /// Passes of a list of locations that are sampled as superpixels.
@@ -75,7 +80,13 @@ fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {
         .unwrap()
         .scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();
-    let camera = Camera::from_scene(&pose.cameras[0]);
+    let camera = match &pose.cameras[..] {
+        [camera, ..] => Camera::from_scene(camera),
+        [] => {
+            let (low, high) = pose.geometry.bounds().unwrap();
+            Orbit::default().frame(low, high, 1.0).unwrap()
+        }
+    };
     let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
     let request = SceneRequest::new(&scene, &pose).shadowed(shadows);
     let prepared = headless.upload(request).unwrap();

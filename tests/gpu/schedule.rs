@@ -4,12 +4,11 @@ use gpc::bench::Random;
 use gpc::reference::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 use gpc::render::Headless;
 use gpc::testing::{
-    Argument, Cells, Counter, FrameUniform, LongLists, RecordRate, ResourceSizes, Sample,
-    SampleOptions, Schedule,
+    Argument, Buffer, Cells, Counter, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder,
+    ResourceSizes, SampleBlocks, SampleOptions, load_passes,
 };
-use gpc::testing::{Buffer, Recorder};
 
-use crate::bare::{Bare, Unread, copy};
+use crate::bare::{Bare, copy};
 use crate::stage::on_gpu;
 use crate::submit::submit;
 
@@ -121,7 +120,8 @@ impl Kept {
 struct Passes<'a> {
     gpu: &'a Headless,
     bare: Bare,
-    schedule: Schedule,
+    load: Load,
+    passes: [Pass; 2],
     sizes: ResourceSizes,
     uniform: FrameUniform,
     twin: Rounds,
@@ -156,8 +156,10 @@ impl<'a> Passes<'a> {
             has_blend: case.blends,
             always_blends: false,
         };
-        let sample = Sample::new(&bare.layout, &Unread, &options).unwrap();
-        let schedule = Schedule::new(&bare.layout, &sample, LAYERS).unwrap();
+        let limits = gpu.gpu().limits();
+        let blocks = SampleBlocks::new(limits.lanes, options);
+        let load = Load::new(limits, blocks, LAYERS);
+        let passes = load_passes(&bare.layout, options.cells, &load).unwrap();
         let uniform = FrameUniform {
             size: sizes.region,
             tiles: case.size,
@@ -172,9 +174,9 @@ impl<'a> Passes<'a> {
         };
         let twin = Rounds {
             samples: case.samples,
-            block: sample.block(),
+            block: blocks.block,
             per_sample: case.records_are == RecordRate::Sample,
-            parts: sample.parts(),
+            parts: blocks.parts(),
             layers: LAYERS,
             triangles: case.triangles,
             lanes: sizes.lanes,
@@ -187,7 +189,8 @@ impl<'a> Passes<'a> {
         Self {
             gpu,
             bare,
-            schedule,
+            load,
+            passes,
             sizes,
             uniform,
             twin,
@@ -200,8 +203,7 @@ impl<'a> Passes<'a> {
             pair_capacity: candidates,
             ..self.sizes
         };
-        self.schedule
-            .most_rounds(&sizes, self.uniform.triangle_count) as usize
+        self.load.most_rounds(&sizes, self.uniform.triangle_count) as usize
     }
 
     /// Buffers after each of `count` rounds on the device.
@@ -211,7 +213,7 @@ impl<'a> Passes<'a> {
             bare: Bare {
                 memory, resources, ..
             },
-            schedule,
+            passes: [tally, schedule],
             uniform,
             ..
         } = self;
@@ -246,9 +248,9 @@ impl<'a> Passes<'a> {
             copy(gpu, commands, &tile_upload, &resources.tiles);
             copy(gpu, commands, &counter_upload, &resources.counters);
             copy(gpu, commands, &argument_upload, &resources.arguments);
-            schedule.record_tally(&shown(), &resources.arguments);
+            tally.record(&shown());
             for kept in &kept {
-                schedule.record(&shown(), &resources.arguments);
+                schedule.record(&shown());
                 copy(gpu, commands, &resources.counters, &kept.counters);
                 copy(gpu, commands, &resources.tiles, &kept.tiles);
                 copy(gpu, commands, &resources.tile_lists, &kept.work);

@@ -4,17 +4,20 @@ use super::content::HostContent;
 use super::draw::{DrawRun, PlacedDraws};
 use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared};
 use crate::engine::data::Draws;
-use crate::engine::passes::{Adopt, AdoptedCounts, Coordinates, Transform, VertexCounts};
+use crate::engine::passes::adopt::{self, AdoptedCounts};
+use crate::engine::passes::transform::{self, VertexCounts};
+use crate::engine::passes::{coordinates, spirv};
+use crate::engine::pipelines::Kernel;
 use crate::vulkan::{DescriptorSets, Memory, Recorder};
 use std::sync::Arc;
 
 /// Passes that read a host's buffers, and the draws of a frame.
 pub(super) struct Adoption {
     pub draws: Draws,
-    transform: Option<Transform>,
-    coordinates: Option<Coordinates>,
+    transform: Option<Kernel<spirv::Transform>>,
+    coordinates: Option<Kernel<spirv::Coordinates>>,
     /// Kernels of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
-    adopt: [Option<Adopt>; 3],
+    adopt: [Option<Kernel<spirv::Adopt>>; 3],
     /// Descriptor sets of each mesh.
     sets: Vec<MeshSets>,
     geometry: Geometry,
@@ -51,16 +54,16 @@ impl MeshSets {
         unsafe {
             let transform = content.made_positions().map(|made| {
                 let lent = mesh.lent_positions(geometry.position_space, limits);
-                Transform::set(layout, draws, lent.info(), made)
+                transform::set(layout, draws, lent.info(), made)
             });
             let coordinates = lent.map(|(alpha, (_, lent))| {
                 let made = &alpha.coordinates.buffer;
-                Coordinates::set(layout, draws, lent.info(), made)
+                coordinates::set(layout, draws, lent.info(), made)
             });
             Ok(Self {
                 transform: transform.transpose()?,
                 coordinates: coordinates.transpose()?,
-                adopt: Adopt::set(layout, draws, indices, triangles, draw_of)?,
+                adopt: adopt::set(layout, draws, indices, triangles, draw_of)?,
             })
         }
     }
@@ -88,11 +91,11 @@ impl Adoption {
             let kernel = &mut adopt[kernel(mesh.indices)];
             if kernel.is_none() {
                 let are_short = mesh.indices.map(|indices| indices.are_short());
-                *kernel = Some(Adopt::new(layout, are_short)?);
+                *kernel = Some(adopt::kernel(layout, are_short)?);
             }
         }
-        let transform = || Transform::new(layout, &draws);
-        let coordinates = || Coordinates::new(layout, &draws);
+        let transform = || transform::kernel(layout, &draws);
+        let coordinates = || coordinates::kernel(layout, &draws);
         let transforms = content.made_positions().is_some();
         Ok(Self {
             transform: transforms.then(transform).transpose()?,
@@ -127,7 +130,8 @@ impl Adoption {
                 index_count: indices.map_or(0, |indices| indices.capacity),
                 topology: run.topology as u32,
             };
-            adopt.record(recorder, &self.sets[run.mesh].adopt, counts);
+            recorder.show(&self.sets[run.mesh].adopt);
+            adopt.record(recorder, &counts, counts.triangle_count);
         }
     }
 
@@ -146,7 +150,8 @@ impl Adoption {
                 let lent = self.geometry.meshes[mesh].lent_coordinates(limits);
                 if let Some((set, (lent, bytes))) = self.sets[mesh].coordinates.as_ref().zip(lent) {
                     let counts = counts(positions, bytes.before, lent.stride);
-                    coordinates.record(recorder, set, counts);
+                    recorder.show(set);
+                    coordinates.record(recorder, &counts, counts.position_count);
                 }
             }
         }
@@ -158,7 +163,8 @@ impl Adoption {
                     .before;
                 if let Some(set) = &self.sets[mesh].transform {
                     let counts = counts(positions, before, lent.position_stride);
-                    transform.record(recorder, set, counts);
+                    recorder.show(set);
+                    transform.record(recorder, &counts, counts.position_count);
                 }
             }
         }

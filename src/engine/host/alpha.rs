@@ -7,8 +7,9 @@ use crate::engine::data::alpha_flags::{
     CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
     TEXTURED, beyond,
 };
-use crate::engine::passes::{AlphaLevel, AlphaMaps, spirv};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::passes::alpha_map::{self, AlphaLevel};
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::vulkan::{
     BufferView, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
 };
@@ -214,7 +215,7 @@ impl Alpha {
 
 /// Pass that reads the host's alpha maps into the atlas, once.
 pub(super) struct AlphaReading {
-    kernel: AlphaMaps,
+    kernel: Kernel<spirv::AlphaMap>,
     sets: Vec<DescriptorSets>,
 }
 
@@ -228,11 +229,11 @@ impl AlphaReading {
     ) -> Result<Self, VulkanError> {
         let set = |alpha: &Alpha, map: &AlphaMap| {
             // SAFETY: passed on to the caller.
-            unsafe { AlphaMaps::set(layout, map.view, &alpha.atlas.buffer) }
+            unsafe { alpha_map::set(layout, map.view, &alpha.atlas.buffer) }
         };
         let sets = |alpha| geometry.alpha_maps.iter().map(move |map| set(alpha, map));
         Ok(Self {
-            kernel: AlphaMaps::new(layout)?,
+            kernel: alpha_map::kernel(layout)?,
             sets: content
                 .alpha()
                 .into_iter()
@@ -253,7 +254,8 @@ impl AlphaReading {
             recorder.unordered(|| {
                 for (set, levels) in self.sets.iter().zip(&places.levels) {
                     for level in levels {
-                        self.kernel.record(recorder, set, level);
+                        recorder.show(set);
+                        self.kernel.record(recorder, level, level.words());
                     }
                 }
             });

@@ -2,11 +2,10 @@
 
 use super::draw::PlacedDraws;
 use super::{HostError, Shared};
-use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, Resources};
-use crate::engine::passes::{
-    Centres, HostImage, Raster, RasterPush, RasterRun, RasterTargets, Sort, Take,
-};
-use crate::engine::sampler::{RecordShading, record_shading};
+use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, HostImage, Resources};
+use crate::engine::passes::{Centres, Raster, RasterPush, RasterRun, RasterTargets, sort, take};
+use crate::engine::pipelines::Pass;
+use crate::engine::sampler::RecordShading;
 use crate::vulkan::Recorder;
 use ash::vk;
 use std::sync::Arc;
@@ -20,9 +19,9 @@ pub(super) struct Base {
 
 enum Colors {
     /// The host's image is read.
-    Drawn(Take),
+    Drawn(Pass),
     /// The host's shading makes them.
-    Shaded { centres: Centres, sort: Sort },
+    Shaded { centres: Centres, sort: Pass },
 }
 
 impl Base {
@@ -42,10 +41,10 @@ impl Base {
         let single = vk::SampleCountFlags::TYPE_1;
         let raster = || Raster::new(layout, single, content);
         let colors = match image {
-            Some(image) => Colors::Drawn(Take::new(layout, image, output)?),
+            Some(image) => Colors::Drawn(take::pass(layout, image, output)?),
             None => Colors::Shaded {
                 centres: Centres::new(layout, output)?,
-                sort: Sort::new(layout, content, false)?,
+                sort: sort::pass(layout, content, false)?,
             },
         };
         Ok(Self {
@@ -71,11 +70,12 @@ impl Base {
         }
         match &self.colors {
             Colors::Drawn(take) => {
-                take.record(recorder, width * height);
+                take.record_for(recorder, width * height);
             }
             Colors::Shaded { centres, sort } => {
                 centres.record(recorder, resources, width * height, |recorder| {
-                    record_shading(recorder, resources, sort, shading);
+                    sort.record(recorder);
+                    shading.record(recorder, resources);
                 });
             }
         }

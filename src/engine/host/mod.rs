@@ -5,12 +5,9 @@
 //! there. The application shades the visibility samples ([`ShadeSamples`]). Finally, the resolved pixels are drawn over
 //! those that alias.
 //!
-//! ```text
-//! application                colour, triangle IDs, depth      pipelines of its materials         colour
-//!                                     │                                 ▲    │                     ▲
-//! Frame::record  transform, adopt ─▶ take ─▶ detect ─▶ cull, bin ─▶ [ sample ─▶ sort ─▶ resolve ] ─▶ patch
-//!                                                                    └──────── rounds ──────────┘
-//! ```
+//! The passes `transform` and `adopt` convert the application's triangles, and `take` reads its colours. From `detect` on, the passes
+//! are those of any frame. In each round, the pipelines of the application's materials shade what `sample` found, and `patch` draws
+//! the colours into the application's image. `docs/architecture.md` lists the passes.
 //!
 //! [`List`] samples locations instead of pixels. The application lends the locations, which may lie anywhere on the
 //! image plane, in a buffer. `distribute` sorts them into tiles, and the rounds are the same.

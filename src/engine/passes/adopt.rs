@@ -2,66 +2,52 @@
 
 use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Shown, Specialized, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Shown, Specialized, VulkanError};
 use ash::vk;
-use std::sync::Arc;
 
 /// Push constants of a dispatch: ranges of triangles and indices, the number of draws, and the topology.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
-/// Makes triangles from indices.
-pub(crate) struct Adopt {
-    pipeline: Arc<Pipeline>,
+/// Makes the kernel: for 16-bit indices if `are_short` is true, for 32-bit indices if it is false, and for
+/// vertices without indices if it is `None`.
+///
+/// # Errors
+/// If the driver refuses it.
+pub(crate) fn kernel(
+    layout: &FrameLayout,
+    are_short: Option<bool>,
+) -> Result<Kernel<spirv::Adopt>, VulkanError> {
+    let shader = spirv::Adopt {
+        short: are_short.unwrap_or_default(),
+        indexed: are_short.is_some(),
+    };
+    layout.kernel(&shader)
 }
 
-impl Adopt {
-    /// Makes the pipeline: for 16-bit indices if `are_short` is true, for 32-bit indices if it is false, and for
-    /// vertices without indices if it is `None`.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, are_short: Option<bool>) -> Result<Self, VulkanError> {
-        let shader = spirv::Adopt {
-            short: are_short.unwrap_or_default(),
-            indexed: are_short.is_some(),
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, None)?,
-        })
-    }
-
-    /// Makes a set with the draws, the host's indices if there are any, the triangles, and the draw of each triangle.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    ///
-    /// # Safety
-    /// The host's buffer outlives the use of the set.
-    pub unsafe fn set(
-        layout: &FrameLayout,
-        draws: &Draws,
-        indices: Option<vk::DescriptorBufferInfo>,
-        triangles: &Buffer,
-        draw_of: &Buffer,
-    ) -> Result<DescriptorSets, VulkanError> {
-        let buffers = [
-            (adopt_set::DRAWS, (&draws.table).into()),
-            (
-                adopt_set::INDICES,
-                indices.map_or_else(|| (&draws.table).into(), Shown::from),
-            ),
-            (adopt_set::TRIANGLES_OUT, triangles.into()),
-            (adopt_set::DRAW_OF_OUT, draw_of.into()),
-        ];
-        // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
-        unsafe { layout.own_set(spirv::Adopt::INTERFACE, &buffers) }
-    }
-
-    /// Records the pass, if there are triangles.
-    pub fn record(&self, recorder: &Recorder<'_>, set: &DescriptorSets, counts: AdoptedCounts) {
-        recorder.show(set);
-        recorder.push(&self.pipeline, &counts);
-        recorder.dispatch_each(&self.pipeline, counts.triangle_count.into());
-    }
+/// Makes a set with the draws, the host's indices if there are any, the triangles, and the draw of each triangle.
+///
+/// # Errors
+/// If the driver refuses it.
+///
+/// # Safety
+/// The host's buffer outlives the use of the set.
+pub(crate) unsafe fn set(
+    layout: &FrameLayout,
+    draws: &Draws,
+    indices: Option<vk::DescriptorBufferInfo>,
+    triangles: &Buffer,
+    draw_of: &Buffer,
+) -> Result<DescriptorSets, VulkanError> {
+    let buffers = [
+        (adopt_set::DRAWS, (&draws.table).into()),
+        (
+            adopt_set::INDICES,
+            indices.map_or_else(|| (&draws.table).into(), Shown::from),
+        ),
+        (adopt_set::TRIANGLES_OUT, triangles.into()),
+        (adopt_set::DRAW_OF_OUT, draw_of.into()),
+    ];
+    // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
+    unsafe { layout.own_set(spirv::Adopt::INTERFACE, &buffers) }
 }

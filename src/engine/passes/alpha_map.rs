@@ -1,12 +1,9 @@
 //! alpha_map: converts a host's alpha maps to the form that the alpha test reads.
 
 use super::spirv::{self, alpha_map_set};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{
-    Buffer, DescriptorSets, Pipeline, Recorder, Shown, Specialized, VulkanError, read_image,
-};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Shown, Specialized, VulkanError, read_image};
 use ash::vk;
-use std::sync::Arc;
 
 /// Level of an alpha map: its size in texels, and its first word in the atlas. Bits 0 and 1 of `repeats` say whether
 /// the map repeats along u and v.
@@ -21,46 +18,30 @@ impl AlphaLevel {
     }
 }
 
-/// Kernel that reads the levels of a host's images.
-pub(crate) struct AlphaMaps {
-    pipeline: Arc<Pipeline>,
+/// Makes the kernel that reads a level of a host's image. Each level writes its own words.
+///
+/// # Errors
+/// If the driver refuses it.
+pub(crate) fn kernel(layout: &FrameLayout) -> Result<Kernel<spirv::AlphaMap>, VulkanError> {
+    layout.kernel(&spirv::AlphaMap)
 }
 
-impl AlphaMaps {
-    /// Makes the pipeline.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        Ok(Self {
-            pipeline: layout.compute(&spirv::AlphaMap, None)?,
-        })
-    }
-
-    /// Makes a set with a host's image and the atlas.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    ///
-    /// # Safety
-    /// The view outlives the use of the set.
-    pub unsafe fn set(
-        layout: &FrameLayout,
-        view: vk::ImageView,
-        atlas: &Buffer,
-    ) -> Result<DescriptorSets, VulkanError> {
-        let shown = [
-            (alpha_map_set::MAP, Shown::Image(read_image(view))),
-            (alpha_map_set::ATLAS, atlas.into()),
-        ];
-        // SAFETY: the caller guarantees the view, and the atlas lives as long as the frame.
-        unsafe { layout.own_set(spirv::AlphaMap::INTERFACE, &shown) }
-    }
-
-    /// Records the pass for a level. Each level writes its own words.
-    pub fn record(&self, recorder: &Recorder<'_>, set: &DescriptorSets, level: &AlphaLevel) {
-        recorder.show(set);
-        recorder.push(&self.pipeline, level);
-        recorder.dispatch_each(&self.pipeline, level.words());
-    }
+/// Makes a set with a host's image and the atlas.
+///
+/// # Errors
+/// If the driver refuses it.
+///
+/// # Safety
+/// The view outlives the use of the set.
+pub(crate) unsafe fn set(
+    layout: &FrameLayout,
+    view: vk::ImageView,
+    atlas: &Buffer,
+) -> Result<DescriptorSets, VulkanError> {
+    let shown = [
+        (alpha_map_set::MAP, Shown::Image(read_image(view))),
+        (alpha_map_set::ATLAS, atlas.into()),
+    ];
+    // SAFETY: the caller guarantees the view, and the atlas lives as long as the frame.
+    unsafe { layout.own_set(spirv::AlphaMap::INTERFACE, &shown) }
 }

@@ -1,9 +1,8 @@
 //! arguments: turns the counts of a pass into the sizes of the dispatches that follow.
 
 use super::spirv;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{Dispatch, FrameLayout, Size};
+use crate::vulkan::VulkanError;
 
 /// Pass whose counts are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,48 +20,32 @@ pub(crate) enum After {
     Scatter = spirv::AFTER_SCATTER,
 }
 
-/// Writes the sizes of dispatches. One kernel serves all passes that count, because drivers take longer to compile a
-/// kernel than to run it.
-pub(crate) struct Arguments {
-    pipeline: Arc<Pipeline>,
-    /// Push constants: the pass that counted, and the numbers of subgroups that [`Sample`](super::Sample) uses for an
-    /// entry of a list: in the first run, in a run with all samples, and for tiles without a list.
-    pushed: spirv::ArgumentsPush,
+/// Dispatch that writes the sizes of other dispatches. One kernel serves all passes that count, because drivers take longer
+/// to compile a kernel than to run it.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn dispatch(layout: &FrameLayout, after: After) -> Result<Dispatch, VulkanError> {
+    of_samples(layout, after, [1; 3])
 }
 
-impl Arguments {
-    /// Makes the pipeline.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, after: After) -> Result<Self, VulkanError> {
-        Self::of_samples(layout, after, [1; 3])
-    }
-
-    /// Makes the pipeline for the entries of lists. An entry takes `first` subgroups in the first run, `all` in a run
-    /// with all samples, and `unlisted` for tiles without a list.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_samples(
-        layout: &FrameLayout,
-        after: After,
-        [first, all, unlisted]: [u32; 3],
-    ) -> Result<Self, VulkanError> {
-        Ok(Self {
-            pipeline: layout.compute(&spirv::Arguments, None)?,
-            pushed: spirv::ArgumentsPush {
-                after: after as u32,
-                subgroups_first: first,
-                subgroups: all,
-                subgroups_unlisted: unlisted,
-            },
-        })
-    }
-
-    /// Records the pass.
-    pub fn record(&self, recorder: &Recorder<'_>) {
-        recorder.push(&self.pipeline, &self.pushed);
-        recorder.dispatch(&self.pipeline, 1);
-    }
+/// [`dispatch`] for the entries of lists. An entry takes `first` subgroups of [`sample`](super::sample) in the first run,
+/// `all` in a run with all samples, and `unlisted` for tiles without a list.
+///
+/// # Errors
+/// As [`dispatch`].
+pub(crate) fn of_samples(
+    layout: &FrameLayout,
+    after: After,
+    [first, all, unlisted]: [u32; 3],
+) -> Result<Dispatch, VulkanError> {
+    let pushed = spirv::ArgumentsPush {
+        after: after as u32,
+        subgroups_first: first,
+        subgroups: all,
+        subgroups_unlisted: unlisted,
+    };
+    Ok(layout
+        .kernel(&spirv::Arguments)?
+        .dispatch(pushed, Size::One))
 }

@@ -2,15 +2,14 @@
 
 use super::spirv;
 use crate::engine::data::{ColorConstants, Resources};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Recorder, VulkanError};
 use std::ops::Range;
-use std::sync::Arc;
 
 /// Lists pixels that need shading, and gathers their colours.
 pub(crate) struct Centres {
-    list: Arc<Pipeline>,
-    gather: Arc<Pipeline>,
+    list: Kernel<spirv::Centres>,
+    gather: Kernel<spirv::Centres>,
 }
 
 impl Centres {
@@ -25,7 +24,7 @@ impl Centres {
                 tonemap: output.tonemap,
                 tonemap_codes: output.tonemap_codes,
             };
-            layout.compute(&shader, None)
+            layout.kernel(&shader)
         };
         Ok(Self {
             list: make(false)?,
@@ -43,9 +42,14 @@ impl Centres {
         mut shade: impl FnMut(&Recorder<'_>),
     ) {
         for band in Self::bands(pixels, resources.sizes().record_capacity) {
-            self.record_half(recorder, &self.list, &band);
+            let count = band.end - band.start;
+            let push = spirv::CentresPush {
+                first: band.start,
+                count,
+            };
+            self.list.record(recorder, &push, count);
             shade(recorder);
-            self.record_half(recorder, &self.gather, &band);
+            self.gather.record(recorder, &push, count);
         }
     }
 
@@ -53,16 +57,6 @@ impl Centres {
     fn bands(pixels: u32, room: u32) -> impl ExactSizeIterator<Item = Range<u32>> {
         let room = room.max(1);
         (0..pixels.div_ceil(room)).map(move |n| n * room..pixels.min((n + 1).saturating_mul(room)))
-    }
-
-    fn record_half(&self, recorder: &Recorder<'_>, pipeline: &Pipeline, band: &Range<u32>) {
-        let count = band.end - band.start;
-        let push = spirv::CentresPush {
-            first: band.start,
-            count,
-        };
-        recorder.push(pipeline, &push);
-        recorder.dispatch_each(pipeline, u64::from(count));
     }
 }
 

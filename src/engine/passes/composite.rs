@@ -2,33 +2,18 @@
 
 use super::spirv;
 use crate::engine::data::{Argument, ColorConstants};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Composites each list of layers. The resulting colour replaces that of the list's leaf, where
-/// [`Resolve`](super::Resolve) reads it.
-pub struct Composite {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Composite {
-    /// Makes the pipeline. `output` holds the colour constants of `shaders/include/color.glsl`.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
-        let shader = spirv::Composite {
-            tinted: output.tinted,
-            tonemap: output.tonemap,
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, None)?,
-        })
-    }
-
-    /// Records the pass over the visibility samples of the round.
-    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Sort as u32);
-    }
+/// Composites each list of layers in the visibility samples of the round. The resulting colour replaces that of the list's
+/// leaf, where [`resolve`](super::resolve) reads it. `output` holds the colour constants of `shaders/include/color.glsl`.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(layout: &FrameLayout, output: &ColorConstants) -> Result<Pass, VulkanError> {
+    let composite = layout.kernel(&spirv::Composite {
+        tinted: output.tinted,
+        tonemap: output.tonemap,
+    })?;
+    Ok(Pass::named(spirv::Composite::INTERFACE).dispatch(composite.dispatch((), Argument::Sort)))
 }

@@ -1,14 +1,13 @@
 //! detect: decides which pixels are superpixels.
 
 use super::spirv;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::vulkan::{Specialized, VulkanError};
 
 /// Rule that makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
-pub enum DetectMode {
+pub(crate) enum DetectMode {
     /// A neighbour with a contrasting colour.
     Contrast = spirv::DETECT_CONTRAST,
     /// A neighbour with another triangle and a contrasting colour.
@@ -21,14 +20,14 @@ pub enum DetectMode {
     Every = spirv::DETECT_EVERY,
 }
 
-/// Options of [`Detect`].
+/// Options of the pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DetectOptions {
+pub(crate) struct DetectOptions {
     /// Rule that makes a pixel a superpixel.
     pub mode: DetectMode,
     /// Whether IDs of the nearest BLEND triangles are compared too.
     pub blend_ids: bool,
-    /// Whether pixels that [`Thin`](super::Thin) marked become superpixels too.
+    /// Whether pixels that [`thin`](super::thin) marked become superpixels too.
     pub thin: bool,
     /// Whether alpha is compared too.
     pub transparent: bool,
@@ -37,41 +36,28 @@ pub struct DetectOptions {
     /// Number of shadow words of each place; their bits say which lights reach it. Neighbours with different words are
     /// compared like neighbours with different triangles.
     pub shadow_words: u32,
-    /// Width in pixels of a border around the region whose pixels become superpixels too, for [`Grow`](super::Grow).
+    /// Width in pixels of a border around the region whose pixels become superpixels too, for [`grow`](super::grow).
     pub beyond: u32,
 }
 
-/// Writes the masks of superpixels.
-pub struct Detect {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Detect {
-    /// Makes the pipeline.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, options: &DetectOptions) -> Result<Self, VulkanError> {
-        let shader = spirv::Detect {
-            mode: options.mode as u32,
-            blend_ids: options.blend_ids,
-            thin: options.thin,
-            transparent: options.transparent,
-            beyond: options.beyond,
-            shadow_words: options.shadow_words,
-        };
-        let code = if options.multisampled {
-            spirv::DETECT_MULTISAMPLED
-        } else {
-            spirv::DETECT
-        };
-        Ok(Self {
-            pipeline: layout.compute_variant(code, &shader, None)?,
-        })
-    }
-
-    /// Records the pass for a region of `tiles` tiles.
-    pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
-        recorder.dispatch_each(&self.pipeline, u64::from(tiles));
-    }
+/// Writes the masks of superpixels, for the tiles of a region.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(layout: &FrameLayout, options: &DetectOptions) -> Result<Pass, VulkanError> {
+    let shader = spirv::Detect {
+        mode: options.mode as u32,
+        blend_ids: options.blend_ids,
+        thin: options.thin,
+        transparent: options.transparent,
+        beyond: options.beyond,
+        shadow_words: options.shadow_words,
+    };
+    let code = if options.multisampled {
+        spirv::DETECT_MULTISAMPLED
+    } else {
+        spirv::DETECT
+    };
+    let detect = layout.kernel_variant(code, &shader)?;
+    Ok(Pass::named(spirv::Detect::INTERFACE).dispatch(detect.dispatch((), Size::Items(1))))
 }

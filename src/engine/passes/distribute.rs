@@ -3,9 +3,8 @@
 use super::spirv;
 use crate::engine::data::CellSizes;
 use crate::engine::data::{Argument, Cells, Resources};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, Texels, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, Texels, VulkanError};
 
 /// Steps of the shader, in their order.
 const STEPS: [u32; 4] = [
@@ -37,7 +36,7 @@ pub enum ListLength<'a> {
 
 /// Sorts one list after another into the same memory.
 pub struct Distribute {
-    steps: Vec<Arc<Pipeline>>,
+    steps: Vec<Kernel<spirv::Distribute>>,
     own: DescriptorSets,
     sizes: CellSizes,
 }
@@ -59,7 +58,7 @@ impl Distribute {
     ) -> Result<Self, VulkanError> {
         let step = |step: u32| {
             let points = cells.are_points();
-            layout.compute(&spirv::Distribute { step, points }, None)
+            layout.kernel(&spirv::Distribute { step, points })
         };
         let shown = resources.location_buffers(locations);
         Ok(Self {
@@ -80,20 +79,19 @@ impl Distribute {
             samples: self.sizes.samples,
         };
         recorder.show(&self.own);
-        recorder.push(&self.steps[0], &push);
         recorder.pass(spirv::Distribute::INTERFACE, || {
-            for (step, pipeline) in STEPS.into_iter().zip(&self.steps) {
+            for (step, kernel) in STEPS.into_iter().zip(&self.steps) {
                 let tiles = region.tiles[0] * region.tiles[1];
                 let invocations = match (step, length) {
                     (spirv::DISTRIBUTE_LAY_OUT, _) => tiles,
                     (spirv::DISTRIBUTE_ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
                     (_, ListLength::Known) => region.count,
                     (_, ListLength::Counted(arguments, argument)) => {
-                        recorder.dispatch_indirect(pipeline, arguments, argument as u32);
+                        kernel.record_counted(recorder, &push, (arguments, argument));
                         continue;
                     }
                 };
-                recorder.dispatch_each(pipeline, u64::from(invocations));
+                kernel.record(recorder, &push, invocations);
             }
         });
     }

@@ -2,36 +2,25 @@
 
 use super::spirv;
 use crate::engine::data::{Argument, Cells};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Allocates the lists of a round's tiles, and lists its work.
-pub(super) struct Enlist {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Enlist {
-    /// Makes the pipeline for tiles of these cells.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, cells: Cells) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().lanes;
-        let shader = spirv::Enlist {
-            local_size: lanes,
-            lanes,
-            locations: cells.are_locations(),
-            unsure: layout.is_unsure(lanes),
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, layout.subgroup())?,
-        })
-    }
-
-    /// Records the pass, over the stretches of the round.
-    pub fn record(&self, recorder: &Recorder<'_>, pushed: &spirv::EnlistPush, arguments: &Buffer) {
-        recorder.push(&self.pipeline, pushed);
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Enlist as u32);
-    }
+/// Allocates the lists of a round's tiles, and lists its work, over the stretches of the round. `load` are the push constants of
+/// `shaders/include/load.glsl`.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    cells: Cells,
+    load: spirv::EnlistPush,
+) -> Result<Pass, VulkanError> {
+    let lanes = layout.gpu.limits().lanes;
+    let enlist = layout.kernel(&spirv::Enlist {
+        local_size: lanes,
+        lanes,
+        locations: cells.are_locations(),
+        unsure: layout.is_unsure(lanes),
+    })?;
+    Ok(Pass::named(spirv::Enlist::INTERFACE).dispatch(enlist.dispatch(load, Argument::Enlist)))
 }

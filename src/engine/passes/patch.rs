@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub(crate) enum Patched {
     /// Superpixels.
     Superpixels,
-    /// Superpixels, some of which [`Grow`](super::Grow) has added.
+    /// Superpixels, some of which [`grow`](super::grow) has added.
     Grown,
     /// All pixels.
     All,

@@ -2,43 +2,31 @@
 
 use super::spirv;
 use crate::engine::data::{Argument, ColorConstants, Content};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Writes a colour and, on request, two vectors of attributes for each location: see `shaders/points.comp`.
-pub struct Points {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Points {
-    /// Makes the pipeline. `output` holds the colour constants of `shaders/include/color.glsl`, `attributes` says
-    /// whether attributes are written, and places have `shadow_words` words of shadows.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        output: &ColorConstants,
-        (attributes, shadow_words): (bool, u32),
-    ) -> Result<Self, VulkanError> {
-        let shader = spirv::Points {
-            attributes,
-            tinted: output.tinted,
-            locations: true,
-            instanced: scene.is_instanced(),
-            shadow_words,
-            tonemap: output.tonemap,
-            tonemap_codes: output.tonemap_codes,
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, None)?,
-        })
-    }
-
-    /// Records the pass over the visibility samples of the round.
-    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Sort as u32);
-    }
+/// Writes a colour and, on request, two vectors of attributes for each location, as `shaders/points.comp` describes, for the
+/// visibility samples of the round.
+///
+/// `output` holds the colour constants of `shaders/include/color.glsl`, `attributes` says whether attributes are written,
+/// and places have `shadow_words` words of shadows.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    scene: &dyn Content,
+    output: &ColorConstants,
+    (attributes, shadow_words): (bool, u32),
+) -> Result<Pass, VulkanError> {
+    let points = layout.kernel(&spirv::Points {
+        attributes,
+        tinted: output.tinted,
+        locations: true,
+        instanced: scene.is_instanced(),
+        shadow_words,
+        tonemap: output.tonemap,
+        tonemap_codes: output.tonemap_codes,
+    })?;
+    Ok(Pass::named(spirv::Points::INTERFACE).dispatch(points.dispatch((), Argument::Sort)))
 }

@@ -281,7 +281,7 @@ impl Raster {
             } else {
                 vk::CullModeFlags::BACK
             };
-            recorder.push(pipeline, &run.push);
+            recorder.push(pipeline, bytemuck::bytes_of(&run.push));
             // SAFETY: as above; the shader reads 3 vertices for each triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);

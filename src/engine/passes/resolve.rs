@@ -1,148 +1,98 @@
 //! resolve: computes the colour of each superpixel.
 
-use super::host_image::HostImage;
-use super::{Composite, Sample, TileList, spirv};
-use crate::engine::data::{Cells, ColorConstants};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
+use super::{SampleBlocks, TileList, spirv};
+use crate::engine::data::{ColorConstants, HostImage};
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 use std::sync::Arc;
 
-/// Later pass that reads more of [`Resolve`]'s output than the colours.
+/// Later pass that reads more of the pass's output than the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ResolveTarget {
+pub(crate) enum ResolveTarget {
     /// No such pass.
     Nothing,
-    /// [`Detect`](super::Detect), which compares the resolved colours.
+    /// [`detect`](super::detect), which compares the resolved colours.
     Detect,
-    /// [`Grow`](super::Grow), for which `resolve` marks neighbours that contrast.
+    /// [`grow`](super::grow), for which `resolve` marks neighbours that contrast.
     Grow,
 }
 
-/// Averages the visibility samples of each cell.
-pub struct Resolve {
-    /// Pass that blends layers before this pass; `None` without layers.
-    composite: Option<Composite>,
-    kernels: Vec<(TileList, Arc<Pipeline>)>,
-    /// Host's image with the colours of samples that see no triangle; `None` for the background.
-    behind: Option<Arc<HostImage>>,
-}
-
-impl Resolve {
-    /// Makes a pipeline for each tile list of `sample`.
-    ///
-    /// `target` is the later pass that reads more than the colours, and `output` holds the colour constants of
-    /// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
-    /// the background if it is `None`. Layers are composited only over the background, so `behind` must be `None` for
-    /// scenes that may have layers.
-    ///
-    /// # Errors
-    /// If the driver refuses one.
-    pub(crate) fn new(
-        layout: &FrameLayout,
-        sample: &Sample,
-        has_blend: bool,
-        target: ResolveTarget,
-        output: &ColorConstants,
-        behind: Option<&Arc<HostImage>>,
-    ) -> Result<Self, VulkanError> {
-        let cells = sample.options().cells;
-        let kernels = sample
-            .lists()
-            .map(|list| {
-                let layered = has_blend && matches!(list, TileList::Blended | TileList::Unlisted);
-                Ok((
-                    list,
-                    Self::pipeline(
-                        layout,
-                        list,
-                        sample.block(),
-                        layered,
-                        sample.options().has_one_header()
-                            && matches!(list, TileList::Plain | TileList::Masked),
-                        target,
-                        (cells, output, behind),
-                    )?,
-                ))
-            })
-            .collect::<Result<_, VulkanError>>()?;
-        let composite = || Composite::new(layout, output);
-        Ok(Self {
-            composite: has_blend.then(composite).transpose()?,
-            kernels,
-            behind: behind.cloned(),
-        })
+/// Averages the visibility samples of each cell, for each tile list of `blocks`.
+///
+/// `target` is the later pass that reads more than the colours, and `output` holds the colour constants of
+/// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
+/// the background if it is `None`. Layers are composited only over the background, so `behind` must be `None` for
+/// scenes that may have layers.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    blocks: &SampleBlocks,
+    target: ResolveTarget,
+    output: &ColorConstants,
+    behind: Option<&Arc<HostImage>>,
+) -> Result<Pass, VulkanError> {
+    let (options, cells) = (&blocks.options, blocks.options.cells);
+    let mut pass = Pass::named(spirv::Resolve::INTERFACE);
+    if let Some(image) = behind {
+        pass = pass.show(&image.sets);
     }
-
-    /// Makes the pipeline for the visibility samples of `multisample`, where each cell has a single header.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn for_multisample(
-        layout: &FrameLayout,
-        samples: u32,
-        target: ResolveTarget,
-        output: &ColorConstants,
-    ) -> Result<Self, VulkanError> {
-        let pipeline = Self::pipeline(
-            layout,
-            TileList::Plain,
-            samples,
-            false,
-            false,
-            target,
-            (Cells::Pixels, output, None),
-        )?;
-        Ok(Self {
-            composite: None,
-            kernels: vec![(TileList::Plain, pipeline)],
-            behind: None,
-        })
-    }
-
-    fn pipeline(
-        layout: &FrameLayout,
-        list: TileList,
-        block: u32,
-        layered: bool,
-        probed: bool,
-        target: ResolveTarget,
-        (cells, output, behind): (Cells, &ColorConstants, Option<&Arc<HostImage>>),
-    ) -> Result<Arc<Pipeline>, VulkanError> {
-        let lanes = layout.gpu.limits().lanes;
+    for list in blocks.lists() {
         let shader = spirv::Resolve {
-            local_size: lanes,
-            lanes,
-            block,
-            layered,
-            list: list as u32,
-            display_codes: target == ResolveTarget::Detect,
-            probed,
-            grows: target == ResolveTarget::Grow,
+            layered: options.has_blend && matches!(list, TileList::Blended | TileList::Unlisted),
+            probed: options.has_one_header() && matches!(list, TileList::Plain | TileList::Masked),
             locations: cells.are_locations(),
-            unsure: layout.is_unsure(lanes),
-            tonemap: output.tonemap,
-            tonemap_codes: output.tonemap_codes,
             encoded: behind.is_some_and(|image| image.encoded()),
+            ..of_list(layout, list, blocks.block, target, output)
         };
         let code = match behind {
             Some(_) => spirv::RESOLVE_DRAWN,
             None => spirv::RESOLVE,
         };
-        layout.compute_variant(code, &shader, layout.subgroup())
+        let resolve = layout.kernel_variant(code, &shader)?;
+        pass = pass.dispatch(resolve.dispatch((), list));
     }
+    Ok(pass)
+}
 
-    /// Records the pass over the tiles of the round.
-    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        if let Some(composite) = &self.composite {
-            composite.record(recorder, arguments);
-        }
-        if let Some(image) = &self.behind {
-            recorder.show(&image.sets);
-        }
-        recorder.pass(spirv::Resolve::INTERFACE, || {
-            for (list, pipeline) in &self.kernels {
-                recorder.dispatch_indirect(pipeline, arguments, list.argument());
-            }
-        });
+/// The pass for the visibility samples of `multisample`, where each cell has a single header.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn for_multisample(
+    layout: &FrameLayout,
+    samples: u32,
+    output: &ColorConstants,
+) -> Result<Pass, VulkanError> {
+    let list = TileList::Plain;
+    let shader = of_list(layout, list, samples, ResolveTarget::Nothing, output);
+    let resolve = layout.kernel_variant(spirv::RESOLVE, &shader)?;
+    Ok(Pass::named(spirv::Resolve::INTERFACE).dispatch(resolve.dispatch((), list)))
+}
+
+/// Constants for the pixels of a list of tiles, whose blocks have `block` samples.
+fn of_list(
+    layout: &FrameLayout,
+    list: TileList,
+    block: u32,
+    target: ResolveTarget,
+    output: &ColorConstants,
+) -> spirv::Resolve {
+    let lanes = layout.gpu.limits().lanes;
+    spirv::Resolve {
+        local_size: lanes,
+        lanes,
+        block,
+        layered: false,
+        list: list as u32,
+        display_codes: target == ResolveTarget::Detect,
+        probed: false,
+        grows: target == ResolveTarget::Grow,
+        locations: false,
+        unsure: layout.is_unsure(lanes),
+        tonemap: output.tonemap,
+        tonemap_codes: output.tonemap_codes,
+        encoded: false,
     }
 }

@@ -1,11 +1,10 @@
 //! sample: finds the nearest triangle of every sample.
 
-use super::arguments::{After, Arguments};
-use super::{Scatter, sample_lines, sample_masks, spirv};
+use super::arguments::{self, After};
+use super::{sample_lines, sample_masks, scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
+use crate::vulkan::{Specialized, VulkanError};
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,10 +26,16 @@ impl TileList {
         matches!(self, Self::Plain | Self::Masked)
     }
 
-    /// Index of the indirect dispatch over the list's entries.
-    #[must_use]
-    pub fn argument(self) -> u32 {
-        Argument::SamplePlain as u32 + self as u32
+    /// Size of a dispatch over the entries of the list that the first run left.
+    fn left(self) -> Size {
+        Size::Indirect(Argument::PlainLeft as u32 + self as u32)
+    }
+}
+
+impl From<TileList> for Size {
+    /// Size of a dispatch over the list's entries.
+    fn from(list: TileList) -> Self {
+        Self::Indirect(Argument::SamplePlain as u32 + list as u32)
     }
 }
 
@@ -119,17 +124,26 @@ enum Run {
     Rest = spirv::RUN_REST,
 }
 
-/// Kernels of sampling: one for each kind of tile that the scene can have, followed by those of a second run, over
-/// cells that the first run left.
-pub struct Sample {
-    kernels: Vec<(TileList, Arc<Pipeline>)>,
-    rest: Vec<(TileList, Arc<Pipeline>)>,
-    arguments_of_rest: Arguments,
-    /// Pass before the kernel for tiles without a list; `None` if such tiles are skipped.
-    scatter: Option<Scatter>,
-    options: SampleOptions,
-    block: u32,
-    subgroups: [u32; 3],
+/// Samples of a cell that a kernel processes, for tiles of one list.
+#[derive(Clone, Copy)]
+struct ListRun {
+    list: TileList,
+    run: Run,
+    kernels: &'static Kernels,
+    /// Whether the list's tiles have MASK triangles.
+    masked: bool,
+}
+
+/// Division of the samples of cells into blocks, which other passes have to know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleBlocks {
+    /// Options of the kernels.
+    pub options: SampleOptions,
+    /// Number of samples of a block, which has one header.
+    pub block: u32,
+    /// Numbers of subgroups for an entry of a list: in the first run, in a run with all samples, and for tiles without a
+    /// list.
+    pub subgroups: [u32; 3],
 }
 
 /// Variants of a kernel by their number of register rows, the smallest first.
@@ -177,98 +191,17 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-impl Sample {
-    /// Number of samples of the first of two runs; their offsets follow those of the cell.
-    pub const PROBES: u32 = spirv::PROBE_SAMPLES;
-    /// Preferred number of samples of a block. A block is larger only if invocations would be idle otherwise.
-    const BLOCK: u32 = 64;
+/// Number of samples of the first of two runs; their offsets follow those of the cell.
+pub const PROBES: u32 = spirv::PROBE_SAMPLES;
 
-    /// Makes the kernels.
-    ///
-    /// # Errors
-    /// If the driver refuses one.
-    pub fn new(
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        options: &SampleOptions,
-    ) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().lanes;
-        let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
-        let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
-            let first_run = list.is_opaque() && *run != Run::Rest;
-            let shader = spirv::Sample {
-                local_size: lanes,
-                lanes,
-                per_sample: options.records == RecordRate::Sample,
-                has_mask: *mask,
-                list: *list as u32,
-                run: *run as u32,
-                by_part: options.by_part(*run, rows * lanes),
-                exact_areas: options.measures(*list, *run),
-                part: options.part_samples(),
-                apart: options.long_lists.is_apart() || *list == TileList::Unlisted,
-                locations: options.cells.are_locations(),
-                points: options.cells.are_points(),
-                occluders: options.cells.are_occluders(),
-                instanced: scene.is_instanced(),
-                unsure: layout.is_unsure(lanes),
-            };
-            let pipeline = if first_run && options.by_lines() {
-                let lines = options.lines_of_cell(lanes, *mask);
-                sample_lines::pipeline(layout, &shader, rows * lanes, lines)?
-            } else if first_run && options.by_masks() {
-                sample_masks::pipeline(layout, &shader, options.samples)?
-            } else {
-                let (_, code) = kernel(kernels, rows);
-                layout.compute_variant(code, &shader, layout.subgroup())?
-            };
-            Ok::<_, VulkanError>((*list, pipeline))
-        };
-        let probes = options.probes();
-        let listed = |run: Run| {
-            let plain = (TileList::Plain, run, &KERNELS, false);
-            let masked = (TileList::Masked, run, &KERNELS, true);
-            let wanted = [(plain, true), (masked, options.has_mask)];
-            wanted
-                .into_iter()
-                .filter(|(_, wanted)| *wanted && !options.always_blends)
-                .map(|(kernel, _)| kernel)
-        };
-        let whole = |list, kernels| (list, Run::Whole, kernels, options.has_mask);
-        let mut wanted: Vec<_> = listed(if probes { Run::Probe } else { Run::Whole }).collect();
-        if options.has_blend {
-            wanted.push(whole(TileList::Blended, &LAYERED));
-        }
-        if options.unlisted {
-            let unlisted = if options.has_blend {
-                &LAYERED_UNLISTED
-            } else {
-                &UNLISTED
-            };
-            wanted.push(whole(TileList::Unlisted, unlisted));
-        }
-        let first_run = wanted.len();
-        if options.leaves_cells() {
-            wanted.extend(listed(Run::Rest));
-        }
-        // These kernels take drivers longest to compile, so that threads compile them in parallel.
-        let make = &make;
-        let made: Result<Vec<_>, _> = std::thread::scope(|threads| {
-            let making: Vec<_> = wanted
-                .iter()
-                .map(|kernel| threads.spawn(move || make(kernel)))
-                .collect();
-            making
-                .into_iter()
-                .map(|thread| {
-                    thread
-                        .join()
-                        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-                })
-                .collect()
-        });
-        let mut kernels = made?;
-        let rest = kernels.split_off(first_run);
+/// Preferred number of samples of a block. A block is larger only if invocations would be idle otherwise.
+const BLOCK: u32 = 64;
+
+impl SampleBlocks {
+    /// Blocks of kernels that use `lanes` invocations of a subgroup.
+    #[must_use]
+    pub fn new(lanes: u32, options: SampleOptions) -> Self {
+        let (rows, _) = kernel(&KERNELS, options.samples.min(BLOCK).div_ceil(lanes));
         let block = rows * lanes;
         let apart = options.long_lists.is_apart();
         let taking = |samples: u32, apart: bool| {
@@ -279,43 +212,19 @@ impl Sample {
                 blocks.div_ceil(BLOCKS_AT_ONCE)
             }
         };
-        let first = if probes {
-            taking(Self::PROBES, apart)
+        let first = if options.probes() {
+            taking(PROBES, apart)
         } else if options.by_lines() {
             1
         } else {
             taking(options.samples, apart)
         };
         let [all, unlisted] = [apart, true].map(|apart| taking(options.samples, apart));
-        let subgroups = [first, all, unlisted];
-        let scatter = || Scatter::new(layout, scene, options);
-        Ok(Self {
-            kernels,
-            rest,
-            arguments_of_rest: Arguments::of_samples(layout, After::Probe, subgroups)?,
-            scatter: options.unlisted.then(scatter).transpose()?,
-            options: *options,
+        Self {
+            options,
             block,
-            subgroups,
-        })
-    }
-
-    /// Options with which the kernels were made.
-    #[must_use]
-    pub fn options(&self) -> &SampleOptions {
-        &self.options
-    }
-
-    /// Number of samples of a block, which has one header.
-    #[must_use]
-    pub fn block(&self) -> u32 {
-        self.block
-    }
-
-    /// Numbers of subgroups for an entry of a list: in the first run, in a run with all samples, and for tiles without
-    /// a list.
-    pub(crate) fn subgroups(&self) -> [u32; 3] {
-        self.subgroups
+            subgroups: [first, all, unlisted],
+        }
     }
 
     /// Largest number of visibility samples of a triangle in a block, if all samples of the cell are processed.
@@ -328,46 +237,161 @@ impl Sample {
     }
 
     /// Lists of tiles that are sampled.
-    pub fn lists(&self) -> impl Iterator<Item = TileList> + '_ {
-        self.kernels.iter().map(|(list, _)| *list)
+    pub(crate) fn lists(&self) -> impl Iterator<Item = TileList> {
+        self.options.first_runs().into_iter().map(|run| run.list)
     }
 
-    /// Records the pass over the tiles of the round. If a run [leaves cells](SampleOptions::leaves_cells), the marks
-    /// must be cleared before the first round.
-    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.pass(spirv::Sample::INTERFACE, || {
-            for (list, pipeline) in &self.kernels {
-                if *list != TileList::Unlisted {
-                    recorder.dispatch_indirect(pipeline, arguments, list.argument());
-                }
-            }
-            if !self.rest.is_empty() {
-                self.arguments_of_rest.record(recorder);
-            }
-            for (list, pipeline) in &self.rest {
-                let argument = Argument::PlainLeft as u32 + *list as u32;
-                recorder.dispatch_indirect(pipeline, arguments, argument);
-            }
-            // Tiles without a list come last, because `scatter` overwrites the memory of lists.
-            let unlisted = self
-                .kernels
-                .iter()
-                .find(|(list, _)| *list == TileList::Unlisted);
-            if let (Some(scatter), Some((list, pipeline))) = (&self.scatter, unlisted) {
-                scatter.record(recorder, arguments);
-                recorder.dispatch_indirect(pipeline, arguments, list.argument());
-            }
-        });
+    /// Dispatch of the kernel for a run.
+    fn kernel(
+        &self,
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        run: &ListRun,
+    ) -> Result<Dispatch, VulkanError> {
+        let ListRun {
+            list,
+            run,
+            kernels,
+            masked,
+        } = *run;
+        let (options, block) = (&self.options, self.block);
+        let lanes = layout.gpu.limits().lanes;
+        let is_rest = run == Run::Rest;
+        let shader = spirv::Sample {
+            local_size: lanes,
+            lanes,
+            per_sample: options.records == RecordRate::Sample,
+            has_mask: masked,
+            list: list as u32,
+            run: run as u32,
+            by_part: options.by_part(run, block),
+            exact_areas: options.measures(list, run),
+            part: options.part_samples(),
+            apart: options.long_lists.is_apart() || list == TileList::Unlisted,
+            locations: options.cells.are_locations(),
+            points: options.cells.are_points(),
+            occluders: options.cells.are_occluders(),
+            instanced: scene.is_instanced(),
+            unsure: layout.is_unsure(lanes),
+        };
+        let size = if is_rest { list.left() } else { list.into() };
+        if list.is_opaque() && !is_rest && options.by_lines() {
+            let lines = options.lines_of_cell(lanes, masked);
+            let kernel = sample_lines::kernel(layout, &shader, block, lines)?;
+            Ok(kernel.dispatch((), size))
+        } else if list.is_opaque() && !is_rest && options.by_masks() {
+            let kernel = sample_masks::kernel(layout, &shader, options.samples)?;
+            Ok(kernel.dispatch((), size))
+        } else {
+            let (_, code) = kernel(kernels, block / lanes);
+            let kernel = layout.kernel_variant(code, &shader)?;
+            Ok(kernel.dispatch((), size))
+        }
     }
 }
 
+/// Samples the tiles of the round: with one kernel for each kind of tile that the scene can have, followed by those of a second
+/// run, over cells that the first run left. If a run [leaves cells](SampleOptions::leaves_cells), the marks must be cleared
+/// before the first round.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    scene: &dyn Content,
+    blocks: &SampleBlocks,
+) -> Result<Pass, VulkanError> {
+    let options = &blocks.options;
+    let first = options.first_runs();
+    let runs: Vec<_> = first.iter().copied().chain(options.rest()).collect();
+    // These kernels take drivers longest to compile, so that threads compile them in parallel.
+    let made: Result<Vec<_>, _> = std::thread::scope(|threads| {
+        let making: Vec<_> = runs
+            .iter()
+            .map(|run| threads.spawn(move || blocks.kernel(layout, scene, run)))
+            .collect();
+        let join = |thread: std::thread::ScopedJoinHandle<'_, _>| {
+            thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        making.into_iter().map(join).collect()
+    });
+    let mut kernels = made?;
+    let rest = kernels.split_off(first.len());
+    let unlisted = options.unlisted.then(|| kernels.pop()).flatten();
+    let mut pass = Pass::named(spirv::Sample::INTERFACE);
+    for kernel in kernels {
+        pass = pass.dispatch(kernel);
+    }
+    if !rest.is_empty() {
+        let sizes = arguments::of_samples(layout, After::Probe, blocks.subgroups)?;
+        pass = pass.dispatch(sizes);
+    }
+    for kernel in rest {
+        pass = pass.dispatch(kernel);
+    }
+    // Tiles without a list come last, because `scatter` overwrites the memory of lists.
+    if let Some(kernel) = unlisted {
+        pass = pass
+            .then(scatter::pass(layout, scene, options)?)
+            .dispatch(kernel);
+    }
+    Ok(pass)
+}
+
 impl SampleOptions {
+    /// Runs over tiles of opaque and alpha-tested triangles.
+    fn listed(&self, run: Run) -> impl Iterator<Item = ListRun> {
+        let run_of = |list, masked| ListRun {
+            list,
+            run,
+            kernels: &KERNELS,
+            masked,
+        };
+        let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
+        let has_masked = self.has_mask && !self.always_blends;
+        let masked = has_masked.then(|| run_of(TileList::Masked, true));
+        plain.into_iter().chain(masked)
+    }
+
+    /// First runs, one for each list of tiles; that of tiles without a list is the last.
+    fn first_runs(&self) -> Vec<ListRun> {
+        let whole = |list, kernels| ListRun {
+            list,
+            run: Run::Whole,
+            kernels,
+            masked: self.has_mask,
+        };
+        let blended = whole(TileList::Blended, &LAYERED);
+        let unlisted = match self.has_blend {
+            true => whole(TileList::Unlisted, &LAYERED_UNLISTED),
+            false => whole(TileList::Unlisted, &UNLISTED),
+        };
+        self.listed(if self.probes() {
+            Run::Probe
+        } else {
+            Run::Whole
+        })
+        .chain(self.has_blend.then_some(blended))
+        .chain(self.unlisted.then_some(unlisted))
+        .collect()
+    }
+
+    /// Second runs, over cells that the first runs left.
+    fn rest(&self) -> impl Iterator<Item = ListRun> {
+        self.leaves_cells()
+            .then(|| self.listed(Run::Rest))
+            .into_iter()
+            .flatten()
+    }
+
     /// Whether a run measures areas. This requires a run that processes all samples of a cell at once. Cells that the
     /// kernels with masks leave have more triangles than areas can be stored for.
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
-            Run::Whole => self.samples <= Sample::PROBES,
-            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks() && !self.by_lines(),
+            Run::Whole => self.samples <= PROBES,
+            Run::Rest => self.samples <= PROBES && !self.by_masks() && !self.by_lines(),
             Run::Probe => true,
         };
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
@@ -408,7 +432,7 @@ impl SampleOptions {
         self.can_settle
             && self.exact_areas
             && self.records != RecordRate::Sample
-            && self.samples > Sample::PROBES
+            && self.samples > PROBES
             && !self.by_lines()
     }
 }

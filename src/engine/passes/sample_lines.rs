@@ -1,21 +1,20 @@
 //! sample_lines: finds the nearest triangle of samples that lie on straight lines, for many of them at once.
 
 use super::{SampleOptions, spirv};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::VulkanError;
 
 /// Makes the kernel, with the constants of the general kernel that it takes the place of. A header represents `header`
 /// samples, and a cell has `lines` lines.
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(super) fn pipeline(
+pub(super) fn kernel(
     layout: &FrameLayout,
     shader: &spirv::Sample,
     header: u32,
     lines: u32,
-) -> Result<Arc<Pipeline>, VulkanError> {
+) -> Result<Kernel<spirv::SampleLines>, VulkanError> {
     let shader = spirv::SampleLines {
         local_size: shader.local_size,
         lanes: shader.lanes,
@@ -30,7 +29,7 @@ pub(super) fn pipeline(
         instanced: shader.instanced,
         unsure: shader.unsure,
     };
-    layout.compute(&shader, layout.subgroup())
+    layout.kernel(&shader)
 }
 
 impl SampleOptions {
@@ -52,7 +51,7 @@ impl SampleOptions {
     }
 
     /// Largest number by which a cell's visibility samples may exceed its samples.
-    pub(super) fn more_records(&self) -> u32 {
+    pub(crate) fn more_records(&self) -> u32 {
         if self.by_lines() {
             spirv::MORE_RECORDS
         } else {

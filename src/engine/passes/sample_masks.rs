@@ -2,10 +2,9 @@
 
 use super::{SampleOptions, spirv};
 use crate::engine::data::Cells;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::VulkanError;
 use ash::vk;
-use std::sync::Arc;
 
 /// Variants of the kernel, each with the largest number of samples that it supports.
 const KERNELS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
@@ -14,11 +13,11 @@ const KERNELS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SA
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(super) fn pipeline(
+pub(super) fn kernel(
     layout: &FrameLayout,
     shader: &spirv::Sample,
     samples: u32,
-) -> Result<Arc<Pipeline>, VulkanError> {
+) -> Result<Kernel<spirv::SampleMasks>, VulkanError> {
     let shader = spirv::SampleMasks {
         local_size: shader.local_size,
         lanes: shader.lanes,
@@ -36,7 +35,7 @@ pub(super) fn pipeline(
     };
     let [few, many] = KERNELS;
     let (_, code) = if samples <= few.0 { few } else { many };
-    layout.compute_variant(code, &shader, layout.subgroup())
+    layout.kernel_variant(code, &shader)
 }
 
 impl SampleOptions {

@@ -2,29 +2,15 @@
 
 use super::spirv;
 use crate::engine::data::{Argument, Content};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Fills the lists of candidates that `enlist` has allocated.
-pub struct Setup {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Setup {
-    /// Makes the pipeline.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let instanced = scene.is_instanced();
-        Ok(Self {
-            pipeline: layout.compute(&spirv::Setup { instanced }, None)?,
-        })
-    }
-
-    /// Records the pass over the pairs.
-    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Setup as u32);
-    }
+/// Fills the lists of candidates that `enlist` has allocated, for all pairs.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, VulkanError> {
+    let instanced = scene.is_instanced();
+    let setup = layout.kernel(&spirv::Setup { instanced })?;
+    Ok(Pass::named(spirv::Setup::INTERFACE).dispatch(setup.dispatch((), Argument::Setup)))
 }

@@ -1,69 +1,38 @@
 //! sort: sorts visibility samples by material bin.
 
-use super::arguments::{After, Arguments};
-use super::spirv;
+use super::arguments::{self, After};
+use super::spirv::{self, frame_set};
 use crate::engine::data::{Argument, Content};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Counting sort of a round's visibility samples.
-pub struct Sort {
-    before: Arguments,
-    /// Passes of the sort; `None` for a single bin.
-    passes: Option<Passes>,
-}
+/// Number of invocations of a workgroup, which may have several subgroups.
+const WORKGROUP: u32 = 64;
 
-struct Passes {
-    pipeline: Arc<Pipeline>,
-    arguments: Arguments,
-}
-
-impl Sort {
-    /// Number of invocations of a workgroup, which may have several subgroups.
-    const WORKGROUP: u32 = 64;
-
-    /// Makes the pipelines.
-    ///
-    /// # Errors
-    /// If the driver refuses one.
-    pub fn new(
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        one_bin: bool,
-    ) -> Result<Self, VulkanError> {
-        let passes = || {
-            let lanes = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
-            let shader = spirv::Sort {
-                lanes,
-                instanced: scene.is_instanced(),
-                unsure: layout.is_unsure(lanes),
-            };
-            Ok::<_, VulkanError>(Passes {
-                pipeline: layout.compute(&shader, layout.subgroup())?,
-                arguments: Arguments::new(layout, After::Records)?,
-            })
-        };
-        Ok(Self {
-            before: Arguments::new(layout, After::Sample)?,
-            passes: (!one_bin).then(passes).transpose()?,
-        })
+/// Counting sort of a round's visibility samples. With a single bin, the pass only computes the sizes of dispatches over the
+/// samples.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    scene: &dyn Content,
+    one_bin: bool,
+) -> Result<Pass, VulkanError> {
+    let pass = Pass::named(spirv::Sort::INTERFACE)
+        .clear(frame_set::BINS)
+        .dispatch(arguments::dispatch(layout, After::Sample)?);
+    if one_bin {
+        return Ok(pass);
     }
-
-    /// Records the pass.
-    pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, arguments: &Buffer) {
-        recorder.pass(spirv::Sort::INTERFACE, || {
-            recorder.clear(bins);
-            self.before.record(recorder);
-            if let Some(passes) = &self.passes {
-                let run = |scatter| {
-                    recorder.push(&passes.pipeline, &spirv::SortPush { scatter });
-                    recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
-                };
-                run(0);
-                passes.arguments.record(recorder);
-                run(1);
-            }
-        });
-    }
+    let lanes = layout.gpu.limits().subgroup_size.min(WORKGROUP);
+    let sort = layout.kernel(&spirv::Sort {
+        lanes,
+        instanced: scene.is_instanced(),
+        unsure: layout.is_unsure(lanes),
+    })?;
+    Ok(pass
+        .dispatch(sort.dispatch(spirv::SortPush { scatter: 0 }, Argument::Sort))
+        .dispatch(arguments::dispatch(layout, After::Records)?)
+        .dispatch(sort.dispatch(spirv::SortPush { scatter: 1 }, Argument::Sort)))
 }

@@ -125,6 +125,8 @@ impl Default for Adopt {
 }
 
 impl Specialized for Adopt {
+    type Push = AdoptPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "adopt",
         in_frame: false,
@@ -136,6 +138,7 @@ impl Specialized for Adopt {
         ],
         push_bytes: 24,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -174,6 +177,8 @@ pub mod alpha_map_set {
 pub struct AlphaMap;
 
 impl Specialized for AlphaMap {
+    type Push = AlphaMapPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "alpha_map",
         in_frame: false,
@@ -183,6 +188,7 @@ impl Specialized for AlphaMap {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -253,6 +259,8 @@ pub struct ArgumentsPush {
 pub struct Arguments;
 
 impl Specialized for Arguments {
+    type Push = ArgumentsPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "arguments",
         in_frame: true,
@@ -264,6 +272,7 @@ impl Specialized for Arguments {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(1),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -296,6 +305,8 @@ impl Default for Attributes {
 }
 
 impl Specialized for Attributes {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "attributes",
         in_frame: true,
@@ -313,6 +324,7 @@ impl Specialized for Attributes {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -351,6 +363,8 @@ impl Default for Bin {
 }
 
 impl Specialized for Bin {
+    type Push = BinPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "bin",
         in_frame: true,
@@ -368,6 +382,7 @@ impl Specialized for Bin {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -394,6 +409,8 @@ pub struct BoxFilterPush {
 pub struct BoxFilter;
 
 impl Specialized for BoxFilter {
+    type Push = BoxFilterPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "box_filter",
         in_frame: true,
@@ -404,6 +421,7 @@ impl Specialized for BoxFilter {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -444,6 +462,8 @@ impl Default for Centres {
 }
 
 impl Specialized for Centres {
+    type Push = CentresPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "centres",
         in_frame: true,
@@ -458,6 +478,7 @@ impl Specialized for Centres {
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -491,6 +512,8 @@ impl Default for Composite {
 }
 
 impl Specialized for Composite {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "composite",
         in_frame: true,
@@ -503,6 +526,7 @@ impl Specialized for Composite {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -553,6 +577,8 @@ impl Default for Coordinates {
 }
 
 impl Specialized for Coordinates {
+    type Push = CoordinatesPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "coordinates",
         in_frame: false,
@@ -563,6 +589,7 @@ impl Specialized for Coordinates {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -614,6 +641,8 @@ impl Default for Crossings {
 }
 
 impl Specialized for Crossings {
+    type Push = CrossingsPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "crossings",
         in_frame: true,
@@ -633,6 +662,7 @@ impl Specialized for Crossings {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -666,6 +696,8 @@ impl Default for Cull {
 }
 
 impl Specialized for Cull {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "cull",
         in_frame: true,
@@ -681,6 +713,7 @@ impl Specialized for Cull {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -721,6 +754,8 @@ impl Default for Detect {
 }
 
 impl Specialized for Detect {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "detect",
         in_frame: true,
@@ -737,6 +772,7 @@ impl Specialized for Detect {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -794,6 +830,8 @@ impl Default for Distribute {
 }
 
 impl Specialized for Distribute {
+    type Push = DistributePush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "distribute",
         in_frame: false,
@@ -811,6 +849,7 @@ impl Specialized for Distribute {
         ],
         push_bytes: 24,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -841,6 +880,8 @@ impl Default for Encode {
 }
 
 impl Specialized for Encode {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "encode",
         in_frame: true,
@@ -851,6 +892,7 @@ impl Specialized for Encode {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -902,6 +944,8 @@ impl Default for Enlist {
 }
 
 impl Specialized for Enlist {
+    type Push = EnlistPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "enlist",
         in_frame: true,
@@ -915,6 +959,7 @@ impl Specialized for Enlist {
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -996,6 +1041,8 @@ impl Default for Groups {
 }
 
 impl Specialized for Groups {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "groups",
         in_frame: true,
@@ -1008,6 +1055,7 @@ impl Specialized for Groups {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1040,6 +1088,8 @@ impl Default for Grow {
 }
 
 impl Specialized for Grow {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "grow",
         in_frame: true,
@@ -1051,6 +1101,7 @@ impl Specialized for Grow {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1080,6 +1131,8 @@ impl Default for Multisample {
 }
 
 impl Specialized for Multisample {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "multisample",
         in_frame: true,
@@ -1096,6 +1149,7 @@ impl Specialized for Multisample {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1127,6 +1181,8 @@ impl Default for Neighbours {
 }
 
 impl Specialized for Neighbours {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "neighbours",
         in_frame: true,
@@ -1139,6 +1195,7 @@ impl Specialized for Neighbours {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1173,6 +1230,8 @@ impl Default for PatchFragment {
 }
 
 impl Specialized for PatchFragment {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "patch_fragment",
         in_frame: true,
@@ -1184,6 +1243,7 @@ impl Specialized for PatchFragment {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1205,6 +1265,8 @@ impl Compiled for PatchFragment {
 pub struct PatchVertex;
 
 impl Specialized for PatchVertex {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "patch_vertex",
         in_frame: false,
@@ -1212,6 +1274,7 @@ impl Specialized for PatchVertex {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1252,6 +1315,8 @@ impl Default for Points {
 }
 
 impl Specialized for Points {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "points",
         in_frame: true,
@@ -1272,6 +1337,7 @@ impl Specialized for Points {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1314,6 +1380,8 @@ pub struct PosePush {
 pub struct Pose;
 
 impl Specialized for Pose {
+    type Push = PosePush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "pose",
         in_frame: true,
@@ -1328,6 +1396,7 @@ impl Specialized for Pose {
         ],
         push_bytes: 44,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1365,6 +1434,8 @@ pub mod prefilter_set {
 pub struct Prefilter;
 
 impl Specialized for Prefilter {
+    type Push = PrefilterPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "prefilter",
         in_frame: false,
@@ -1374,6 +1445,7 @@ impl Specialized for Prefilter {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1402,6 +1474,8 @@ impl Default for RasterFragment {
 }
 
 impl Specialized for RasterFragment {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "raster_fragment",
         in_frame: true,
@@ -1418,6 +1492,7 @@ impl Specialized for RasterFragment {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1439,6 +1514,8 @@ pub struct RasterVertexPush {
 pub struct RasterVertex;
 
 impl Specialized for RasterVertex {
+    type Push = RasterVertexPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "raster_vertex",
         in_frame: true,
@@ -1449,6 +1526,7 @@ impl Specialized for RasterVertex {
         ],
         push_bytes: 80,
         invocations: Invocations::Drawn,
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1509,6 +1587,8 @@ impl Default for Receivers {
 }
 
 impl Specialized for Receivers {
+    type Push = ReceiversPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "receivers",
         in_frame: true,
@@ -1528,6 +1608,7 @@ impl Specialized for Receivers {
         ],
         push_bytes: 124,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1593,6 +1674,8 @@ impl Default for Resolve {
 }
 
 impl Specialized for Resolve {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "resolve",
         in_frame: true,
@@ -1616,6 +1699,7 @@ impl Specialized for Resolve {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -1679,6 +1763,8 @@ impl Default for Sample {
 }
 
 impl Specialized for Sample {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "sample",
         in_frame: true,
@@ -1710,6 +1796,7 @@ impl Specialized for Sample {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -1769,6 +1856,8 @@ impl Default for SampleLines {
 }
 
 impl Specialized for SampleLines {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "sample_lines",
         in_frame: true,
@@ -1798,6 +1887,7 @@ impl Specialized for SampleLines {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -1865,6 +1955,8 @@ impl Default for SampleMasks {
 }
 
 impl Specialized for SampleMasks {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "sample_masks",
         in_frame: true,
@@ -1893,6 +1985,7 @@ impl Specialized for SampleMasks {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -1944,6 +2037,8 @@ impl Default for Scatter {
 }
 
 impl Specialized for Scatter {
+    type Push = ScatterPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "scatter",
         in_frame: true,
@@ -1972,6 +2067,7 @@ impl Specialized for Scatter {
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2017,6 +2113,8 @@ impl Default for Schedule {
 }
 
 impl Specialized for Schedule {
+    type Push = SchedulePush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "schedule",
         in_frame: true,
@@ -2030,6 +2128,7 @@ impl Specialized for Schedule {
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -2063,6 +2162,8 @@ impl Default for Setup {
 }
 
 impl Specialized for Setup {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "setup",
         in_frame: true,
@@ -2079,6 +2180,7 @@ impl Specialized for Setup {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2226,6 +2328,8 @@ impl Default for Shade {
 }
 
 impl Specialized for Shade {
+    type Push = ShadePush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "shade",
         in_frame: true,
@@ -2256,6 +2360,7 @@ impl Specialized for Shade {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2351,6 +2456,8 @@ impl Default for Shadow {
 }
 
 impl Specialized for Shadow {
+    type Push = ShadowPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "shadow",
         in_frame: true,
@@ -2365,6 +2472,7 @@ impl Specialized for Shadow {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2405,6 +2513,8 @@ impl Default for Sort {
 }
 
 impl Specialized for Sort {
+    type Push = SortPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "sort",
         in_frame: true,
@@ -2420,6 +2530,7 @@ impl Specialized for Sort {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -2460,6 +2571,8 @@ impl Default for Spans {
 }
 
 impl Specialized for Spans {
+    type Push = SpansPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "spans",
         in_frame: true,
@@ -2475,6 +2588,7 @@ impl Specialized for Spans {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -2509,6 +2623,8 @@ pub struct StrokePush {
 pub struct Stroke;
 
 impl Specialized for Stroke {
+    type Push = StrokePush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "stroke",
         in_frame: true,
@@ -2521,6 +2637,7 @@ impl Specialized for Stroke {
         ],
         push_bytes: 48,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2560,6 +2677,8 @@ impl Default for Take {
 }
 
 impl Specialized for Take {
+    type Push = ();
+
     const INTERFACE: &'static Interface = &Interface {
         name: "take",
         in_frame: true,
@@ -2571,6 +2690,7 @@ impl Specialized for Take {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2613,6 +2733,8 @@ impl Default for Tally {
 }
 
 impl Specialized for Tally {
+    type Push = TallyPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "tally",
         in_frame: true,
@@ -2625,6 +2747,7 @@ impl Specialized for Tally {
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
@@ -2671,6 +2794,8 @@ impl Default for Thin {
 }
 
 impl Specialized for Thin {
+    type Push = ThinPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "thin",
         in_frame: true,
@@ -2689,6 +2814,7 @@ impl Specialized for Thin {
         ],
         push_bytes: 12,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2733,6 +2859,8 @@ impl Default for Transform {
 }
 
 impl Specialized for Transform {
+    type Push = TransformPush;
+
     const INTERFACE: &'static Interface = &Interface {
         name: "transform",
         in_frame: false,
@@ -2744,6 +2872,7 @@ impl Specialized for Transform {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
+        needs_subgroup_size: false,
     };
 
     fn constants(&self) -> Constants {

@@ -2,37 +2,26 @@
 
 use super::spirv;
 use crate::engine::data::{Argument, Cells};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Adds up the needs of the tiles of each stretch.
-pub(super) struct Tally {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Tally {
-    /// Makes the pipeline for tiles of these cells.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, cells: Cells) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().lanes;
-        let shader = spirv::Tally {
-            local_size: lanes,
-            lanes,
-            locations: cells.are_locations(),
-            points: cells.are_points(),
-            unsure: layout.is_unsure(lanes),
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, layout.subgroup())?,
-        })
-    }
-
-    /// Records the pass, over all stretches.
-    pub fn record(&self, recorder: &Recorder<'_>, pushed: &spirv::TallyPush, arguments: &Buffer) {
-        recorder.push(&self.pipeline, pushed);
-        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Tally as u32);
-    }
+/// Adds up the needs of the tiles of each stretch, over all stretches. `load` are the push constants of
+/// `shaders/include/load.glsl`.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    cells: Cells,
+    load: spirv::TallyPush,
+) -> Result<Pass, VulkanError> {
+    let lanes = layout.gpu.limits().lanes;
+    let tally = layout.kernel(&spirv::Tally {
+        local_size: lanes,
+        lanes,
+        locations: cells.are_locations(),
+        points: cells.are_points(),
+        unsure: layout.is_unsure(lanes),
+    })?;
+    Ok(Pass::named(spirv::Tally::INTERFACE).dispatch(tally.dispatch(load, Argument::Tally)))
 }

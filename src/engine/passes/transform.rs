@@ -2,62 +2,48 @@
 
 use super::spirv::{self, transform_set};
 use crate::engine::data::Draws;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
-use std::sync::Arc;
 
 /// Push constants: the range of positions, the number of draws, and the first word and stride, in words of 4 bytes, of
 /// a vertex attribute in the host's buffer.
 pub(crate) use spirv::TransformPush as VertexCounts;
 
-/// Kernel that reads vertices, and multiplies them by the matrices of their draws.
-pub(crate) struct Transform {
-    pipeline: Arc<Pipeline>,
+/// Makes the kernel. If the draws have matrices, a position has three floats in object space; otherwise, four
+/// floats in clip space.
+///
+/// # Errors
+/// If the driver refuses it.
+pub(crate) fn kernel(
+    layout: &FrameLayout,
+    draws: &Draws,
+) -> Result<Kernel<spirv::Transform>, VulkanError> {
+    let object = draws.matrices.is_some();
+    layout.kernel(&spirv::Transform { object })
 }
 
-impl Transform {
-    /// Makes the pipeline. If the draws have matrices, a position has three floats in object space; otherwise, four
-    /// floats in clip space.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, draws: &Draws) -> Result<Self, VulkanError> {
-        let object = draws.matrices.is_some();
-        Ok(Self {
-            pipeline: layout.compute(&spirv::Transform { object }, None)?,
-        })
-    }
-
-    /// Makes a set with the draws, the host's vertices, the matrices and the positions.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    ///
-    /// # Safety
-    /// The host's buffer outlives the use of the set.
-    pub unsafe fn set(
-        layout: &FrameLayout,
-        draws: &Draws,
-        vertices: vk::DescriptorBufferInfo,
-        positions: &Buffer,
-    ) -> Result<DescriptorSets, VulkanError> {
-        // Without matrices, the shader does not read this binding.
-        let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
-        let buffers = [
-            (transform_set::DRAWS, (&draws.table).into()),
-            (transform_set::VERTICES, vertices.into()),
-            (transform_set::MATRICES, matrices.into()),
-            (transform_set::POSITIONS_OUT, positions.into()),
-        ];
-        // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
-        unsafe { layout.own_set(spirv::Transform::INTERFACE, &buffers) }
-    }
-
-    /// Records the pass, if there are draws.
-    pub fn record(&self, recorder: &Recorder<'_>, set: &DescriptorSets, counts: VertexCounts) {
-        recorder.show(set);
-        recorder.push(&self.pipeline, &counts);
-        recorder.dispatch_each(&self.pipeline, counts.position_count.into());
-    }
+/// Makes a set with the draws, the host's vertices, the matrices and the positions.
+///
+/// # Errors
+/// If the driver refuses it.
+///
+/// # Safety
+/// The host's buffer outlives the use of the set.
+pub(crate) unsafe fn set(
+    layout: &FrameLayout,
+    draws: &Draws,
+    vertices: vk::DescriptorBufferInfo,
+    positions: &Buffer,
+) -> Result<DescriptorSets, VulkanError> {
+    // Without matrices, the shader does not read this binding.
+    let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
+    let buffers = [
+        (transform_set::DRAWS, (&draws.table).into()),
+        (transform_set::VERTICES, vertices.into()),
+        (transform_set::MATRICES, matrices.into()),
+        (transform_set::POSITIONS_OUT, positions.into()),
+    ];
+    // SAFETY: the caller guarantees the host's buffer; the others live as long as the frame.
+    unsafe { layout.own_set(spirv::Transform::INTERFACE, &buffers) }
 }

@@ -1,5 +1,6 @@
 //! Layouts of all passes, and a cache of pipelines.
 
+use super::Kernel;
 use super::cache::Pipelines;
 use crate::engine::passes::spirv::INTERFACES;
 use crate::vulkan::{
@@ -95,11 +96,6 @@ impl FrameLayout {
         Ok(own)
     }
 
-    /// Subgroup size of kernels that depend on it.
-    pub(crate) fn subgroup(&self) -> Option<u32> {
-        Some(self.gpu.limits().subgroup_size)
-    }
-
     /// Whether kernels that use `lanes` invocations of a subgroup have to check the subgroup size: the constant
     /// `UNSURE` of `shaders/include/lanes.glsl`.
     pub(crate) fn is_unsure(&self, lanes: u32) -> bool {
@@ -107,28 +103,39 @@ impl FrameLayout {
         !(limits.can_require_subgroup_size && lanes == limits.subgroup_size)
     }
 
-    /// Pipeline of a compute shader of the crate; `subgroup` fixes the size of its subgroups.
-    pub(crate) fn compute<S: Compiled>(
-        &self,
-        shader: &S,
-        subgroup: Option<u32>,
-    ) -> Result<Arc<Pipeline>, VulkanError> {
-        self.compute_variant(S::code(), shader, subgroup)
+    /// Kernel of a compute shader of the crate.
+    ///
+    /// # Errors
+    /// If the driver refuses the pipeline.
+    pub(crate) fn kernel<S: Compiled>(&self, shader: &S) -> Result<Kernel<S>, VulkanError> {
+        self.kernel_variant(S::code(), shader)
     }
 
-    /// Pipeline of a variant of a compute shader of the crate; `subgroup` fixes the size of its subgroups.
-    pub(crate) fn compute_variant<S: Specialized>(
+    /// Kernel of a variant of a compute shader of the crate.
+    ///
+    /// # Errors
+    /// If the driver refuses the pipeline.
+    pub(crate) fn kernel_variant<S: Specialized>(
         &self,
         code: &'static [u8],
         shader: &S,
-        subgroup: Option<u32>,
-    ) -> Result<Arc<Pipeline>, VulkanError> {
+    ) -> Result<Kernel<S>, VulkanError> {
         let constants = &shader.constants();
+        let subgroup = if S::INTERFACE.needs_subgroup_size {
+            Some(self.gpu.limits().subgroup_size)
+        } else {
+            None
+        };
         let made = || {
             let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
             compute_pipeline(layout, shader, constants, subgroup)
         };
-        self.cached(code, constants, subgroup.unwrap_or(0), made)
+        Ok(Kernel::new(self.cached(
+            code,
+            constants,
+            subgroup.unwrap_or(0),
+            made,
+        )?))
     }
 
     /// Pipeline for a shader, constants and variant, from the cache or made by `make`.

@@ -1,8 +1,9 @@
 //! Cells that are locations of a list.
 
-use super::{Finish, Sampler, SamplerContext, Source, with_probes};
+use super::{Sampler, SamplerContext, Source, with_probes};
 use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
-use crate::engine::passes::{Distribute, Points, Resolve, ResolveTarget};
+use crate::engine::passes::resolve::{self, ResolveTarget};
+use crate::engine::passes::{Distribute, composite, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
     Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
@@ -148,22 +149,18 @@ impl ListCells {
                 unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
             Ok(Source::List(distribute))
         };
-        Sampler::new(context, &options, source, |sample| {
+        Sampler::new(context, &options, source, |blocks| {
             let of_points = (self.attributes, self.shadow_words);
-            let blend = scene.has_blend();
             Ok(match self.cells {
-                Cells::Occluders => None,
-                Cells::Points => Some(Finish::Points(Points::new(
-                    layout, scene, output, of_points,
-                )?)),
-                Cells::Superpixels | Cells::Pixels => Some(Finish::Resolve(Resolve::new(
-                    layout,
-                    sample,
-                    blend,
-                    ResolveTarget::Nothing,
-                    output,
-                    None,
-                )?)),
+                Cells::Occluders => Vec::new(),
+                Cells::Points => vec![points::pass(layout, scene, output, of_points)?],
+                Cells::Superpixels | Cells::Pixels => {
+                    let composite = || composite::pass(layout, output);
+                    let composite = scene.has_blend().then(composite).transpose()?;
+                    let target = ResolveTarget::Nothing;
+                    let resolve = resolve::pass(layout, blocks, target, output, None)?;
+                    composite.into_iter().chain([resolve]).collect()
+                }
             })
         })
     }

@@ -1,6 +1,6 @@
 //! Sampler: finds the colours of cells, in rounds.
 //!
-//! Cells come from one of three sources: the pixels of an image that [`Detect`] marks ([`PixelCells`]), a list of the
+//! Cells come from one of three sources: the pixels of an image that `detect` marks ([`PixelCells`]), a list of the
 //! caller's sample locations, or a list of places that a light may reach (both [`ListCells`]). The sampler treats all
 //! cells alike: it finds the triangles that may be visible in a tile, chooses the tiles of each round, and turns
 //! visibility samples into results.
@@ -13,6 +13,7 @@ mod error;
 pub(crate) mod footprint;
 pub(crate) mod image_state;
 mod list_cells;
+mod load;
 mod method;
 mod pixel_cells;
 pub(crate) mod plan;
@@ -25,6 +26,7 @@ pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
+pub use load::Load;
 pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions};
 pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
@@ -34,11 +36,12 @@ pub use statistics::{PassTime, Statistics, TriangleCounts};
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, FrameUniform, ResourceSizes, Resources, SampleSet,
 };
+use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::{
-    Bin, Cull, CullFilter, Detect, Distribute, Groups, Grow, ListLength, ListRegion, Points,
-    RecordRate, Resolve, Sample, SampleOptions, Schedule, Setup, Sort, Thin,
+    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, cull, groups,
+    sample, schedule, setup, sort, tally,
 };
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
 use crate::vulkan::{Memory, Recorder, VulkanError};
 use plan::Capacity;
@@ -53,7 +56,7 @@ pub(crate) trait RecordShading {
     /// written to its place in the buffer of shaded records.
     fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
 
-    /// Records marking of pixels that show more than their centres, in addition to the marks of [`Thin`].
+    /// Records marking of pixels that show more than their centres, in addition to the marks of `thin`.
     fn record_marks(&self, _recorder: &Recorder<'_>) {}
 
     /// Records passes that read a round's visibility samples after they were shaded.
@@ -108,40 +111,32 @@ impl SamplerContext<'_> {
 /// keys, but no materials.
 pub(crate) struct Sampler {
     source: Source,
-    cull: Cull,
-    bin: Bin,
-    schedule: Schedule,
-    /// Pass that groups the cells of a list; `None` for pixels.
-    groups: Option<Groups>,
-    setup: Setup,
-    sample: Sample,
+    /// Passes that find the triangles which may be visible in a tile, and the needs of the tiles.
+    candidates: [Pass; 3],
+    /// Passes of a round up to the visibility samples.
+    visibility: Vec<Pass>,
     /// Pass that sorts visibility samples; `None` if only their triangles are needed, not their colours.
-    sort: Option<Sort>,
-    /// Pass that makes colours; `None` if no colours are needed.
-    finish: Option<Finish>,
+    sort: Option<Pass>,
+    /// Passes of a round that turn shaded visibility samples into colours; none if no colours are needed.
+    colors: Vec<Pass>,
+    options: SampleOptions,
     capacity: Capacity,
     /// Numbers of recorded rounds: for the cells that are found first, and for each growth.
     rounds: [u32; 2],
     counters: CounterLog,
-    /// Largest numbers of triangles for [`Cull`], and of pairs for [`Bin`].
+    /// Largest numbers of triangles for `cull`, and of pairs for `bin`.
     capacities: [u32; 2],
 }
 
 /// Passes that find the cells.
 enum Source {
     Pixels {
-        thin: Option<Thin>,
-        detect: Detect,
+        thin: Option<Pass>,
+        detect: Pass,
         /// Growth passes, in the order in which they run.
-        growths: Vec<Grow>,
+        growths: Vec<Pass>,
     },
     List(Distribute),
-}
-
-/// Pass that turns shaded visibility samples into colours.
-enum Finish {
-    Points(Points),
-    Resolve(Resolve),
 }
 
 /// Run of a sampler over a region of an image or over a list. Before the run, [`Resources::record_begin`] was recorded
@@ -158,11 +153,12 @@ pub(crate) struct SamplerRun<'a> {
 }
 
 impl Sampler {
+    /// Makes the passes; those of `colors` turn visibility samples in these blocks into colours.
     fn new(
         context: &SamplerContext<'_>,
         options: &SampleOptions,
         source: impl FnOnce() -> Result<Source, EngineError>,
-        finish: impl FnOnce(&Sample) -> Result<Option<Finish>, EngineError>,
+        colors: impl FnOnce(&SampleBlocks) -> Result<Vec<Pass>, EngineError>,
     ) -> Result<Self, EngineError> {
         let SamplerContext {
             layout,
@@ -171,42 +167,47 @@ impl Sampler {
             capacity,
             ..
         } = *context;
-        let is_shaded = options.cells != Cells::Occluders || scene.has_blend();
-        let sort = || Sort::new(layout, scene, scene.bin_count() == 1);
+        let cells = options.cells;
+        let limits = layout.gpu.limits();
+        let blocks = SampleBlocks::new(limits.lanes, *options);
+        let load = Load::new(limits, blocks, capacity.layers);
         // Drivers take longest to compile the kernels of `sample`, so these have their own thread.
         let (sample, others) = std::thread::scope(|scope| {
-            let sample = scope.spawn(|| Sample::new(layout, scene, options));
+            let sample = scope.spawn(|| sample::pass(layout, scene, &blocks));
             let others = (|| {
-                Ok::<_, EngineError>((
-                    source()?,
-                    Cull::new(layout, scene, CullFilter::Touching)?,
-                    Bin::new(layout, scene)?,
-                    Setup::new(layout, scene)?,
-                    is_shaded.then(sort).transpose()?,
-                ))
+                let candidates = [
+                    cull::pass(layout, scene, CullFilter::Touching)?,
+                    bin::pass(layout, scene)?,
+                    tally::pass(layout, cells, load.pushed())?,
+                ];
+                let mut visibility = vec![schedule::pass(layout, cells, load.pushed())?];
+                if cells.are_locations() {
+                    visibility.push(groups::pass(layout, &blocks)?);
+                }
+                visibility.push(setup::pass(layout, scene)?);
+                let is_shaded = cells != Cells::Occluders || scene.has_blend();
+                let sort = || sort::pass(layout, scene, scene.bin_count() == 1);
+                let sort = is_shaded.then(sort).transpose()?;
+                Ok::<_, EngineError>((source()?, candidates, visibility, sort, colors(&blocks)?))
             })();
             let sample = sample.join();
             let sample = sample.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             (sample, others)
         });
-        let (sample, (source, cull, bin, setup, sort)) = (sample?, others?);
-        let schedule = Schedule::new(layout, &sample, capacity.layers)?;
-        let groups = || Groups::new(layout, &sample);
+        let (source, candidates, mut visibility, sort, colors) = others?;
+        visibility.push(sample?);
         let runs = context.runs * (1 + source.growths().len());
         Ok(Self {
-            cull,
-            bin,
-            groups: matches!(source, Source::List(_)).then(groups).transpose()?,
-            setup,
+            candidates,
+            visibility,
             sort,
-            finish: finish(&sample)?,
+            colors,
+            options: *options,
             capacity,
-            rounds: schedule.rounds(sizes, scene.index_count(), capacity.rounds),
+            rounds: load.rounds(sizes, scene.index_count(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
             capacities: [sizes.survivor_capacity, sizes.pair_capacity],
             source,
-            schedule,
-            sample,
         })
     }
 
@@ -222,7 +223,7 @@ impl Sampler {
 
     /// Number of samples of a cell; for locations that are sampled once, the number of locations in a cell.
     pub fn samples(&self) -> u32 {
-        self.sample.options().samples
+        self.options.samples
     }
 
     /// Number of times that superpixels grow.
@@ -247,11 +248,10 @@ impl Sampler {
         match &self.source {
             Source::Pixels { thin, detect, .. } => {
                 if let Some(thin) = thin {
-                    let (marks, arguments) = (&resources.marks, &resources.arguments);
-                    thin.record(recorder, marks, arguments, uniform.triangle_count);
+                    thin.record_for(recorder, uniform.triangle_count);
                     shading.record_marks(recorder);
                 }
-                detect.record(recorder, tiles);
+                detect.record_for(recorder, tiles);
             }
             Source::List(distribute) => {
                 let (count, length) = run.list;
@@ -263,7 +263,7 @@ impl Sampler {
             }
         }
         let growths = self.source.growths();
-        if !growths.is_empty() || self.sample.options().leaves_cells() {
+        if !growths.is_empty() || self.options.leaves_cells() {
             recorder.clear(&resources.marks);
         }
         let slots = 1 + growths.len();
@@ -276,7 +276,7 @@ impl Sampler {
         of_growth.alike = 0;
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
-            grow.record(recorder, tiles);
+            grow.record_for(recorder, tiles);
             self.record_rounds(recorder, resources, grown_rounds, shading);
             self.counters.record(recorder, resources, slot);
         }
@@ -289,28 +289,19 @@ impl Sampler {
         rounds: u32,
         shading: &dyn RecordShading,
     ) {
-        let arguments = &resources.arguments;
-        self.cull.record(recorder, arguments);
-        self.bin.record(recorder, arguments);
-        self.schedule.record_tally(recorder, arguments);
+        for pass in &self.candidates {
+            pass.record(recorder);
+        }
         resources.record_rounds(recorder, rounds, |recorder| {
-            self.schedule.record(recorder, arguments);
-            if let Some(groups) = &self.groups {
-                groups.record(recorder, arguments);
+            for pass in &self.visibility {
+                pass.record(recorder);
             }
-            self.setup.record(recorder, arguments);
-            self.sample.record(recorder, arguments);
             if let Some(sort) = &self.sort {
-                record_shading(recorder, resources, sort, shading);
+                sort.record(recorder);
+                shading.record(recorder, resources);
             }
-            match &self.finish {
-                Some(Finish::Points(points)) => {
-                    points.record(recorder, arguments);
-                }
-                Some(Finish::Resolve(resolve)) => {
-                    resolve.record(recorder, arguments);
-                }
-                None => {}
+            for pass in &self.colors {
+                pass.record(recorder);
             }
             shading.record_round_end(recorder);
         });
@@ -375,7 +366,7 @@ impl Sampler {
 }
 
 impl Source {
-    fn growths(&self) -> &[Grow] {
+    fn growths(&self) -> &[Pass] {
         match self {
             Self::Pixels { growths, .. } => growths,
             Self::List(_) => &[],
@@ -385,7 +376,7 @@ impl Source {
 
 /// Offsets of a cell's samples, followed by the offsets of the first few samples that decide whether all are needed.
 pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, EngineError> {
-    offsets.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+    offsets.extend(Pattern::Sobol.offsets(sample::PROBES)?);
     Ok(offsets)
 }
 
@@ -396,16 +387,4 @@ pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRat
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,
     }
-}
-
-/// Records sorting and shading of a round's visibility samples.
-pub(crate) fn record_shading(
-    recorder: &Recorder<'_>,
-    resources: &Resources,
-    sort: &Sort,
-    shading: &dyn RecordShading,
-) {
-    let arguments = &resources.arguments;
-    sort.record(recorder, &resources.bins, arguments);
-    shading.record(recorder, resources);
 }

@@ -1,10 +1,10 @@
 //! Cells that are pixels of an image.
 
-use super::{Finish, Sampler, SamplerContext, Source};
-use crate::engine::data::Cells;
-use crate::engine::passes::{
-    Detect, DetectMode, DetectOptions, Grow, HostImage, Resolve, ResolveTarget, SampleOptions, Thin,
-};
+use super::{Sampler, SamplerContext, Source};
+use crate::engine::data::{Cells, HostImage};
+use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
+use crate::engine::passes::resolve::{self, ResolveTarget};
+use crate::engine::passes::{SampleOptions, composite, grow, thin};
 use crate::engine::sampler::{Detection, EngineError, Settings};
 use std::sync::Arc;
 
@@ -89,13 +89,13 @@ impl PixelCells {
                 },
                 beyond: self.growths,
             };
-            let thin = || Thin::new(layout, scene, blend_ids, self.depth_of_image);
+            let thin = || thin::pass(layout, scene, blend_ids, self.depth_of_image);
             Ok(Source::Pixels {
                 thin: self.thin.then(thin).transpose()?,
-                detect: Detect::new(layout, &options)?,
+                detect: detect::pass(layout, &options)?,
                 growths: (0..self.growths)
                     .rev()
-                    .map(|beyond| Grow::new(layout, beyond))
+                    .map(|beyond| grow::pass(layout, beyond))
                     .collect::<Result<_, _>>()?,
             })
         };
@@ -104,16 +104,12 @@ impl PixelCells {
             (false, true) => ResolveTarget::Detect,
             (false, false) => ResolveTarget::Nothing,
         };
-        Sampler::new(context, &options, source, |sample| {
-            let resolve = Resolve::new(
-                layout,
-                sample,
-                scene.has_blend(),
-                target,
-                context.output,
-                self.behind.as_ref(),
-            )?;
-            Ok(Some(Finish::Resolve(resolve)))
+        Sampler::new(context, &options, source, |blocks| {
+            let (output, behind) = (context.output, self.behind.as_ref());
+            let composite = || composite::pass(layout, output);
+            let composite = scene.has_blend().then(composite).transpose()?;
+            let resolve = resolve::pass(layout, blocks, target, output, behind)?;
+            Ok(composite.into_iter().chain([resolve]).collect())
         })
     }
 }

@@ -4,7 +4,9 @@ use super::barriers::{Accesses, Barriers, Ordered};
 use super::conditions::{Change, Conditions};
 use super::descriptor_set::ShownSets;
 use super::trace::Dispatched;
-use super::{Access, Buffer, DescriptorSets, Gpu, Image, Interface, Pipeline, VulkanError};
+use super::{
+    Access, Binding, Buffer, DescriptorSets, Gpu, Image, Interface, Pipeline, VulkanError,
+};
 use ash::vk;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -268,11 +270,11 @@ impl<'a> Recorder<'a> {
     }
 
     /// Dispatches the number of workgroups in vector `index` of `arguments`.
-    pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+    pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: vk::Buffer, index: u32) {
         let size = Dispatched::Indirect(index);
-        self.run(pipeline, size, Some(arguments.raw), |device, raw| {
+        self.run(pipeline, size, Some(arguments), |device, raw| {
             // SAFETY: `new`'s contract; the vector lies in the buffer, which was created for indirect use.
-            unsafe { device.cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16) };
+            unsafe { device.cmd_dispatch_indirect(raw, arguments, u64::from(index) * 16) };
         });
     }
 
@@ -338,9 +340,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sets the push constants of a pipeline.
-    pub fn push(&self, pipeline: &Pipeline, pushed: &impl bytemuck::NoUninit) {
-        let (layout, bytes) = (&pipeline.layout, bytemuck::bytes_of(pushed));
+    /// Sets the push constants of a pipeline, if there are any.
+    pub fn push(&self, pipeline: &Pipeline, bytes: &[u8]) {
+        let layout = &pipeline.layout;
+        if bytes.is_empty() {
+            return;
+        }
         debug_assert!(bytes.len() <= layout.push.size as usize);
         // SAFETY: `new`'s contract; the layout has room for the push constants of its pass.
         unsafe {
@@ -381,7 +386,7 @@ impl<'a> Recorder<'a> {
     pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
         /// Largest number of bytes of an inline update.
         const AT_ONCE: usize = 65_536;
-        let raw = self.writing(buffer);
+        let raw = self.writing(buffer.raw);
         for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
             let offset = first_byte + chunk * AT_ONCE as u64;
             // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its
@@ -394,6 +399,21 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Buffer that the frame's sets show at a binding. The sets were named before.
+    pub(crate) fn shown(&self, binding: Binding) -> vk::Buffer {
+        let [of_frame, _] = &*self.shown.borrow();
+        let buffer = of_frame
+            .as_ref()
+            .and_then(|sets| sets.buffer(binding.number));
+        debug_assert!(buffer.is_some(), "no set shows {}", binding.name);
+        buffer.unwrap_or_default()
+    }
+
+    /// Fills the buffer that the frame's sets show at a binding with zeros.
+    pub(crate) fn clear_shown(&self, binding: Binding) {
+        self.fill_raw(self.shown(binding), vk::WHOLE_SIZE, 0);
+    }
+
     /// Fills a buffer with zeros.
     pub fn clear(&self, buffer: &Buffer) {
         self.fill(buffer, vk::WHOLE_SIZE, 0);
@@ -401,19 +421,19 @@ impl<'a> Recorder<'a> {
 
     /// Fills the first `bytes` bytes of a buffer with a word.
     pub fn fill(&self, buffer: &Buffer, bytes: u64, word: u32) {
+        self.fill_raw(buffer.raw, bytes, word);
+    }
+
+    fn fill_raw(&self, buffer: vk::Buffer, bytes: u64, word: u32) {
         let raw = self.writing(buffer);
         // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its size.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_fill_buffer(raw, buffer.raw, 0, bytes, word)
-        };
+        unsafe { self.gpu.device.cmd_fill_buffer(raw, buffer, 0, bytes, word) };
     }
 
     /// Command buffer for a command that writes a buffer.
-    fn writing(&self, buffer: &Buffer) -> vk::CommandBuffer {
+    fn writing(&self, buffer: vk::Buffer) -> vk::CommandBuffer {
         let mut accesses = Accesses::default();
-        accesses.write(buffer.raw);
+        accesses.write(buffer);
         self.before(&accesses)
     }
 

@@ -78,6 +78,8 @@ pub struct Interface {
     pub push_bytes: u32,
     /// Number of invocations of a workgroup.
     pub invocations: Invocations,
+    /// Whether subgroups need the size that the device's limits name: the shader has the constant `UNSURE`.
+    pub needs_subgroup_size: bool,
 }
 
 impl Interface {
@@ -105,6 +107,9 @@ impl Interface {
 
 /// Specialisation constants of a shader.
 pub trait Specialized {
+    /// Push constants of the shader; `()` if it has none.
+    type Push: bytemuck::NoUninit;
+
     /// Interface of the shader.
     const INTERFACE: &'static Interface;
 

@@ -1,13 +1,14 @@
 //! The passes that a frame's settings need.
 
 use crate::engine::data::{Cells, Content};
-use crate::engine::passes::{DetectMode, Raster, RecordRate, Resolve, ResolveTarget, Sort};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::passes::detect::DetectMode;
+use crate::engine::passes::{Raster, RecordRate, resolve, sort};
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
 use crate::render::data::GpuScene;
-use crate::render::passes::{Attributes, BoxFilter, Encode, Encoding, Multisample, Spans};
-use crate::render::passes::{Pose, Shade, ShadeSource, Stroke};
+use crate::render::passes::{Encoding, Pose, Shade, ShadeSource, Stroke};
+use crate::render::passes::{attributes, box_filter, encode, multisample, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
 use crate::vulkan::Memory;
 use ash::vk;
@@ -15,15 +16,15 @@ use std::sync::Arc;
 
 /// Passes that shade the centres of pixels.
 pub(super) struct PixelShading {
-    pub spans: Spans,
+    pub spans: Pass,
     pub shade: Shade,
 }
 
 /// Passes that turn the device's multisampling into colours.
 pub(super) struct Multisampling {
-    pub multisample: Multisample,
-    pub sort: Sort,
-    pub resolve: Resolve,
+    pub multisample: Pass,
+    pub sort: Pass,
+    pub resolve: Pass,
 }
 
 /// The pipelines of a frame, in the order in which they run.
@@ -37,9 +38,9 @@ pub(super) struct Passes {
     pub shade: Option<Arc<Shade>>,
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
-    pub attributes: Option<Attributes>,
-    pub box_filter: Option<BoxFilter>,
-    pub encode: Option<Encode>,
+    pub attributes: Option<Pass>,
+    pub box_filter: Option<Pass>,
+    pub encode: Option<Pass>,
 }
 
 /// Number of samples a pixel with which the rasterizer draws.
@@ -74,7 +75,7 @@ impl Passes {
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
-                spans: Spans::new(layout, scene)?,
+                spans: spans::pass(layout, scene)?,
                 shade: Shade::new(layout, scene, (source, words), &output)?,
             })
         };
@@ -115,14 +116,9 @@ impl Passes {
         let superpixels = || PixelCells::superpixels(settings).sampler(&context);
         let multisampling = || -> Result<_, RenderError> {
             Ok(Multisampling {
-                multisample: Multisample::new(layout)?,
-                sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
-                resolve: Resolve::for_multisample(
-                    layout,
-                    settings.method.samples(),
-                    ResolveTarget::Nothing,
-                    &output,
-                )?,
+                multisample: multisample::pass(layout)?,
+                sort: sort::pass(layout, scene, scene.bin_count() == 1)?,
+                resolve: resolve::for_multisample(layout, settings.method.samples(), &output)?,
             })
         };
         Ok(Self {
@@ -139,14 +135,14 @@ impl Passes {
             superpixels: antialiased.then(superpixels).transpose()?,
             attributes: settings
                 .attributes
-                .then(|| Attributes::new(layout, scene, antialiased, settings.growths() > 0))
+                .then(|| attributes::pass(layout, scene, antialiased, settings.growths() > 0))
                 .transpose()?,
             box_filter: (settings.side() > 1)
-                .then(|| BoxFilter::new(layout))
+                .then(|| box_filter::pass(layout, settings.side()))
                 .transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
-                .map(|e| Encode::new(layout, e))
+                .map(|e| encode::pass(layout, e))
                 .transpose()?,
         })
     }

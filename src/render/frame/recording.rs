@@ -8,7 +8,7 @@ use crate::engine::data::Resources;
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
-use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, record_shading};
+use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::render::passes::{Receiving, Shade, StrokeSizes};
@@ -48,12 +48,12 @@ pub(in crate::render) struct SceneShading<'a> {
 }
 
 impl RecordShading for SceneShading<'_> {
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some((shadows, shadowed)) = self.shadows {
             shadows.record(recorder, shadowed, Receiving::Records);
         }
         if let Some(shade) = self.shade {
-            shade.record(recorder, self.scene, &resources.arguments);
+            shade.record(recorder, self.scene);
         }
     }
 
@@ -161,11 +161,11 @@ impl Recording<'_> {
                 let code = display_code(background);
                 resources.record_background(recorder, pixels, background, code);
             });
-            spans.record(recorder, &resources.bins, [width, height]);
+            spans.record_for(recorder, width.div_ceil(8) * height);
             if let Some(shadows) = self.shadows {
                 shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
             }
-            shade.record(recorder, scene, &resources.arguments);
+            shade.record(recorder, scene);
         }
         if let Some(Multisampling {
             multisample,
@@ -173,9 +173,10 @@ impl Recording<'_> {
             resolve,
         }) = &passes.multisampling
         {
-            multisample.record(recorder, tiles);
-            record_shading(recorder, resources, sort, &shading);
-            resolve.record(recorder, &resources.arguments);
+            multisample.record_for(recorder, 32 * tiles);
+            sort.record(recorder);
+            shading.record(recorder, resources);
+            resolve.record(recorder);
         }
         let run = |set, uniform| SamplerRun {
             resources,
@@ -194,14 +195,14 @@ impl Recording<'_> {
             sampler.record(recorder, &run(offsets, &owned), &shading_of(offsets));
         }
         if let Some(attributes) = &passes.attributes {
-            attributes.record(recorder, filtered);
+            attributes.record_for(recorder, filtered);
         }
         if let Some(filter) = &passes.box_filter {
-            filter.record(recorder, filtered, side);
+            filter.record_for(recorder, filtered);
             resources.record_keep_filtered(recorder, filtered);
         }
         if let Some(encode) = &passes.encode {
-            encode.record(recorder, pixels);
+            encode.record_for(recorder, pixels);
         }
         recorder.section("copy", || self.deliver(recorder, region));
     }

@@ -4,8 +4,9 @@ use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
 use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
-use crate::engine::passes::{Bin, Cull, CullFilter, Distribute, ListLength};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::passes::cull::{self, CullFilter};
+use crate::engine::passes::{Distribute, ListLength, bin};
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{CounterLog, SamplerRun};
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
@@ -18,8 +19,8 @@ use std::sync::Arc;
 /// Pipelines and memory for the search in runs of locations of one scene.
 pub(super) struct CrossingFinder {
     distribute: Distribute,
-    cull: Cull,
-    bin: Bin,
+    cull: Pass,
+    bin: Pass,
     crossings: Crossings,
     seen: Buffer,
     counters: CounterLog,
@@ -57,8 +58,8 @@ impl CrossingFinder {
         Ok(Self {
             // SAFETY: the list lives as long as the resources, and has room for that many locations.
             distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
-            cull: Cull::new(layout, scene, CullFilter::Thin)?,
-            bin: Bin::new(layout, scene)?,
+            cull: cull::pass(layout, scene, CullFilter::Thin)?,
+            bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
             crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,
@@ -104,9 +105,9 @@ impl CrossingFinder {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
             resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
-            cull.record(recorder, &resources.arguments);
-            bin.record(recorder, &resources.arguments);
-            crossings.record(recorder, resources, output);
+            cull.record(recorder);
+            bin.record(recorder);
+            crossings.record(recorder, output);
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));

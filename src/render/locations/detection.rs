@@ -9,13 +9,14 @@ use super::plan::LocationPlan;
 use super::{PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
-use crate::engine::passes::{Detect, DetectMode, DetectOptions, Grow};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
+use crate::engine::passes::grow;
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
-use crate::render::passes::{LightPlane, MarkedOutput, Neighbours};
+use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
 use crate::render::{
     EngineError, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
@@ -50,10 +51,10 @@ enum Search {
 struct BandDetector {
     settings: Settings,
     cells: OutputCells,
-    detect: Detect,
-    neighbours: Neighbours,
+    detect: Pass,
+    neighbours: Pass,
     /// Passes for each growth, in the order in which they run.
-    growths: Vec<Grow>,
+    growths: Vec<Pass>,
     resources: Resources,
     masks: Buffer,
     timings: Timings,
@@ -311,11 +312,11 @@ impl BandDetector {
             shadow_words: sizes.shadow_words,
             beyond: growths,
         };
-        let grow = |beyond: u32| Grow::new(layout, beyond);
+        let grow = |beyond: u32| grow::pass(layout, beyond);
         Ok(Self {
             settings: settings.clone(),
-            detect: Detect::new(layout, &options)?,
-            neighbours: Neighbours::new(layout, &settings.color_constants(scene))?,
+            detect: detect::pass(layout, &options)?,
+            neighbours: neighbours::pass(layout, &settings.color_constants(scene))?,
             growths: (0..growths).rev().map(grow).collect::<Result<_, _>>()?,
             masks: memory.buffer(
                 "mask read-back",
@@ -443,13 +444,13 @@ impl BandDetector {
         resources.record_begin(&recorder, set, &uniform);
         match search {
             Search::Aliasing => {
-                detect.record(&recorder, tiles);
+                detect.record_for(&recorder, tiles);
                 recorder.clear(&resources.marks);
             }
             Search::Growth(growth) => {
                 cells.record_colors(&recorder, resources, band.height());
-                neighbours.record(&recorder, width * band.height());
-                growths[growth].record(&recorder, tiles);
+                neighbours.record_for(&recorder, width * band.height());
+                growths[growth].record_for(&recorder, tiles);
             }
         }
         recorder.copy(&resources.masks, 4 * u64::from(tiles), masks, 0);

@@ -2,39 +2,25 @@
 
 use crate::engine::data::Content;
 use crate::engine::passes::spirv;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::vulkan::{Specialized, VulkanError};
 
-/// Writes two vectors for each pixel: see `shaders/attributes.comp`.
-pub struct Attributes {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Attributes {
-    /// Makes the pipeline. `superpixels` says whether there are superpixels, `grown` whether [`Grow`](super::Grow) has
-    /// added some.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        superpixels: bool,
-        grown: bool,
-    ) -> Result<Self, VulkanError> {
-        let shader = spirv::Attributes {
-            superpixels,
-            grown,
-            instanced: scene.is_instanced(),
-        };
-        Ok(Self {
-            pipeline: layout.compute(&shader, None)?,
-        })
-    }
-
-    /// Records the pass for a region of `pixels` pixels.
-    pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
-        recorder.dispatch_each(&self.pipeline, u64::from(pixels));
-    }
+/// Writes two vectors for each pixel of a region: see `shaders/attributes.comp`. `superpixels` says whether there are
+/// superpixels, `grown` whether `grow` has added some.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(
+    layout: &FrameLayout,
+    scene: &dyn Content,
+    superpixels: bool,
+    grown: bool,
+) -> Result<Pass, VulkanError> {
+    let attributes = layout.kernel(&spirv::Attributes {
+        superpixels,
+        grown,
+        instanced: scene.is_instanced(),
+    })?;
+    let dispatch = attributes.dispatch((), Size::Items(1));
+    Ok(Pass::named(spirv::Attributes::INTERFACE).dispatch(dispatch))
 }

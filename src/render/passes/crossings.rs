@@ -1,11 +1,10 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
 use crate::engine::data::{Argument, Content, Resources};
-use crate::engine::passes::arguments::{After, Arguments};
+use crate::engine::passes::arguments::{self, After};
 use crate::engine::passes::spirv::{self, crossings_set};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
-use std::sync::Arc;
+use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
 
 /// Surfaces at a location, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
 #[repr(C)]
@@ -27,8 +26,8 @@ pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 
 /// Marks crossed cells for `detect`, which makes them superpixels.
 pub struct Crossings {
-    arguments: Arguments,
-    pipeline: Arc<Pipeline>,
+    sizes: Dispatch,
+    kernel: Kernel<spirv::Crossings>,
     own: DescriptorSets,
 }
 
@@ -59,21 +58,20 @@ impl Crossings {
             instanced: scene.is_instanced(),
         };
         Ok(Self {
-            arguments: Arguments::new(layout, After::Pairs)?,
-            pipeline: layout.compute(&shader, None)?,
+            sizes: arguments::dispatch(layout, After::Pairs)?,
+            kernel: layout.kernel(&shader)?,
             // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
             own: unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?,
         })
     }
 
     /// Records the pass, after `bin`.
-    pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, output: &MarkedOutput) {
+    pub fn record(&self, recorder: &Recorder<'_>, output: &MarkedOutput) {
         recorder.pass(spirv::Crossings::INTERFACE, || {
-            self.arguments.record(recorder);
+            self.sizes.record(recorder, 0);
             recorder.show(&self.own);
-            recorder.push(&self.pipeline, output);
-            let arguments = &resources.arguments;
-            recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Thin as u32);
+            self.kernel
+                .record_indirect(recorder, output, Argument::Thin);
         });
     }
 }

@@ -1,10 +1,9 @@
 //! encode: converts colours to the format of a host's image.
 
 use crate::engine::passes::spirv;
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::vulkan::{Specialized, VulkanError};
 use ash::vk;
-use std::sync::Arc;
 
 /// Formats of a host's image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +28,7 @@ impl Encoding {
         }
     }
 
-    /// Bytes of a pixel in the buffer that [`Encode`] writes; 0 where none is needed.
+    /// Bytes of a pixel in the buffer that the pass writes; 0 where none is needed.
     pub(crate) fn encoded_bytes(self) -> u64 {
         match self {
             Self::Rgba8 => 4,
@@ -39,28 +38,16 @@ impl Encoding {
     }
 }
 
-/// Converts a region's colours.
-pub struct Encode {
-    pipeline: Arc<Pipeline>,
-}
-
-impl Encode {
-    /// Makes the pipeline.
-    ///
-    /// # Errors
-    /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, encoding: Encoding) -> Result<Self, VulkanError> {
-        let format = match encoding {
-            Encoding::Rgba16Float => spirv::ENCODE_RGBA16F,
-            Encoding::Rgba8 | Encoding::Rgba32Float => spirv::ENCODE_RGBA8_SRGB,
-        };
-        Ok(Self {
-            pipeline: layout.compute(&spirv::Encode { format }, None)?,
-        })
-    }
-
-    /// Records the pass for a region of `pixels` pixels.
-    pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
-        recorder.dispatch_each(&self.pipeline, u64::from(pixels));
-    }
+/// Converts the colours of a region's pixels.
+///
+/// # Errors
+/// If the driver refuses the pipeline.
+pub(crate) fn pass(layout: &FrameLayout, encoding: Encoding) -> Result<Pass, VulkanError> {
+    let format = match encoding {
+        Encoding::Rgba16Float => spirv::ENCODE_RGBA16F,
+        Encoding::Rgba8 | Encoding::Rgba32Float => spirv::ENCODE_RGBA8_SRGB,
+    };
+    let encode = layout.kernel(&spirv::Encode { format })?;
+    let dispatch = encode.dispatch((), Size::Items(1));
+    Ok(Pass::named(spirv::Encode::INTERFACE).dispatch(dispatch))
 }

@@ -1,29 +1,24 @@
 //! Passes that pose and shade scenes of files, and passes that make images of a frame's samples. Each pass has the name
 //! of its shader in `shaders/`.
 
-mod attributes;
-mod box_filter;
+pub(crate) mod attributes;
+pub(crate) mod box_filter;
 mod crossings;
-mod encode;
-mod multisample;
-mod neighbours;
+pub(crate) mod encode;
+pub(crate) mod multisample;
+pub(crate) mod neighbours;
 mod pose;
 pub mod prefilter;
 mod receivers;
 mod shade;
 mod shadow;
-mod spans;
+pub(crate) mod spans;
 mod stroke;
 
-pub use attributes::Attributes;
-pub use box_filter::BoxFilter;
 pub use crossings::{Crossings, MarkedOutput, SeenLocation};
-pub use encode::{Encode, Encoding};
-pub use multisample::Multisample;
-pub use neighbours::Neighbours;
+pub use encode::Encoding;
 pub use pose::Pose;
 pub use receivers::{LightPlane, Receivers, Receiving};
 pub use shade::{Shade, ShadeSource};
 pub use shadow::{Shadow, ShadowTarget};
-pub use spans::Spans;
 pub use stroke::{Stroke, StrokeSizes};

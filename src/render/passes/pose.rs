@@ -1,15 +1,14 @@
 //! pose: computes vertices that move, at a moment.
 
 use crate::engine::passes::spirv;
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Moment;
-use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError};
-use std::sync::Arc;
+use crate::vulkan::{Recorder, Specialized, VulkanError};
 
 /// Applies morph targets, skins and transforms to meshes.
 pub struct Pose {
-    pipeline: Arc<Pipeline>,
+    kernel: Kernel<spirv::Pose>,
 }
 
 impl Pose {
@@ -19,7 +18,7 @@ impl Pose {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         Ok(Self {
-            pipeline: layout.compute(&spirv::Pose, None)?,
+            kernel: layout.kernel(&spirv::Pose)?,
         })
     }
 
@@ -60,8 +59,7 @@ impl Pose {
                         weight_count: at.weight_count,
                         flags,
                     };
-                    recorder.push(&self.pipeline, &push);
-                    recorder.dispatch_each(&self.pipeline, part.vertex_count.into());
+                    self.kernel.record(recorder, &push, part.vertex_count);
                 }
             });
         });

@@ -6,12 +6,11 @@
 //! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
 use crate::engine::passes::spirv::{self, prefilter_set};
-use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, DescriptorSets, Memory, Pipeline, Recorder, Specialized, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::vulkan::{Buffer, DescriptorSets, Memory, Recorder, Specialized, VulkanError};
 use ash::vk;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 /// Number of levels of the cube, for roughnesses from 0 to 1.
 const LEVELS: u32 = 6;
@@ -22,7 +21,7 @@ const DIRECTIONS: u32 = 64;
 
 /// Filters an environment.
 pub struct Prefilter {
-    pipeline: Arc<Pipeline>,
+    kernel: Kernel<spirv::Prefilter>,
     own: DescriptorSets,
     texels: Buffer,
     _rays: Buffer,
@@ -76,7 +75,7 @@ impl Prefilter {
             (prefilter_set::RAYS, (&rays).into()),
         ];
         Ok(Self {
-            pipeline: layout.compute(&spirv::Prefilter, None)?,
+            kernel: layout.kernel(&spirv::Prefilter)?,
             // SAFETY: both buffers live as long as the set.
             own: unsafe { layout.own_set(spirv::Prefilter::INTERFACE, &shown) }?,
             texels,
@@ -97,9 +96,8 @@ impl Prefilter {
         // Each cube writes its own texels, and none reads another's.
         recorder.unordered(|| {
             for cube in &self.cubes {
-                recorder.push(&self.pipeline, cube);
                 let texels = 6 * cube.side * cube.side;
-                recorder.dispatch_each(&self.pipeline, u64::from(texels));
+                self.kernel.record(recorder, cube, texels);
             }
         });
     }

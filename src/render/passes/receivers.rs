@@ -2,10 +2,9 @@
 
 use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
 use crate::engine::passes::spirv::{self, receivers_set};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::render::data::GpuScene;
-use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized, VulkanError};
-use std::sync::Arc;
+use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
 
 /// Plane of a light, as the pass takes it; `shaders/receivers.comp` describes the fields.
 pub use crate::engine::passes::spirv::ReceiversPush as LightPlane;
@@ -45,8 +44,8 @@ pub enum Receiving {
 
 /// Lists the places that receive light.
 pub struct Receivers {
-    of_pixels: Arc<Pipeline>,
-    of_records: Arc<Pipeline>,
+    of_pixels: Kernel<spirv::Receivers>,
+    of_records: Kernel<spirv::Receivers>,
     own: DescriptorSets,
 }
 
@@ -70,7 +69,7 @@ impl Receivers {
                 (&resources.shadow_words.buffer).into(),
             ),
         ];
-        let pipeline = |pixels: bool| {
+        let kernel = |pixels: bool| {
             let shader = spirv::Receivers {
                 pixels,
                 locations: cells.are_locations(),
@@ -79,11 +78,11 @@ impl Receivers {
                 shadow_words: resources.sizes().shadow_words,
                 diffuse_transmission: scene.is_backlit(),
             };
-            layout.compute(&shader, None)
+            layout.kernel(&shader)
         };
         Ok(Self {
-            of_pixels: pipeline(true)?,
-            of_records: pipeline(false)?,
+            of_pixels: kernel(true)?,
+            of_records: kernel(false)?,
             // SAFETY: both buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Receivers::INTERFACE, &shown) }?,
         })
@@ -93,22 +92,18 @@ impl Receivers {
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
-        (resources, set): (&Resources, &SampleSet),
+        set: &SampleSet,
         receiving: Receiving,
         plane: &LightPlane,
     ) {
         set.show(recorder);
         recorder.show(&self.own);
-        recorder.push(&self.of_pixels, plane);
         match receiving {
-            Receiving::Pixels(count) => {
-                recorder.dispatch_each(&self.of_pixels, u64::from(count));
+            Receiving::Pixels(count) => self.of_pixels.record(recorder, plane, count),
+            Receiving::Records => {
+                self.of_records
+                    .record_indirect(recorder, plane, Argument::Sort);
             }
-            Receiving::Records => recorder.dispatch_indirect(
-                &self.of_records,
-                &resources.arguments,
-                Argument::Sort as u32,
-            ),
         }
     }
 }

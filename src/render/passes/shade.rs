@@ -2,12 +2,11 @@
 
 use crate::engine::data::{Argument, Cells, ColorConstants, Content};
 use crate::engine::passes::spirv;
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Kernel, Size};
 use crate::render::data::GpuScene;
 use crate::render::data::ShadeFeatures;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
+use crate::vulkan::{Recorder, Specialized, VulkanError};
 use std::collections::HashMap;
-use std::sync::Arc;
 
 /// Places that are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +28,8 @@ pub struct Shade {
     source: ShadeSource,
     /// Whether textures are averaged over footprints.
     box_filter: bool,
-    pipelines: Vec<Arc<Pipeline>>,
-    /// Index of each bin's pipeline.
+    kernels: Vec<Kernel<spirv::Shade>>,
+    /// Index of each bin's kernel.
     bins: Vec<usize>,
 }
 
@@ -74,7 +73,7 @@ impl Shade {
             ..spirv::Shade::default()
         };
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
-        let mut pipelines = Vec::new();
+        let mut kernels = Vec::new();
         let mut bins = Vec::new();
         for bin in &scene.bins {
             let features = bin.features;
@@ -82,28 +81,27 @@ impl Shade {
                 bins.push(*index);
                 continue;
             }
-            pipelines.push(layout.compute(&features.shader(common), None)?);
-            known.insert(features, pipelines.len() - 1);
-            bins.push(pipelines.len() - 1);
+            kernels.push(layout.kernel(&features.shader(common))?);
+            known.insert(features, kernels.len() - 1);
+            bins.push(kernels.len() - 1);
         }
         Ok(Self {
             source,
             box_filter: output.box_filter,
-            pipelines,
+            kernels,
             bins,
         })
     }
 
     /// Records the pass over the spans of a region or the visibility samples of a round.
-    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
+    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
         let every_record =
             matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
         recorder.pass(spirv::Shade::INTERFACE, || {
             // Bins write different places.
             recorder.unordered(|| {
-                for (bin, (material_bin, pipeline)) in (0..).zip(scene.bins.iter().zip(&self.bins))
-                {
-                    let Some(pipeline) = self.pipelines.get(*pipeline) else {
+                for (bin, (material_bin, kernel)) in (0..).zip(scene.bins.iter().zip(&self.bins)) {
+                    let Some(kernel) = self.kernels.get(*kernel) else {
                         continue;
                     };
                     let textures = if self.box_filter {
@@ -112,13 +110,13 @@ impl Shade {
                         &material_bin.textures
                     };
                     recorder.show(textures);
-                    recorder.push(pipeline, &spirv::ShadePush { bin });
-                    let argument = if every_record {
-                        Argument::Sort as u32
+                    let size = if every_record {
+                        Size::from(Argument::Sort)
                     } else {
-                        Argument::Shade as u32 + bin
+                        Size::Indirect(Argument::Shade as u32 + bin)
                     };
-                    recorder.dispatch_indirect(pipeline, arguments, argument);
+                    let dispatch = kernel.dispatch(spirv::ShadePush { bin }, size);
+                    dispatch.record(recorder, 0);
                 }
             });
         });

@@ -1,14 +1,13 @@
 //! shadow: finds the receivers of light that another triangle occludes.
 
 use crate::engine::data::{Argument, Resources};
-use crate::engine::passes::arguments::{After, Arguments};
+use crate::engine::passes::arguments::{self, After};
 use crate::engine::passes::spirv::{self, shadow_set};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
 use crate::vulkan::{
-    Buffer, DescriptorSets, Memory, MemoryUse, Pipeline, Recorder, Specialized, VulkanError,
+    Buffer, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
 };
 use ash::vk;
-use std::sync::Arc;
 
 /// Use of the occluders that were found between a light and its receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +29,8 @@ const LEFT_WORDS: usize = 2;
 
 /// Writes the shadow words of receivers, and counts what the passes before it could not finish.
 pub struct Shadow {
-    arguments: Arguments,
-    pipeline: Arc<Pipeline>,
+    sizes: Dispatch,
+    kernel: Kernel<spirv::Shadow>,
     own: DescriptorSets,
     left: Buffer,
     kept: Buffer,
@@ -59,8 +58,8 @@ impl Shadow {
         ];
         let shadow_words = receivers.sizes().shadow_words;
         Ok(Self {
-            arguments: Arguments::new(layout, After::Sample)?,
-            pipeline: layout.compute(&spirv::Shadow { shadow_words }, None)?,
+            sizes: arguments::dispatch(layout, After::Sample)?,
+            kernel: layout.kernel(&spirv::Shadow { shadow_words })?,
             // SAFETY: the buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Shadow::INTERFACE, &shown) }?,
             left,
@@ -74,14 +73,8 @@ impl Shadow {
     }
 
     /// Records the pass for the occluders of a round, whose descriptor sets passes use.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        occluders: &Resources,
-        target: ShadowTarget,
-        light: u32,
-    ) {
-        self.arguments.record(recorder);
+    pub fn record(&self, recorder: &Recorder<'_>, target: ShadowTarget, light: u32) {
+        self.sizes.record(recorder, 0);
         let (first_place, width) = match target {
             ShadowTarget::Words { first_place } => (first_place, 0),
             ShadowTarget::Marks { width } => (0, width),
@@ -92,9 +85,8 @@ impl Shadow {
             width,
             ..spirv::ShadowPush::default()
         };
-        self.push(recorder, &push);
-        let sort = Argument::Sort as u32;
-        recorder.dispatch_indirect(&self.pipeline, &occluders.arguments, sort);
+        recorder.show(&self.own);
+        self.kernel.record_indirect(recorder, &push, Argument::Sort);
     }
 
     /// Records the count of unfinished work, after the last round.
@@ -103,13 +95,8 @@ impl Shadow {
             ends: 1,
             ..spirv::ShadowPush::default()
         };
-        self.push(recorder, &push);
-        recorder.dispatch(&self.pipeline, 1);
-    }
-
-    fn push(&self, recorder: &Recorder<'_>, pushed: &spirv::ShadowPush) {
         recorder.show(&self.own);
-        recorder.push(&self.pipeline, pushed);
+        self.kernel.record(recorder, &push, 1_u32);
     }
 
     /// Records the end of a frame.

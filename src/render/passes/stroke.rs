@@ -1,12 +1,11 @@
 //! stroke: computes points and lines for a camera.
 
 use crate::engine::passes::spirv;
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Edge;
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};
-use std::sync::Arc;
 
 /// Distance, in output pixels, by which edges are moved from their surfaces towards the camera: enough for the search
 /// for triangles thinner than a pixel.
@@ -14,7 +13,7 @@ const APART: f32 = 2.0;
 
 /// Gives points and lines their size on the screen.
 pub struct Stroke {
-    pipeline: Arc<Pipeline>,
+    kernel: Kernel<spirv::Stroke>,
 }
 
 /// Sizes of points and lines in output pixels.
@@ -37,7 +36,7 @@ impl Stroke {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         Ok(Self {
-            pipeline: layout.compute(&spirv::Stroke, None)?,
+            kernel: layout.kernel(&spirv::Stroke)?,
         })
     }
 
@@ -68,10 +67,9 @@ impl Stroke {
             apart: APART * side,
             edges: strokes.edge_count,
         };
-        recorder.push(&self.pipeline, &push);
         let corners = u64::from(strokes.corner_count)
             + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
-        recorder.dispatch_each(&self.pipeline, corners);
+        self.kernel.record(recorder, &push, corners);
     }
 }
 

@@ -66,17 +66,15 @@ impl Shadowed<'_> {
 
 impl RecordShading for Occlusion<'_> {
     /// Shades casters that let light pass, to get their opacities.
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some(shade) = &self.finder.shade {
-            shade.record(recorder, &self.finder.casters.scene, &resources.arguments);
+            shade.record(recorder, &self.finder.casters.scene);
         }
     }
 
     fn record_round_end(&self, recorder: &Recorder<'_>) {
-        let ShadowFinder {
-            shadow, resources, ..
-        } = self.finder;
-        shadow.record(recorder, resources, self.target, self.light);
+        let shadow = &self.finder.shadow;
+        shadow.record(recorder, self.target, self.light);
     }
 }
 
@@ -306,7 +304,7 @@ impl ShadowFinder {
         let (pinhole, window) = (&view.pinhole, &view.window);
         let uniform = window.uniform(scene, pinhole, &self.settings, cells, resources.sizes());
         self.receivers
-            .record(recorder, (shading, shaded.set), receiving, plane);
+            .record(recorder, shaded.set, receiving, plane);
         resources.record_begin(recorder, set, &uniform);
         let run = SamplerRun {
             resources,

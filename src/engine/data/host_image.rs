@@ -1,14 +1,15 @@
 //! Colour image of a host as input of kernels.
 
-use super::spirv::{self, take_set};
+use crate::engine::passes::spirv::{self, take_set};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{DescriptorSets, Specialized, VulkanError, read_image};
 use ash::vk;
+use std::sync::Arc;
 
 /// A host's image, for the kernels of one frame that read it.
 pub(crate) struct HostImage {
-    /// Sets of [`Take`](super::Take) and [`Resolve`](super::Resolve), in which the image has the same binding.
-    pub(super) sets: DescriptorSets,
+    /// Sets of `take` and `resolve`, in which the image has the same binding.
+    pub sets: Arc<DescriptorSets>,
     encoded: bool,
 }
 
@@ -21,7 +22,7 @@ impl HostImage {
     pub fn new(layout: &FrameLayout, encoded: bool) -> Result<Self, VulkanError> {
         let shaders = [spirv::Take::INTERFACE, spirv::Resolve::INTERFACE];
         Ok(Self {
-            sets: layout.own_sets(&shaders, 1)?.remove(0),
+            sets: Arc::new(layout.own_sets(&shaders, 1)?.remove(0)),
             encoded,
         })
     }
