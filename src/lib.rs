@@ -5,6 +5,12 @@
 //! them.
 //!
 //! <!-- figures: passes-in-short -->
+//!
+//! ```text
+//! every pixel:       raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect
+//! superpixels alone: cull ─▶ bin ─▶ tally ─▶ schedule ─▶ enlist ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve ─▶ grow
+//! ```
+//!
 //! <!-- end -->
 //!
 //! # Three levels of use

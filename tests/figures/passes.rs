@@ -26,6 +26,8 @@ pub fn of_frame(asset: &str) -> Vec<FramePass> {
     let (mut headless, scene, camera) = stage(asset, Shadows::None);
     let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
     let mut frame = headless.prepare(&scene, &settings).unwrap();
+    // The first rendering finds how much memory the frame needs.
+    headless.render(&mut frame, &camera).unwrap();
     headless.passes(&mut frame, &camera).unwrap().passes
 }
 

@@ -34,7 +34,7 @@ const COLUMNS: usize = 6;
 /// Passes of a frame up to the first growth, each once in a row: those for every pixel, and those for superpixels.
 fn parts() -> [Vec<&'static str>; 2] {
     let mut names: Vec<&'static str> = Vec::new();
-    for pass in passes::of_frame("spheres") {
+    for pass in passes::of_frame("checker") {
         // Special kernels of `sample` belong to it, and `arguments` only computes the sizes of dispatches.
         let name = match pass.name {
             name if name.starts_with("sample_") => "sample",
@@ -63,8 +63,8 @@ pub fn draw() -> String {
     let rows = |part: &[&str]| part.len().div_ceil(COLUMNS) as i32;
     let first_row = |row: i32| 52 + STEP[1] * row;
     let (above, below) = (rows(&pixels), rows(&superpixels));
-    let second = first_row(above) + 60;
-    let height = second + STEP[1] * below + 50;
+    let second = first_row(above) + 72;
+    let height = second + STEP[1] * below + 58;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 {height}\" font-family=\"sans-serif\" font-size=\"14\">\n\
          <title>The passes of a frame</title>\n\
@@ -78,7 +78,7 @@ pub fn draw() -> String {
         [10, STEP[1] * above + 38],
     );
     let title = "Superpixels alone, up to 1,024 samples";
-    svg += &panel(title, "#f8efe4", [second - 42, STEP[1] * below + 78]);
+    svg += &panel(title, "#f8efe4", [second - 42, STEP[1] * below + 86]);
     let place = |top: i32, index: usize| {
         let [column, row] = [index % COLUMNS, index / COLUMNS].map(|at| at as i32);
         [26 + STEP[0] * column, top + STEP[1] * row]
@@ -104,7 +104,7 @@ pub fn draw() -> String {
     // From the last pass of every pixel to the first of superpixels.
     let [x, y] = place(first_row(0), pixels.len() - 1);
     let [to_x, to_y] = place(second, 0);
-    let middle = second - 58;
+    let middle = second - 54;
     let (from, to) = (x + BOX[0] / 2, to_x + BOX[0] / 2);
     svg += &arrow(
         &format!("M{from} {}V{middle}H{to}V{}", y + 76, to_y - 2),
@@ -121,7 +121,7 @@ pub fn draw() -> String {
     for (last, first, why, number) in turns {
         let [x, y] = place(second, find(last).unwrap());
         let [to_x, to_y] = place(second, find(first).unwrap());
-        let (down, side) = (bottom - 14 + 26 * number, 12 + 6 * number);
+        let (down, side) = (bottom - 14 + 26 * number, 8 + 4 * number);
         let shift = 6 * number;
         let path = format!(
             "M{} {}V{down}H{}V{}H{}V{}",
@@ -137,7 +137,7 @@ pub fn draw() -> String {
             if to_y == y { to_y + 74 } else { to_y - 2 },
         );
         svg += &arrow(&path, true);
-        svg += &label(why, [300 + 300 * number, down - 5]);
+        svg += &label(why, [210, down + 15]);
     }
     svg + "</svg>\n"
 }
