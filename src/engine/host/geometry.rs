@@ -42,6 +42,7 @@ impl ClipSpace {
 
 /// Space and format of vertex positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PositionSpace {
     /// Clip space, four floats: the same values that the host's vertex shader outputs.
     Clip,

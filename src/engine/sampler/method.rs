@@ -82,6 +82,7 @@ pub enum Detection {
 
 /// Measure of a triangle's coverage of a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Coverage {
     /// Exact area where nothing occludes the triangle, and samples elsewhere. A superpixel that 64 samples settle takes
     /// no further samples. If most triangles may be shaded in several parts of a pixel, which takes all samples, areas
@@ -93,6 +94,7 @@ pub enum Coverage {
 
 /// Rate of shading within a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Shading {
     /// One shading for each visible triangle and block of 64 samples, at the centroid of the samples that see the
     /// triangle.

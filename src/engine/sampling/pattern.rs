@@ -13,6 +13,7 @@ pub const MAX_SAMPLES: u32 = 1024;
 
 /// Pattern of the samples in a superpixel.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Pattern {
     /// Samples on straight lines of 64 samples each: rows or columns, whichever the edges in the superpixel cross more
     /// often. Any count. A count up to 64 has 8 lines (16 on devices with subgroups of 32 invocations), a larger one 32;
@@ -45,6 +46,7 @@ pub enum Pattern {
 
 /// Error of a pattern, its number of samples, or a list of offsets.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PatternError {
     /// Name that no pattern has.
     #[error(

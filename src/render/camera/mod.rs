@@ -67,6 +67,7 @@ pub struct Camera {
 
 /// Error: a camera that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CameraError {
     /// Eye, target and up that give no direction: not finite, eye and target coincide, or up lies along the view.
     #[error(

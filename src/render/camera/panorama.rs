@@ -19,6 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Projection of directions onto the image of a panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PanoramaProjection {
     /// Longitude along the width and latitude along the height, at the same number of pixels a degree.
     Equirectangular,
@@ -44,6 +45,7 @@ pub struct Panorama {
 
 /// Error: a panorama that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PanoramaError {
     /// Field of view in degrees that is not above 0 and at most 360.
     #[error("a panorama of {0} degrees; it must be above 0 and at most 360")]

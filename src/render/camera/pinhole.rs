@@ -44,6 +44,7 @@ pub struct Ray {
 
 /// Error: a pinhole that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PinholeError {
     /// Coordinate that is NaN or infinite; holds its name.
     #[error("{0} of the pinhole is not finite")]

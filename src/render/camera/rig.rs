@@ -24,6 +24,7 @@ pub struct Rig {
 
 /// Error: pinholes that make no rig, or directions that a rig can't sample.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RigError {
     /// Rig without pinholes.
     #[error("a rig without pinholes; give at least one")]

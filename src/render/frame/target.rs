@@ -8,6 +8,7 @@ const COLOR: vk::ImageAspectFlags = vk::ImageAspectFlags::COLOR;
 
 /// Destination of a frame's colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Target {
     /// An image of the host: single-sampled, created as a transfer destination, with the encoding and the [output
     /// size](crate::render::Settings::output_size) that the frame was prepared with.

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Error: locations that can't be sampled. `index` is the position of the first such location in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum LocationError {
     /// List without locations.
     #[error("the set holds no sampling location; give at least one")]

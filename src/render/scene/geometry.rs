@@ -149,6 +149,7 @@ pub struct Geometry {
 
 /// Error: a [`Geometry`] that can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GeometryError {
     /// Triangle that refers to a missing vertex.
     #[error("triangle {triangle} has vertex {index}, and there are {vertices}")]
@@ -232,6 +233,7 @@ pub enum GeometryError {
 
 /// Reason why an [`Instance`] can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InstanceFault {
     /// Instance without triangles, or with more than there are.
     #[error("it has no triangles, or some that there are none of")]

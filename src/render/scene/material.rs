@@ -106,6 +106,7 @@ impl Default for Material {
 /// Property of a material that a texture modulates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
+#[non_exhaustive]
 pub enum TextureRole {
     BaseColor,
     MetallicRoughness,

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 /// Projection of a glTF camera (glTF 2.0, section 3.10).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SceneProjection {
     /// Perspective projection.
     Perspective {

@@ -59,6 +59,7 @@ fn stated(region: &ZoomRegion, p: DVec2) -> DVec2 {
     let (rho, r) = match region.shape {
         Shape::Circle => (way.length(), rx),
         Shape::Rectangle => ((way.x.abs() / rx).max(way.y.abs() / ry), 1.0),
+        other => unimplemented!("{other:?}"),
     };
     let outside = r + r / m;
     let t = if rho <= r {
@@ -168,6 +169,7 @@ fn rates_at_the_borders_are_as_derived() {
             // s' jumps; the other factor of the area is m at the inner border and 1 at the outer one.
             Transition::Linear => [m * m, m * m * (2.0 - m), 2.0 - m * m, 1.0],
             Transition::Smooth => [m * m, m * m, 1.0, 1.0],
+            other => unimplemented!("{other:?}"),
         };
         for (found, expected) in areas(region).into_iter().zip(expected) {
             assert!(
@@ -198,6 +200,7 @@ fn a_smooth_transition_has_a_continuous_rate_along_rays() {
                 // Steps that are ten times finer change a continuous rate about ten times less; a jump stays.
                 Transition::Smooth => assert!(fine < 0.2 * coarse, "{region:?}: {coarse} {fine}"),
                 Transition::Linear => assert!(fine > 0.8 * coarse, "{region:?}: {coarse} {fine}"),
+                other => unimplemented!("{other:?}"),
             }
         }
     }

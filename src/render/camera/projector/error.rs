@@ -4,6 +4,7 @@ use crate::camera::set::SetError;
 
 /// Error: correspondences or maps that calibrate no projector.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProjectorError {
     /// Fewer than four correspondences; holds their number. A homography has eight unknowns, and each correspondence
     /// determines two.

@@ -4,6 +4,7 @@ use super::FARTHEST;
 
 /// Error: locations that make no sampling set.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SetError {
     /// Set without locations.
     #[error("no sampling locations; give at least one")]

@@ -33,6 +33,7 @@ use serde::{Deserialize, Serialize};
 /// Outline of a zoomed region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Shape {
     /// Ellipse whose semi-axes are the region's radii; a circle if they are equal.
     #[default]
@@ -58,6 +59,7 @@ pub struct ZoomRegion {
 
 /// Error: regions that make no zoom.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ZoomError {
     /// Multiplicity that is not above 0 and at most 1. Above 1 the region would shrink, and above the square root of 2
     /// the map would fold.

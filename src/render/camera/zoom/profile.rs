@@ -29,6 +29,7 @@ use serde::{Deserialize, Serialize};
 /// Transition from a zoomed region to its surroundings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Transition {
     /// Linear transition: the displacement of locations fades linearly with the distance. Locations are continuous,
     /// but their rate jumps at both borders.

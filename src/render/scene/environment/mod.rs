@@ -11,6 +11,7 @@ use equirectangular::Equirectangular;
 
 /// Error: an image that is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EnvironmentError {
     /// Number of colours that contradicts the size, or a size that is too small.
     #[error(
