@@ -36,7 +36,6 @@ pub struct Projector {
 
 /// Map from a projector's pixels to locations on the image plane.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum ProjectorMap {
     /// Homography, for a plane wall and a lens that keeps lines straight.
     Planar(Homography),
