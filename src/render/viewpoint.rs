@@ -47,7 +47,7 @@ impl SceneBlock {
             view_direction: viewpoint.direction.as_vec3().extend(parallel).to_array(),
             irradiance: scene.environment().irradiance,
             environment: scene.environment().axes,
-            triangle_count: scene.index_count(),
+            triangle_count: scene.triangle_slots(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             material_vectors: scene.material_vectors(),

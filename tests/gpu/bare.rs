@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub struct Unread;
 
 impl Content for Unread {
-    fn index_count(&self) -> u32 {
+    fn triangle_slots(&self) -> u32 {
         1
     }
 

@@ -514,7 +514,7 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     assert!(flat.instances.is_empty());
     // Motions refer to vertices by their indices.
     assert!(flat.positions.starts_with(&geometry.positions));
-    assert_eq!(flat.triangles.len() as u64, geometry.index_count());
+    assert_eq!(flat.triangles.len() as u64, geometry.triangle_slots());
     let drawn: u32 = flat.draws.iter().map(|draw| draw.triangle_count).sum();
     assert_eq!(drawn as usize, flat.triangles.len());
     assert_near(corners(&flat, 0), FIRST);

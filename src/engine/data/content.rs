@@ -3,7 +3,7 @@
 /// A scene's triangles, as far as passes depend on them.
 pub trait Content: Sync {
     /// Number of triangle slots: every triangle's index is smaller. Some slots may be empty.
-    fn index_count(&self) -> u32;
+    fn triangle_slots(&self) -> u32;
 
     /// Whether triangles are drawn by instances.
     fn is_instanced(&self) -> bool;

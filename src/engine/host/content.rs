@@ -150,7 +150,7 @@ impl HostContent {
 }
 
 impl Content for HostContent {
-    fn index_count(&self) -> u32 {
+    fn triangle_slots(&self) -> u32 {
         self.triangle_capacity
     }
 

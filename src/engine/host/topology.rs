@@ -6,7 +6,6 @@ use crate::engine::passes::spirv;
 /// Primitive restart is not supported: a draw is a single strip or fan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
-#[non_exhaustive]
 pub enum Topology {
     /// `VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST`: every three corners form a triangle.
     #[default]

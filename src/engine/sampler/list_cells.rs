@@ -70,7 +70,7 @@ impl ListCells {
             Cells::Points | Cells::Occluders => most,
             Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
         };
-        let triangles = u64::from(scene.index_count());
+        let triangles = u64::from(scene.triangle_slots());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let cell_sizes = self.cell_sizes(layout, settings);
@@ -106,7 +106,7 @@ impl ListCells {
             region,
             lanes: limits.lanes,
             locations: Some(locations),
-            survivor_capacity: scene.index_count(),
+            survivor_capacity: scene.triangle_slots(),
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records.clamp(1 << 16, MOST_RECORDS).max(layered) as u32,

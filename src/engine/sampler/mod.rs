@@ -204,7 +204,7 @@ impl Sampler {
             colors,
             options: *options,
             capacity,
-            rounds: load.rounds(sizes, scene.index_count(), capacity.rounds),
+            rounds: load.rounds(sizes, scene.triangle_slots(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
             capacities: [sizes.survivor_capacity, sizes.pair_capacity],
             source,

@@ -387,7 +387,7 @@ impl Plan {
             (room * u64::from(capacity.lists)).min(most) as u32
         };
         let most_listed = ResourceSizes::most_pairs(limits);
-        let triangles = u64::from(scene.index_count());
+        let triangles = u64::from(scene.triangle_slots());
         let (most_pairs, most_candidates) = if scene.is_instanced() && policy == RoundPolicy::Small
         {
             (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
@@ -408,7 +408,7 @@ impl Plan {
             locations: None,
             // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
-                .min(scene.index_count()),
+                .min(scene.triangle_slots()),
             pair_capacity: at_most(pairs, most_listed),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,

@@ -417,9 +417,9 @@ impl Geometry {
         counts.sum()
     }
 
-    /// Number of indices of triangles (IDs minus 1); some may belong to no triangle.
+    /// Number of triangle slots. The index of every triangle, which is its ID minus 1, is smaller; some slots may be empty.
     #[must_use]
-    pub fn index_count(&self) -> u64 {
+    pub fn triangle_slots(&self) -> u64 {
         self.instances
             .last()
             .map_or(self.triangles.len() as u64, |last| {

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 /// Kind of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum LightKind {
     /// Parallel light; intensity in lux.
     Directional,

@@ -85,8 +85,8 @@ pub(in crate::render) struct GpuGeometry {
     pub(in crate::render) is_instanced: bool,
     /// Number of triangles that are drawn.
     pub(in crate::render) triangle_count: u64,
-    /// Number of indices; some may belong to no triangle.
-    pub(in crate::render) index_count: u32,
+    /// Number of triangle slots; some may be empty.
+    pub(in crate::render) triangle_slots: u32,
     pub(in crate::render) origin: DVec3,
 }
 
@@ -123,7 +123,7 @@ impl GpuGeometry {
         let positions: Vec<_> = positions.map(|&[x, y, z]| [x, y, z, 1.0]).collect();
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let index_count = geometry
+        let triangle_slots = geometry
             .instances
             .last()
             .map_or(records.len() as u32, |last| {
@@ -153,7 +153,7 @@ impl GpuGeometry {
             has_tangents: !geometry.streams.tangents.is_empty(),
             is_instanced: !geometry.instances.is_empty(),
             triangle_count: geometry.triangle_count(),
-            index_count,
+            triangle_slots,
             origin: geometry.origin,
         })
     }
@@ -174,7 +174,7 @@ impl GpuGeometry {
         self.runs
             .iter()
             .find(|run| run.class >= class)
-            .map_or(self.index_count, |run| run.first_index)
+            .map_or(self.triangle_slots, |run| run.first_index)
     }
 }
 

@@ -254,8 +254,8 @@ impl GpuScene {
 }
 
 impl Content for GpuScene {
-    fn index_count(&self) -> u32 {
-        self.geometry.index_count
+    fn triangle_slots(&self) -> u32 {
+        self.geometry.triangle_slots
     }
 
     fn is_instanced(&self) -> bool {
@@ -267,7 +267,7 @@ impl Content for GpuScene {
     }
 
     fn has_blend(&self) -> bool {
-        self.first_blend < self.geometry.index_count
+        self.first_blend < self.geometry.triangle_slots
     }
 
     fn has_high_frequency(&self) -> bool {

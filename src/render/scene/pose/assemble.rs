@@ -91,7 +91,7 @@ pub fn assemble(
         strokes: jobs.iter().flat_map(PlacementJob::strokes).collect(),
         edges: jobs.iter().flat_map(PlacementJob::edges).collect(),
     };
-    let indices = geometry.index_count();
+    let indices = geometry.triangle_slots();
     if indices > MAX_ELEMENTS {
         return Err(SceneError::TooLarge {
             file: scene.document.file.clone(),
