@@ -2,7 +2,7 @@
 // for pixels: see there for the rules. Columns and rows are those of a cell, whose axes are x and y of the output. Instead of
 // depth there is nearness: 1 / distance along the view direction or, for a parallel projection, minus the distance. Triangles
 // are clipped at the near plane. Twin: src/reference/crossings.rs.
-// Reads: the geometry, pairs, cells, what each location sees. Writes: marks of the output's cells, tile by tile, which
+// Reads: the geometry, pairs, cells, what each location sees. Writes: cell_marks of the output, tile by tile, which
 // `detect` reads.
 // INVOCATIONS_OF_PAIR invocations share a pair of a triangle and a tile. They take the tile's cells near the triangle by turns.
 #version 460

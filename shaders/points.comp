@@ -1,8 +1,8 @@
 // points: for locations that are sampled once, computes from their visibility samples what they see: a colour and, if asked for,
 // ATTRIBUTES. An invocation takes a record, and does nothing unless this stands for all that a location sees.
 // Reads: records, shaded, the geometry, shadow words. Writes: color, and two vectors a location, floats as bits:
-// (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, a bit for each light whose
-// shadow is on the opaque or MASK triangle).
+// (distance along the view direction, ID, ID of the nearest BLEND layer, code of the displayed colour), (world normal, a bit for
+// each light whose shadow is on the opaque or MASK triangle).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

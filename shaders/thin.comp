@@ -2,8 +2,8 @@
 // or the tip of a leaf. `detect` makes superpixels of them.
 // The pass runs in two steps. SELECT lists thin triangles; an invocation takes THIN_PER_INVOCATION triangles. Then each listed
 // triangle is followed along its longer side, pixel by pixel, by an invocation or, if it is long, by a workgroup.
-// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (here a list of thin triangles: short ones from
-// the front, long ones from the back).
+// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (here a list of thin ones: short ones from the
+// front, long ones from the back).
 //
 // For a triangle that is wider than high, the part in a column of pixels is considered; otherwise, the part in a row. A pixel
 // that it crosses is marked if the whole part is nearer than the surface at the pixel's centre by more than a pixel's width.

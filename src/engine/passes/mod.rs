@@ -55,6 +55,9 @@ pub use sample::{LongLists, RecordRate, SampleBlocks, SampleOptions, TileList};
 
 #[cfg(test)]
 mod tests {
+    use super::spirv::INTERFACES;
+    use crate::vulkan::Access;
+    use std::collections::BTreeSet;
     use std::path::Path;
 
     #[test]
@@ -71,5 +74,55 @@ mod tests {
             let files = passes.iter().filter(|folder| folder.join(name).is_file());
             assert_eq!(files.count(), 1, "{}", shader.display());
         }
+    }
+
+    /// What the comment at the head of a shader says that it accesses, from `begin` to `end`.
+    fn named<'a>(head: &'a str, begin: &str, end: &str) -> &'a str {
+        let from = head.find(begin).map_or(head.len(), |at| at + begin.len());
+        let rest = &head[from..];
+        &rest[..rest.find(end).unwrap_or(rest.len())]
+    }
+
+    #[test]
+    fn shaders_access_what_their_comments_say() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+        let in_frame = INTERFACES.iter().filter(|shader| shader.in_frame);
+        let of_frame = in_frame
+            .flat_map(|shader| shader.uses)
+            .filter(|used| used.set < 2);
+        let names = of_frame.map(|used| used.binding.name.trim_end_matches("_out"));
+        let bindings: BTreeSet<_> = names.collect();
+        let mut compared = 0;
+        let mut wrong = Vec::new();
+        for shader in INTERFACES {
+            let Ok(text) = std::fs::read_to_string(folder.join(format!("{}.comp", shader.name)))
+            else {
+                continue;
+            };
+            let head: Vec<_> = text
+                .lines()
+                .take_while(|line| line.starts_with("//"))
+                .collect();
+            let head = head.join(" ");
+            let claims = [
+                (Access::Read, named(&head, "Reads:", "Writes:")),
+                (Access::Write, named(&head, "Writes:", ". ")),
+            ];
+            for (access, claim) in claims {
+                let accessed = shader.data(access);
+                // Names of files and other passes are quoted.
+                let words = claim.split('`').step_by(2);
+                let words =
+                    words.flat_map(|text| text.split(|c: char| !(c.is_alphanumeric() || c == '_')));
+                for word in words.filter(|word| bindings.contains(word)) {
+                    if !accessed.contains(&word) {
+                        wrong.push(format!("{}: {access:?} {word}", shader.name));
+                    }
+                    compared += 1;
+                }
+            }
+        }
+        assert_eq!(wrong, [""; 0]);
+        assert!(compared > 80, "{compared}");
     }
 }
