@@ -1,9 +1,9 @@
 //! Cells that are locations of a list.
 
-use super::{Sampler, SamplerContext, Source, with_probes};
+use super::{Sampler, SamplerContext, Source, averaging, with_probes};
 use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
-use crate::engine::passes::resolve::{self, ResolveTarget};
-use crate::engine::passes::{Distribute, composite, points};
+use crate::engine::passes::resolve::ResolveTarget;
+use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
     Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
@@ -151,17 +151,13 @@ impl ListCells {
         };
         Sampler::new(context, &options, source, |blocks| {
             let of_points = (self.attributes, self.shadow_words);
-            Ok(match self.cells {
-                Cells::Occluders => Vec::new(),
-                Cells::Points => vec![points::pass(layout, scene, output, of_points)?],
+            match self.cells {
+                Cells::Occluders => Ok(Vec::new()),
+                Cells::Points => Ok(vec![points::pass(layout, scene, output, of_points)?]),
                 Cells::Superpixels | Cells::Pixels => {
-                    let composite = || composite::pass(layout, output);
-                    let composite = scene.has_blend().then(composite).transpose()?;
-                    let target = ResolveTarget::Nothing;
-                    let resolve = resolve::pass(layout, blocks, target, output, None)?;
-                    composite.into_iter().chain([resolve]).collect()
+                    averaging(context, blocks, ResolveTarget::Nothing, None)
                 }
-            })
+            }
         })
     }
 }

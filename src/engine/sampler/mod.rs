@@ -34,12 +34,14 @@ pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
 use crate::engine::data::{
-    Cells, ColorConstants, Content, Counter, FrameUniform, ResourceSizes, Resources, SampleSet,
+    Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,
+    SampleSet,
 };
 use crate::engine::passes::cull::CullFilter;
+use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, cull, groups,
-    sample, schedule, setup, sort, tally,
+    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite,
+    cull, groups, resolve, sample, schedule, setup, sort, tally,
 };
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
@@ -378,6 +380,22 @@ impl Source {
 pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, EngineError> {
     offsets.extend(Pattern::Sobol.offsets(sample::PROBES)?);
     Ok(offsets)
+}
+
+/// Passes that average shaded visibility samples, after those that blend the layers of scenes that may have some. Arguments are
+/// those of [`resolve::pass`].
+fn averaging(
+    context: &SamplerContext<'_>,
+    blocks: &SampleBlocks,
+    target: ResolveTarget,
+    behind: Option<&Arc<HostImage>>,
+) -> Result<Vec<Pass>, EngineError> {
+    let (layout, output) = (context.layout, context.output);
+    let resolve = resolve::pass(layout, blocks, target, output, behind)?;
+    Ok(match context.scene.has_blend() {
+        true => vec![composite::pass(layout, output)?, resolve],
+        false => vec![resolve],
+    })
 }
 
 /// Rate of visibility samples for the settings' shading.

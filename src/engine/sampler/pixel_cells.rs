@@ -1,10 +1,10 @@
 //! Cells that are pixels of an image.
 
-use super::{Sampler, SamplerContext, Source};
+use super::{Sampler, SamplerContext, Source, averaging};
 use crate::engine::data::{Cells, HostImage};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
-use crate::engine::passes::resolve::{self, ResolveTarget};
-use crate::engine::passes::{SampleOptions, composite, grow, thin};
+use crate::engine::passes::resolve::ResolveTarget;
+use crate::engine::passes::{SampleOptions, grow, thin};
 use crate::engine::sampler::{Detection, EngineError, Settings};
 use std::sync::Arc;
 
@@ -105,11 +105,7 @@ impl PixelCells {
             (false, false) => ResolveTarget::Nothing,
         };
         Sampler::new(context, &options, source, |blocks| {
-            let (output, behind) = (context.output, self.behind.as_ref());
-            let composite = || composite::pass(layout, output);
-            let composite = scene.has_blend().then(composite).transpose()?;
-            let resolve = resolve::pass(layout, blocks, target, output, behind)?;
-            Ok(composite.into_iter().chain([resolve]).collect())
+            averaging(context, blocks, target, self.behind.as_ref())
         })
     }
 }
