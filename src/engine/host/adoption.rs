@@ -6,6 +6,7 @@ use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared};
 use crate::engine::data::Draws;
 use crate::engine::passes::{Adopt, AdoptedCounts, Coordinates, Transform, VertexCounts};
 use crate::vulkan::{DescriptorSets, Memory, Recorder};
+use ash::vk;
 use std::sync::Arc;
 
 /// Passes that read a host's buffers, and the draws of a frame.
@@ -126,6 +127,7 @@ impl Adoption {
                 first_index: indices.map_or(0, |indices| indices.first_lent(limits)),
                 index_count: indices.map_or(0, |indices| indices.capacity),
                 topology: run.topology as u32,
+                clockwise: u32::from(run.front_face == vk::FrontFace::CLOCKWISE),
             };
             adopt.record(recorder, &self.sets[run.mesh].adopt, counts);
         }

@@ -7,7 +7,7 @@ use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Shown, Specializ
 use ash::vk;
 use std::sync::Arc;
 
-/// Push constants of a dispatch: ranges of triangles and indices, the number of draws, and the topology.
+/// Push constants of a dispatch: ranges of triangles and indices, the number of draws, the topology and the front face.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
 /// Makes triangles from indices.
