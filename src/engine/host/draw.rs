@@ -418,6 +418,7 @@ mod tests {
         let run = DrawRun {
             mesh: 0,
             topology: Topology::List,
+            front_face: vk::FrontFace::COUNTER_CLOCKWISE,
             triangles: [0, 3],
             positions: [0, 40],
         };
