@@ -1,13 +1,13 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{help, passes, plot, sets, superpixel_price, table, time_to_error};
+use crate::{choices, help, hosts, passes, plot, sets, superpixel_price, table, time_to_error};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 15] = [
+const PARTS: [(&str, Make); 18] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
@@ -18,6 +18,9 @@ const PARTS: [(&str, Make); 15] = [
     ("motion", table::motion),
     ("variants", table::variants),
     ("growth", table::growth),
+    ("hosts", hosts::table),
+    ("contrast", choices::contrast),
+    ("shading", choices::shading),
     ("help", help::every),
     ("passes", passes::frame),
     ("list-passes", passes::list),
