@@ -387,8 +387,7 @@ typedef struct GpcDraw {
     // number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
     // shaded.
     uint32_t material;
-    // VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen, as with
-    // VK_FRONT_FACE_COUNTER_CLOCKWISE.
+    // VK_TRUE if back faces are visible. `front_face` says which faces these are.
     VkBool32 double_sided;
     // VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
     // draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
@@ -402,6 +401,9 @@ typedef struct GpcDraw {
     uint32_t mesh;
     // Topology: how indices, or vertices without indices, form triangles: a GpcTopology.
     uint32_t topology;
+    // Orientation of front faces in the image: frontFace of the application's pipeline. 0 is
+    // VK_FRONT_FACE_COUNTER_CLOCKWISE.
+    VkFrontFace front_face;
 } GpcDraw;
 
 // Draws and view of a recording.

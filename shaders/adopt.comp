@@ -1,7 +1,9 @@
 // adopt: converts a host's triangles, in the order of its draws, to the form that the other passes read. A dispatch takes
-// consecutive draws with the same mesh and topology, and an invocation a triangle. Twin: `gpc::reference::topology`.
+// consecutive draws with the same mesh, topology and front face, and an invocation a triangle. Twin:
+// `gpc::reference::topology`.
 // Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: only
-// their own triangles are wrong then.
+// their own triangles are wrong then. All other passes take counter-clockwise triangles for front faces, so if a draw's front
+// faces are clockwise, two corners of its triangles are exchanged here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/interface.glsl"
@@ -20,6 +22,7 @@ layout(push_constant) uniform Push {
     uint first_index;       // first index of the mesh in the buffer
     uint index_count;       // indices of the mesh
     uint topology;          // TOPOLOGY_LIST, _STRIP or _FAN
+    uint clockwise;         // whether front faces are clockwise
 } push;
 
 uint index_at(uint number) {
@@ -47,6 +50,8 @@ void main() {
     uint t = push.first_triangle + i, d = draw_of(t, push.draw_count);
     Draw draw = draws[d];
     uvec3 numbers = corners(t - draw.first_triangle);
+    // The first corner, whose attributes flat inputs have, stays the first.
+    if (push.clockwise != 0u) numbers = numbers.xzy;
     triangles_out[t] = uvec4(position(draw, numbers.x), position(draw, numbers.y), position(draw, numbers.z), draw.word);
     draw_of_out[t] = d;
 }

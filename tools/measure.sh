@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes hours.
 #
-#   tools/measure.sh [KIND...]        quality, speed, motion, variants, growth; all if none is named
+#   tools/measure.sh [KIND...]        quality, speed, motion, variants, choices, growth, hosts; all if none is named
 #
 # The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, otherwise that of the best device. Nothing else should
 # run on the machine. `make figures` updates the documents from the files.
@@ -13,9 +13,9 @@ gpc() { "${CARGO_TARGET_DIR:-target}/release/gpc" "$@"; }
 cargo build --release --bin gpc
 
 kinds=("$@")
-[ ${#kinds[@]} -gt 0 ] || kinds=(quality speed motion variants growth)
-if ! git diff --quiet HEAD -- src shaders Cargo.toml; then
-    echo "src, shaders or Cargo.toml differ from the commit that the files would name; commit first" >&2
+[ ${#kinds[@]} -gt 0 ] || kinds=(quality speed motion variants choices growth hosts)
+if ! git diff --quiet HEAD -- src shaders examples Cargo.toml; then
+    echo "src, shaders, examples or Cargo.toml differ from the commit that the files would name; commit first" >&2
     exit 1
 fi
 commit="$(git rev-parse --short HEAD)"
@@ -28,6 +28,12 @@ slug() { # CSV
     driver="$(sed -n 's/^# driver: //p' "$1" | tr '[:upper:]' '[:lower:]')"
     driver="${driver/llvmpipe mesa/lavapipe}"
     sed -E 's/\(.*//; s/([0-9]+\.[0-9]+)(\.[0-9]+)*/\1/g; s/[^a-z0-9.]+/-/g; s/^-|-$//g' <<<"$driver"
+}
+
+# Prints lines with the driver, the machine and the date, as `gpc bench` writes them.
+head_of_run() {
+    gpc bench assets/checker.glb --out "$work/head" --size 16x16 --methods none --samples 1 --reference 256 --repeat 1 >"$work/log"
+    grep -E '^# (driver|machine|date): ' "$work/head/results.csv"
 }
 
 # Copies the CSV of a run to docs/bench, with the commit in its head.
@@ -59,12 +65,26 @@ for kind in "${kinds[@]}"; do
             gpc bench "${speed_scenes[@]}" --out "$out" --methods none --samples 1 --reference 256 --repeat 3 --variants
             keep variants "$out/variants.csv"
             ;;
+        choices)
+            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --methods none --samples 1 --repeat 9 --budget 2 --choices
+            keep choices "$out/choices.csv"
+            ;;
         growth)
             gpc bench --out "$out" --size 640x360 --samples 64 --repeat 3 --budget 4 --growth
             keep growth "$out/growth.csv"
             ;;
+        hosts)
+            sizes=240x135,480x270,960x540,1280x720
+            make install PREFIX="$work/gpc" >"$work/log"
+            export PKG_CONFIG_PATH="$work/gpc/lib/pkgconfig" LD_LIBRARY_PATH="$work/gpc/lib"
+            read -ra flags <<<"$(pkg-config --cflags --libs gpc vulkan)"
+            c++ -std=c++17 -O2 examples/forward/forward.cpp -o "$work/forward" "${flags[@]}"
+            { head_of_run && echo "# size: $sizes" &&
+                "$work/forward" examples/forward/shaders/spirv --sizes "$sizes"; } >"$work/hosts.csv"
+            keep hosts "$work/hosts.csv"
+            ;;
         *)
-            echo "no kind \"$kind\"; there are quality, speed, motion, variants and growth" >&2
+            echo "no kind \"$kind\"; there are quality, speed, motion, variants, choices, growth and hosts" >&2
             exit 2
             ;;
     esac

@@ -9,11 +9,16 @@
 // function, a compute shader that shades the library's samples, and the code that is marked by `gpc` below. Frames are drawn into
 // a ring of three images, as in a swapchain, then into larger ones. At the end, the picture is compared with the renderer's own
 // brute force.
+//
+// With --sizes, the program measures pictures of these sizes instead, and prints a table in CSV.
 
 #include "device.hpp"
 #include "world.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <memory>
@@ -23,6 +28,10 @@ namespace {
 constexpr VkExtent2D SIZE{240, 135};
 // Samples along a pixel's side: BRUTE for brute force with as many samples as the library takes.
 constexpr uint32_t BRUTE = 8, REFERENCE = 32;
+// Largest number of pixels of an image for brute force. Larger pictures are drawn in parts.
+constexpr uint64_t MOST_PIXELS = 1 << 26;
+// Timed frames of each way to draw a picture.
+constexpr size_t TIMED = 7;
 // Number of colour images that antialiased frames are drawn into by turns, as in a swapchain.
 constexpr size_t RING = 3;
 constexpr VkFormat COLOR = VK_FORMAT_R8G8B8A8_SRGB, IDS = VK_FORMAT_R32_UINT, DEPTH = VK_FORMAT_D32_SFLOAT_S8_UINT;
@@ -243,16 +252,56 @@ double decoded(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
+// Milliseconds that something took: by the clock, and of all processors together.
+struct Time {
+    double wall{}, cpu{};
+};
+
+// Measures the time since it was made.
+class Watch {
+  public:
+    Time read() const {
+        const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+        return {wall.count(), 1e3 * double(std::clock() - cpu_start) / CLOCKS_PER_SEC};
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    std::clock_t cpu_start = std::clock();
+};
+
+// A way to draw a picture.
+struct Way {
+    VkExtent2D size;
+    // The picture is the mean of `side` x `side` pixels.
+    uint32_t side = 1;
+    // Without an antialiaser, the other members have no effect.
+    const GpcAntialiaser *antialiaser = nullptr;
+    uint32_t samples = BRUTE * BRUTE;
+    GpcPattern pattern = GPC_PATTERN_LINES;
+    GpcShading shading = GPC_SHADING_PART;
+
+    // The picture is drawn in this number of parts along each axis.
+    uint32_t parts() const {
+        const uint64_t pixels = uint64_t(size.width) * size.height * side * side;
+        uint32_t parts = 1;
+        while (pixels / (parts * parts) > MOST_PIXELS || size.width % parts || size.height % parts) ++parts;
+        return parts;
+    }
+
+    // The images of this way.
+    VkExtent2D image() const {
+        return {size.width * side / parts(), size.height * side / parts()};
+    }
+};
+
 // A renderer, which draws into images of one size, with or without the library.
 class Renderer {
   public:
-    // Makes a renderer for images of `side` times the usual width and height. `pattern` and `shading` are options for the
-    // antialiaser, if there is one.
-    Renderer(const Device &device, const World &world, const Meshes &meshes, const Pipelines &pipelines, uint32_t side,
-             const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading)
-        : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
+    Renderer(const Device &device, const World &world, const Meshes &meshes, const Pipelines &pipelines, const Way &way)
+        : device(device), world(world), meshes(meshes), pipelines(pipelines), way(way), size(way.image()),
           objects(device, world.parts.size() * sizeof(Object), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-          targets(std::make_unique<Targets>(device, size, antialiaser ? RING : 1)) {
+          targets(std::make_unique<Targets>(device, size, way.antialiaser ? RING : 1)) {
         VkCommandBufferAllocateInfo commands_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         commands_info.commandPool = device.pool;
         commands_info.commandBufferCount = 1;
@@ -276,7 +325,7 @@ class Renderer {
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers;
         vkUpdateDescriptorSets(device.raw, 1, &write, 0, nullptr);
-        if (antialiaser) prepare(antialiaser, pattern, shading);
+        if (way.antialiaser) prepare();
     }
 
     Renderer(const Renderer &) = delete;
@@ -290,7 +339,7 @@ class Renderer {
     // gpc: replaces the images by images of another size. No commands may be in flight.
     void resize(VkExtent2D to) {
         targets = std::make_unique<Targets>(device, to, RING);
-        size = to;
+        way.size = size = to;
         check(gpc_frame_resize(frame, size.width, size.height));
     }
 
@@ -299,25 +348,27 @@ class Renderer {
         return {gpc_frame_memory_bytes(frame), gpc_frame_shared_memory_bytes(frame)};
     }
 
-    // Draws the scene at a time into the next image of the ring, and waits for it.
-    void draw(float time) {
+    // Draws the scene at a time into the next image of the ring, or a part of the scene: the one in this column and row. Waits
+    // for it, and returns the time that it took.
+    Time draw(float time, uint32_t column = 0, uint32_t row = 0) {
+        const Watch watch;
         ++drawn;
-        const Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
+        Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
+        const float parts = float(way.parts());
+        for (auto &terms : projection) {
+            // Clip space of the part is -1 to 1 along each axis.
+            terms[0] = parts * terms[0] + (parts - 1 - 2 * float(column)) * terms[3];
+            terms[1] = parts * terms[1] + (parts - 1 - 2 * float(row)) * terms[3];
+        }
         const Mat4 camera = projection * looking({EYE[0], EYE[1], EYE[2]}, {0, 0.6f, 0});
         const std::vector<Object> shown = world.objects(time, camera);
         objects.write(shown);
-        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-        check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+        begin();
         record_forward();
         if (frame) record_antialiasing(shown, projection);
         else change(canvas(), COLOR_DRAWN, COPIED);
-        record_read_back();
-        check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-        VkSubmitInfo submitted{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-        submitted.commandBufferCount = 1;
-        submitted.pCommandBuffers = &commands;
-        check(vkQueueSubmit(device.queue, 1, &submitted, VK_NULL_HANDLE), "vkQueueSubmit");
-        check(vkQueueWaitIdle(device.queue), "vkQueueWaitIdle");
+        execute();
+        return watch.read();
     }
 
     // Statistics of the library's last frame.
@@ -328,21 +379,32 @@ class Renderer {
         return outcome;
     }
 
-    // The picture that was drawn; each of its pixels is the mean of `side` x `side` pixels in linear light.
-    Picture picture(uint32_t side) const {
-        double linear[256];
-        for (int code = 0; code < 256; ++code) linear[code] = decoded(code / 255.0);
-        const auto *bytes = static_cast<const uint8_t *>(targets->read_back.mapped);
-        Picture picture;
-        for (uint32_t y = 0; y < SIZE.height; ++y)
-            for (uint32_t x = 0; x < SIZE.width; ++x)
-                for (uint32_t channel = 0; channel < 3; ++channel) {
-                    double sum = 0;
-                    for (uint32_t line = y * side; line < (y + 1) * side; ++line)
-                        for (uint32_t column = x * side; column < (x + 1) * side; ++column)
-                            sum += linear[bytes[4 * (size_t(line) * size.width + column) + channel]];
-                    picture.push_back(encoded(sum / (side * side)));
-                }
+    // Draws all parts of the picture, and returns the time that it took.
+    Time draw_all(float time) {
+        Time sum;
+        for (uint32_t row = 0; row < way.parts(); ++row)
+            for (uint32_t column = 0; column < way.parts(); ++column) {
+                const Time part = draw(time, column, row);
+                sum = {sum.wall + part.wall, sum.cpu + part.cpu};
+            }
+        return sum;
+    }
+
+    // The picture of the last image, in which it is drawn as a whole.
+    Picture picture() {
+        Picture picture(size_t(3) * way.size.width * way.size.height);
+        read(picture, 0, 0);
+        return picture;
+    }
+
+    // The picture of the scene at a time.
+    Picture picture(float time) {
+        Picture picture(size_t(3) * way.size.width * way.size.height);
+        for (uint32_t row = 0; row < way.parts(); ++row)
+            for (uint32_t column = 0; column < way.parts(); ++column) {
+                draw(time, column, row);
+                read(picture, column, row);
+            }
         return picture;
     }
 
@@ -351,6 +413,7 @@ class Renderer {
     const World &world;
     const Meshes &meshes;
     const Pipelines &pipelines;
+    Way way;
     VkExtent2D size;
     Buffer objects;
     std::unique_ptr<Targets> targets;
@@ -365,8 +428,44 @@ class Renderer {
         return *targets->colors[drawn % targets->colors.size()];
     }
 
+    void begin() {
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+    }
+
+    // Executes what was recorded, and waits for it.
+    void execute() {
+        check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+        VkSubmitInfo submitted{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        submitted.commandBufferCount = 1;
+        submitted.pCommandBuffers = &commands;
+        check(vkQueueSubmit(device.queue, 1, &submitted, VK_NULL_HANDLE), "vkQueueSubmit");
+        check(vkQueueWaitIdle(device.queue), "vkQueueWaitIdle");
+    }
+
+    // Reads the part of a picture that the last image shows; each pixel is the mean of `side` x `side` pixels in linear light.
+    void read(Picture &picture, uint32_t column, uint32_t row) {
+        begin();
+        record_read_back();
+        execute();
+        double linear[256];
+        for (int code = 0; code < 256; ++code) linear[code] = decoded(code / 255.0);
+        const auto *bytes = static_cast<const uint8_t *>(targets->read_back.mapped);
+        const uint32_t side = way.side, width = way.size.width / way.parts(), height = way.size.height / way.parts();
+        for (uint32_t y = 0; y < height; ++y)
+            for (uint32_t x = 0; x < width; ++x)
+                for (uint32_t channel = 0; channel < 3; ++channel) {
+                    double sum = 0;
+                    for (uint32_t i = y * side; i < (y + 1) * side; ++i)
+                        for (uint32_t k = x * side; k < (x + 1) * side; ++k)
+                            sum += linear[bytes[4 * (size_t(i) * size.width + k) + channel]];
+                    const size_t pixel = size_t(row * height + y) * way.size.width + column * width + x;
+                    picture[3 * pixel + channel] = encoded(sum / (side * side));
+                }
+    }
+
     // gpc: makes the library's frame, with what it is lent in all frames.
-    void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading) {
+    void prepare() {
         GpcGeometry geometry;
         check(gpc_init_geometry(&geometry, sizeof geometry));
         geometry.positions = meshes.vertices.raw;
@@ -389,11 +488,12 @@ class Renderer {
         check(gpc_init_options(&options, sizeof options));
         options.width = size.width;
         options.height = size.height;
-        options.pattern = pattern;
-        options.shading = shading;
+        options.samples = way.samples;
+        options.pattern = way.pattern;
+        options.shading = way.shading;
         // If all samples are shaded, even low contrasts are sampled.
-        if (shading == GPC_SHADING_SAMPLE) options.contrast = 2;
-        check(gpc_frame_create(antialiaser, &geometry, &kinds, &options, &frame));
+        if (way.shading == GPC_SHADING_SAMPLE) options.contrast = 2;
+        check(gpc_frame_create(way.antialiaser, &geometry, &kinds, &options, &frame));
     }
 
     // gpc: records antialiasing. The draws of the frame are listed in the order of their IDs.
@@ -550,69 +650,145 @@ void save(const Picture &picture, const char *path) {
     if (!file.flush()) throw std::runtime_error(std::string(path) + " can't be written");
 }
 
-void run(const std::string &shaders, const char *out) {
+// What all renderers share.
+struct Stage {
     const Device device;
-    const GpcDevice lent = device.lent();
-    GpcAntialiaser *made = nullptr;
-    check(gpc_antialiaser_create(&lent, &made));
-    const std::unique_ptr<GpcAntialiaser, decltype(&gpc_antialiaser_destroy)> antialiaser(made, gpc_antialiaser_destroy);
     const World world;
-    const Meshes meshes(device, world);
-    const Pipelines pipelines(device, shaders, gpc_antialiaser_samples_layout(made));
+    const Meshes meshes;
+    std::unique_ptr<GpcAntialiaser, decltype(&gpc_antialiaser_destroy)> antialiaser;
+    const Pipelines pipelines;
 
+    explicit Stage(const std::string &shaders)
+        : meshes(device, world), antialiaser(make(device), gpc_antialiaser_destroy),
+          pipelines(device, shaders, gpc_antialiaser_samples_layout(antialiaser.get())) {}
+
+    std::unique_ptr<Renderer> renderer(const Way &way) const {
+        return std::make_unique<Renderer>(device, world, meshes, pipelines, way);
+    }
+
+  private:
+    static GpcAntialiaser *make(const Device &device) {
+        const GpcDevice lent = device.lent();
+        GpcAntialiaser *made = nullptr;
+        check(gpc_antialiaser_create(&lent, &made));
+        return made;
+    }
+};
+
+void run(const std::string &shaders, const char *out) {
+    const Stage stage(shaders);
+    const GpcAntialiaser *made = stage.antialiaser.get();
     const float moments[] = {0, 0.5f, 1};
-    Renderer renderer(device, world, meshes, pipelines, 1, made, GPC_PATTERN_LINES, GPC_SHADING_PART);
-    for (float moment : moments) renderer.draw(moment);
-    const GpcOutcome outcome = renderer.outcome();
+    const std::unique_ptr<Renderer> renderer = stage.renderer({SIZE, 1, made});
+    for (float moment : moments) renderer->draw(moment);
+    const GpcOutcome outcome = renderer->outcome();
     std::printf("%llu superpixels, %llu left over, %.1f ms of the library on the GPU, %.1f MB\n",
                 static_cast<unsigned long long>(outcome.superpixels), static_cast<unsigned long long>(outcome.left_over),
                 outcome.gpu_milliseconds, double(outcome.memory_bytes) / 1e6);
-    const auto last = [&](uint32_t side, const GpcAntialiaser *antialiaser, GpcShading shading) {
-        Renderer renderer(device, world, meshes, pipelines, side, antialiaser, GPC_PATTERN_GRID, shading);
-        renderer.draw(moments[2]);
-        return renderer.picture(side);
-    };
-    const auto alone = [&](uint32_t side) { return last(side, nullptr, GPC_SHADING_PART); };
-    const Picture truth = alone(REFERENCE), antialiased = renderer.picture(1);
-    std::printf("error of one sample: %.6f\n", error(alone(1), truth));
-    std::printf("error of brute force: %.6f\n", error(rounded(alone(BRUTE)), truth));
+    const auto last = [&](const Way &way) { return stage.renderer(way)->picture(moments[2]); };
+    const auto placed = [&](GpcShading shading) { return last({SIZE, 1, made, BRUTE * BRUTE, GPC_PATTERN_GRID, shading}); };
+    const Picture truth = last({SIZE, REFERENCE}), antialiased = renderer->picture();
+    std::printf("error of one sample: %.6f\n", error(last({SIZE}), truth));
+    std::printf("error of brute force: %.6f\n", error(rounded(last({SIZE, BRUTE})), truth));
     std::printf("error of superpixels: %.6f\n", error(antialiased, truth));
     std::printf("error of superpixels, samples where brute force has them: %.6f\n",
-                error(last(1, made, GPC_SHADING_PART), truth));
+                error(placed(GPC_SHADING_PART), truth));
     std::printf("error of superpixels, each of these samples shaded: %.6f\n",
-                error(last(1, made, GPC_SHADING_SAMPLE), truth));
+                error(placed(GPC_SHADING_SAMPLE), truth));
     std::printf("share of superpixels: %.4f\n", double(outcome.superpixels) / (SIZE.width * SIZE.height));
-    const auto [all, shared] = renderer.memory();
+    const auto [all, shared] = renderer->memory();
     std::printf("memory of a frame: %.1f MB, of another one: %.1f MB\n", double(all) / 1e6, double(all - shared) / 1e6);
-    renderer.resize({SIZE.width + 80, SIZE.height + 45});
-    renderer.draw(moments[1]);
-    renderer.resize(SIZE);
-    renderer.draw(moments[2]);
-    std::printf("after two resizes: %s\n", renderer.picture(1) == antialiased ? "the same picture" : "another picture");
+    renderer->resize({SIZE.width + 80, SIZE.height + 45});
+    renderer->draw(moments[1]);
+    renderer->resize(SIZE);
+    renderer->draw(moments[2]);
+    std::printf("after two resizes: %s\n", renderer->picture() == antialiased ? "the same picture" : "another picture");
     save(antialiased, out);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+// Prints times and errors of brute force and of the library, for pictures of these sizes. Times are medians of frames that are
+// drawn by turns.
+void measure(const std::string &shaders, const std::vector<VkExtent2D> &sizes) {
+    const Stage stage(shaders);
+    const GpcAntialiaser *made = stage.antialiaser.get();
+    std::puts("width,height,method,samples,frames,wall_ms_median,cpu_ms_median,rmse,superpixel_fraction");
+    for (const VkExtent2D size : sizes) {
+        const Picture truth = stage.renderer({size, REFERENCE})->picture(1);
+        const Way ways[] = {{size}, {size, 8}, {size, 16}, {size, 1, made, 64}, {size, 1, made, 256}};
+        std::vector<std::unique_ptr<Renderer>> renderers;
+        std::vector<double> errors;
+        for (const Way &way : ways) {
+            renderers.push_back(stage.renderer(way));
+            errors.push_back(error(rounded(renderers.back()->picture(1)), truth));
+        }
+        std::vector<std::vector<double>> wall(renderers.size()), cpu(renderers.size());
+        for (size_t turn = 0; turn < TIMED; ++turn)
+            for (size_t i = 0; i < renderers.size(); ++i) {
+                const Time time = renderers[i]->draw_all(1);
+                wall[i].push_back(time.wall);
+                cpu[i].push_back(time.cpu);
+            }
+        for (size_t i = 0; i < renderers.size(); ++i) {
+            const Way &way = ways[i];
+            const char *method = way.antialiaser ? "superpixel" : way.side > 1 ? "own" : "none";
+            const GpcOutcome outcome = way.antialiaser ? renderers[i]->outcome() : GpcOutcome{};
+            if (outcome.left_over) throw std::runtime_error("a frame was left unfinished");
+            std::printf("%u,%u,%s,%u,%zu,%.3f,%.3f,%.6f,%.4f\n", size.width, size.height, method,
+                        way.antialiaser ? way.samples : way.side * way.side, TIMED, median(wall[i]), median(cpu[i]), errors[i],
+                        double(outcome.superpixels) / (double(size.width) * size.height));
+        }
+        std::fflush(stdout);
+    }
+}
+
+// Sizes of a list such as 240x135,480x270; empty if it is no such list.
+std::vector<VkExtent2D> sizes_of(const char *list) {
+    std::vector<VkExtent2D> sizes;
+    for (const char *rest = list;; ++rest) {
+        VkExtent2D size{};
+        int read = 0;
+        if (std::sscanf(rest, "%5ux%5u%n", &size.width, &size.height, &read) != 2 || !size.width || !size.height) return {};
+        sizes.push_back(size);
+        rest += read;
+        if (!*rest) return sizes;
+        if (*rest != ',') return {};
+    }
 }
 
 } // namespace
 
 int main(int count, char **arguments) {
-    const char *usage = "forward SPIRV_FOLDER OUT.ppm";
+    const char *usage = "forward SPIRV_FOLDER OUT.ppm, or forward SPIRV_FOLDER --sizes WIDTHxHEIGHT,...";
+    const bool measures = count > 2 && std::string(arguments[2]) == "--sizes";
+    const int expected = measures ? 4 : 3;
     for (int i = 1; i < count; ++i) {
         const std::string argument = arguments[i];
         if (argument == "--help" || argument == "-h") {
             std::printf("Usage: %s\n", usage);
             return 0;
         }
-        if (i > 2 || argument[0] == '-') {
+        if (i >= expected || (argument[0] == '-' && !(measures && i == 2))) {
             std::fprintf(stderr, "unexpected argument \"%s\"; usage: %s\n", arguments[i], usage);
             return 2;
         }
     }
-    if (count != 3) {
-        std::fprintf(stderr, "a path is missing; usage: %s\n", usage);
+    if (count != expected) {
+        std::fprintf(stderr, "a %s is missing; usage: %s\n", measures ? "list of sizes" : "path", usage);
+        return 2;
+    }
+    std::vector<VkExtent2D> sizes;
+    if (measures && (sizes = sizes_of(arguments[3])).empty()) {
+        std::fprintf(stderr, "\"%s\" is no list of sizes such as 240x135,480x270; usage: %s\n", arguments[3], usage);
         return 2;
     }
     try {
-        run(arguments[1], arguments[2]);
+        if (measures) measure(arguments[1], sizes);
+        else run(arguments[1], arguments[2]);
     } catch (const std::exception &failure) {
         std::fprintf(stderr, "%s\n", failure.what());
         return 1;

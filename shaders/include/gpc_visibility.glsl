@@ -60,14 +60,15 @@ struct GpcSample {
     uint triangle;      // index in the order of the frame's draws
     uint draw;          // index of its draw
     uint material;      // that of its draw
-    uvec3 vertices;     // indices, the draw's vertex offset added
+    uvec3 vertices;     // indices, the draw's vertex offset added; the second and the third are exchanged if the draw's front
+                        // faces are clockwise
     uint location;      // of a list: the index of its location
     vec2 position;      // in the image, in pixels from its upper left corner, y down
     vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the weighted sum of the vertices' values
     vec3 dx, dy;        // change of the weights across the rectangle that the sample stands for, to the right and down: with
                         // them as weights, an attribute's gradients for textureGrad, or for gpc_texture.glsl
     vec2 right, down;   // the sides of this rectangle, in pixels of the image
-    bool front;         // whether the triangle is seen from its front: whether it is counter-clockwise on the screen
+    bool front;         // whether the triangle is seen from its front
 };
 
 // Gets this invocation's sample among those of a key; returns false if there is none.

@@ -349,8 +349,7 @@ pub struct GpcDraw {
     /// number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
     /// shaded.
     pub material: u32,
-    /// VK_TRUE if back faces are visible. A front face is counter-clockwise on the screen, as with
-    /// VK_FRONT_FACE_COUNTER_CLOCKWISE.
+    /// VK_TRUE if back faces are visible. `front_face` says which faces these are.
     pub double_sided: vk::Bool32,
     /// VK_TRUE if the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
     /// draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
@@ -364,12 +363,15 @@ pub struct GpcDraw {
     pub mesh: u32,
     /// Topology: how indices, or vertices without indices, form triangles: a GpcTopology.
     pub topology: u32,
+    /// Orientation of front faces in the image: frontFace of the application's pipeline. 0 is
+    /// VK_FRONT_FACE_COUNTER_CLOCKWISE.
+    pub front_face: vk::FrontFace,
 }
 
 // SAFETY: `repr(C)`; numbers may have any bytes.
 unsafe impl Element for GpcDraw {
     const NAME: &'static str = "GpcDraw";
-    const SIZES: &'static [usize] = sizes!(GpcDraw, blended, topology);
+    const SIZES: &'static [usize] = sizes!(GpcDraw, blended, topology, front_face);
 }
 
 impl GpcDraw {
@@ -424,6 +426,7 @@ impl GpcDraw {
                 possible: "0 to 65535".to_owned(),
             })?,
             double_sided: flag("GpcDraw.double_sided", self.double_sided)?,
+            front_face: self.front_face,
             detailed: flag("GpcDraw.detailed", self.detailed)?,
             blended: flag("GpcDraw.blended", self.blended)?,
         })

@@ -75,6 +75,10 @@ pub(super) fn in_c(error: &HostError) -> String {
             let asked = u32::from(*map) + 1;
             format!("GpcDraw.alpha_map of draw {draw} is {asked}; it can be 0 to {maps}")
         }
+        HostError::FrontFace { draw, found } => format!(
+            "GpcDraw.front_face of draw {draw} is {}; it can be VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)",
+            found.as_raw()
+        ),
         HostError::FlatProjection => {
             "GpcScenery.projection has a scale of 0 along y: it is projection[1][1], in columns".to_owned()
         }

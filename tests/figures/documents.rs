@@ -1,13 +1,14 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{help, passes, pipeline, plot, sets, superpixel_price, table, time_to_error};
+use crate::{choices, help, hosts, passes, pipeline, plot, sets, superpixel_price};
+use crate::{table, time_to_error};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 16] = [
+const PARTS: [(&str, Make); 19] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
@@ -18,6 +19,9 @@ const PARTS: [(&str, Make); 16] = [
     ("motion", table::motion),
     ("variants", table::variants),
     ("growth", table::growth),
+    ("hosts", hosts::table),
+    ("contrast", choices::contrast),
+    ("shading", choices::shading),
     ("help", help::every),
     ("passes", passes::frame),
     ("passes-in-short", pipeline::in_short),

@@ -5,9 +5,11 @@
 
 mod by_scene;
 mod checks;
+mod choices;
 mod data;
 mod documents;
 mod help;
+mod hosts;
 mod passes;
 mod pipeline;
 mod plot;

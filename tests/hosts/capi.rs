@@ -256,12 +256,10 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
         command.env("LD_LIBRARY_PATH", prefix().join("lib"));
         command
     };
-    example::takes_only(program, 2, "forward SPIRV_FOLDER OUT.ppm");
-    let said = example::validated(
-        program()
-            .arg(Path::new(ROOT).join("examples/forward/shaders/spirv"))
-            .arg(prefix().join("forward.ppm")),
-    );
+    let usage = "forward SPIRV_FOLDER OUT.ppm, or forward SPIRV_FOLDER --sizes WIDTHxHEIGHT,...";
+    example::takes_only(program, 2, usage);
+    let shaders = Path::new(ROOT).join("examples/forward/shaders/spirv");
+    let said = example::validated(program().arg(&shaders).arg(prefix().join("forward.ppm")));
     assert!(said.contains(" 0 left over"), "{said}");
     assert!(
         said.contains("after two resizes: the same picture"),
@@ -287,4 +285,38 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
     );
     assert!(each <= 1.15 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.45, "{said}");
+
+    let said = example::validated(program().arg(&shaders).args(["--sizes", "48x27,64x36"]));
+    let rows: Vec<Vec<&str>> = (said.lines().skip(1))
+        .map(|line| line.split(',').collect())
+        .collect();
+    let of_size = |size: [&'static str; 2]| {
+        let methods = [
+            ["none", "1"],
+            ["own", "64"],
+            ["own", "256"],
+            ["superpixel", "64"],
+            ["superpixel", "256"],
+        ];
+        methods.map(|[method, samples]| [size[0], size[1], method, samples])
+    };
+    let expected = [of_size(["48", "27"]), of_size(["64", "36"])].concat();
+    let found: Vec<_> = rows.iter().map(|row| row[..4].to_vec()).collect();
+    assert_eq!(found, expected, "{said}");
+    for row in &rows {
+        let [wall, cpu, error, share] = [5, 6, 7, 8].map(|i| row[i].parse::<f64>().unwrap());
+        assert!(wall > 0.0 && cpu > 0.0, "{said}");
+        let is_of_the_library = row[2] == "superpixel";
+        assert!(
+            (share > 0.1) == is_of_the_library && (error < 0.01) == (row[2] != "none"),
+            "{said}"
+        );
+    }
+    let mut wrong = program();
+    wrong.arg(&shaders).args(["--sizes", "48x27,"]);
+    let complained = String::from_utf8(wrong.output().unwrap().stderr).unwrap();
+    assert!(
+        complained.starts_with("\"48x27,\" is no list of sizes such as 240x135,480x270; usage: "),
+        "{complained}"
+    );
 }

@@ -364,6 +364,10 @@ static void recordings(GpcFrame *frame, GpcImages images) {
     draws[0].double_sided = 2;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.double_sided is 2; it can be VK_FALSE (0), VK_TRUE (1)");
     draws[0].double_sided = VK_TRUE;
+    draws[1].front_face = (VkFrontFace)2;
+    ANSWERS(RECORD, GPC_RESULT_VALUE,
+            "GpcDraw.front_face of draw 1 is 2; it can be VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)");
+    draws[1].front_face = VK_FRONT_FACE_CLOCKWISE;
     draws[1].key = 1;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.key of draw 1 is 1; it can be 0 to 0, as GpcGeometry.keys is 1");
     draws[1].key = 0;

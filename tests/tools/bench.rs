@@ -477,6 +477,39 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     }
 }
 
+#[test]
+fn choices_change_one_option_of_superpixels() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("checker.glb");
+    let arguments =
+        "--size 64x64 --methods none --reference 256 --repeat 2 --choices --cache cache --out out";
+    let (run, results) = measured(folder.path(), &[&scene], arguments);
+    let rows = results["choices"][0]["rows"].as_array().unwrap();
+    let find = |option: &str, value: &str| {
+        let row = rows
+            .iter()
+            .find(|row| row["option"] == option && row["value"] == value);
+        row.unwrap_or_else(|| panic!("no {option} {value}"))
+    };
+    // The default among the thresholds is the default among the shadings.
+    for column in ["/superpixel_fraction", "/accuracy/rmse", "/accuracy/flip"] {
+        let [contrast, shading] = [find("contrast", "6"), find("shading", "part")];
+        assert_eq!(number(contrast, column), number(shading, column));
+    }
+    let share = |contrast| number(find("contrast", contrast), "/superpixel_fraction");
+    assert!(share("0") >= share("6") && share("6") > share("32"));
+    let error = |shading| number(find("shading", shading), "/accuracy/rmse");
+    assert!(error("triangle") > error("part"));
+    for row in rows {
+        assert!(number(row, "/cost/gpu_ms/min") > 0.0, "{row}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("out/choices.csv")).unwrap();
+    let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, vec![15; rows.len() + 1]);
+    let printed = String::from_utf8(run.stdout).unwrap();
+    assert!(printed.contains("one option changed"), "{printed}");
+}
+
 /// An orthographic camera has no panorama; the other variants are timed all the same.
 #[test]
 fn a_variant_that_a_camera_can_not_have_says_why() {

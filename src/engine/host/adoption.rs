@@ -9,6 +9,7 @@ use crate::engine::passes::transform::{self, VertexCounts};
 use crate::engine::passes::{coordinates, spirv};
 use crate::engine::pipelines::Kernel;
 use crate::vulkan::{DescriptorSets, Memory, Recorder};
+use ash::vk;
 use std::sync::Arc;
 
 /// Passes that read a host's buffers, and the draws of a frame.
@@ -129,6 +130,7 @@ impl Adoption {
                 first_index: indices.map_or(0, |indices| indices.first_lent(limits)),
                 index_count: indices.map_or(0, |indices| indices.capacity),
                 topology: run.topology as u32,
+                clockwise: u32::from(run.front_face == vk::FrontFace::CLOCKWISE),
             };
             recorder.show(&self.sets[run.mesh].adopt);
             adopt.record(recorder, &counts, counts.triangle_count);

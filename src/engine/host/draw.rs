@@ -2,6 +2,7 @@
 
 use super::{Geometry, HostError, Mesh, PositionSpace, Topology};
 use crate::engine::data::{HostDraw, TriangleWord};
+use ash::vk;
 
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +30,10 @@ pub struct Draw {
     /// Material number of the host's choice, which its shaders can read. Triangles with the same number are assumed to
     /// look alike where the surrounding colours decide in how many parts [`Self::detailed`] ones are shaded.
     pub material: u16,
-    /// Whether back faces are visible. A front face is counter-clockwise on the screen.
+    /// Whether back faces are visible.
     pub double_sided: bool,
+    /// Orientation of front faces in the image: `frontFace` of the host's pipeline.
+    pub front_face: vk::FrontFace,
     /// Whether the colour may vary within a pixel, for example because of a texture or a glossy surface. If so, the
     /// draw is shaded in several parts of a superpixel wherever the surrounding pixels vary in colour.
     pub detailed: bool,
@@ -57,18 +60,20 @@ impl Default for Draw {
             key: 0,
             material: 0,
             double_sided: false,
+            front_face: vk::FrontFace::COUNTER_CLOCKWISE,
             detailed: false,
             blended: false,
         }
     }
 }
 
-/// Consecutive draws of the same mesh and topology, which are read together.
+/// Consecutive draws of the same mesh, topology and front face, which are read together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DrawRun {
     /// Index of the mesh.
     pub mesh: usize,
     pub topology: Topology,
+    pub front_face: vk::FrontFace,
     /// First triangle of the run, counted over all draws, and number of triangles.
     pub triangles: [u32; 2],
     /// First position of the run in clip space and number of positions, if positions are in object space.
@@ -176,20 +181,21 @@ impl PlacedDraws {
         Ok(placed)
     }
 
-    /// Adds a draw to the last run, or begins a run if the draw's mesh or topology differs.
+    /// Adds a draw to the last run, or begins a run if the draw's mesh, topology or front face differs.
     fn extend_runs(&mut self, draw: &Draw, [first, vertices]: [u32; 2]) {
         if draw.triangle_count == 0 {
             return;
         }
-        let (mesh, topology) = (draw.mesh as usize, draw.topology);
+        let kind = (draw.mesh as usize, draw.topology, draw.front_face);
         match self.runs.last_mut() {
-            Some(run) if (run.mesh, run.topology) == (mesh, topology) => {
+            Some(run) if (run.mesh, run.topology, run.front_face) == kind => {
                 run.triangles[1] += draw.triangle_count;
                 run.positions[1] += vertices;
             }
             _ => self.runs.push(DrawRun {
-                mesh,
-                topology,
+                mesh: kind.0,
+                topology: kind.1,
+                front_face: kind.2,
                 triangles: [self.triangles, draw.triangle_count],
                 positions: [first, vertices],
             }),
@@ -231,6 +237,13 @@ impl Draw {
                 key: self.key,
                 keys: geometry.keys,
             });
+        }
+        if !matches!(
+            self.front_face,
+            vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE
+        ) {
+            let found = self.front_face;
+            return Err(HostError::FrontFace { draw, found });
         }
         if self.blended && !geometry.blended {
             return Err(HostError::NotBlended { draw });
@@ -303,7 +316,7 @@ impl Draw {
 mod tests {
     use super::super::{AlphaMap, ClipSpace, Coordinates, Indices};
     use super::*;
-    use ash::vk::{self, Handle};
+    use ash::vk::Handle;
 
     fn mesh() -> Mesh {
         Mesh {
@@ -405,6 +418,7 @@ mod tests {
         let run = DrawRun {
             mesh: 0,
             topology: Topology::List,
+            front_face: vk::FrontFace::COUNTER_CLOCKWISE,
             triangles: [0, 3],
             positions: [0, 40],
         };
@@ -544,6 +558,10 @@ mod tests {
             let placed = PlacedDraws::new(&in_object_space(), draws);
             placed.err().unwrap().to_string()
         };
+        let unknown = Draw {
+            front_face: vk::FrontFace::from_raw(2),
+            ..with_vertices(0, 1)
+        };
         let broken = Draw {
             to_clip: [[f32::NAN; 4]; 4],
             ..with_vertices(0, 1)
@@ -564,6 +582,10 @@ mod tests {
             (
                 vec![with_vertices(0, 30), with_vertices(0, 11)],
                 "41 vertices; the frame was prepared for 40",
+            ),
+            (
+                vec![with_vertices(0, 1), unknown],
+                "front_face of draw 1 is 2; it can be COUNTER_CLOCKWISE or CLOCKWISE",
             ),
             (
                 vec![broken],
@@ -591,9 +613,14 @@ mod tests {
             topology,
             ..draw(first_index, triangle_count, 0)
         };
+        let clockwise = |draw| Draw {
+            front_face: vk::FrontFace::CLOCKWISE,
+            ..draw
+        };
         let draws = [
             of(0, Topology::List, 0, 2),
             of(0, Topology::List, 9, 1),
+            clockwise(of(0, Topology::List, 9, 1)),
             of(0, Topology::Fan, 55, 3),
             of(1, Topology::Strip, 48, 0),
             of(1, Topology::Strip, 44, 4),
@@ -602,16 +629,21 @@ mod tests {
         let run = |mesh, topology, triangles| DrawRun {
             mesh,
             topology,
+            front_face: vk::FrontFace::COUNTER_CLOCKWISE,
             triangles,
             positions: [0, 0],
         };
         let expected = [
             run(0, Topology::List, [0, 3]),
-            run(0, Topology::Fan, [3, 3]),
-            run(1, Topology::Strip, [6, 4]),
+            DrawRun {
+                front_face: vk::FrontFace::CLOCKWISE,
+                ..run(0, Topology::List, [3, 1])
+            },
+            run(0, Topology::Fan, [4, 3]),
+            run(1, Topology::Strip, [7, 4]),
         ];
         assert_eq!(placed.runs, expected);
-        let last = placed.draws[4];
+        let last = placed.draws[5];
         let vertex = last.first_position.wrapping_add(last.shift);
         assert_eq!(
             (last.first_position, last.last_position, vertex),

@@ -130,6 +130,14 @@ pub enum HostError {
         /// Index of the draw's mesh.
         mesh: u32,
     },
+    /// Orientation of front faces that Vulkan 1.3 does not have.
+    #[error("front_face of draw {draw} is {found:?}; it can be COUNTER_CLOCKWISE or CLOCKWISE")]
+    FrontFace {
+        /// Index of the draw.
+        draw: usize,
+        /// Orientation that was given.
+        found: vk::FrontFace,
+    },
     /// Draw whose mesh does not exist.
     #[error("draw {draw} has mesh {mesh}, and there are {meshes}, from 0")]
     NoMesh {

@@ -6,7 +6,7 @@ use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::vulkan::{Buffer, DescriptorSets, Shown, Specialized, VulkanError};
 use ash::vk;
 
-/// Push constants of a dispatch: ranges of triangles and indices, the number of draws, and the topology.
+/// Push constants of a dispatch: ranges of triangles and indices, the number of draws, the topology and the front face.
 pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
 /// Makes the kernel: for 16-bit indices if `are_short` is true, for 32-bit indices if it is false, and for

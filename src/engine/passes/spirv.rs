@@ -96,6 +96,7 @@ pub struct AdoptPush {
     pub first_index: u32,
     pub index_count: u32,
     pub topology: u32,
+    pub clockwise: u32,
 }
 
 /// The set of its own that `shaders/adopt.comp` binds.
@@ -136,7 +137,7 @@ impl Specialized for Adopt {
             Use { set: 0, binding: adopt_set::TRIANGLES_OUT, access: Access::Write },
             Use { set: 0, binding: adopt_set::DRAW_OF_OUT, access: Access::Write },
         ],
-        push_bytes: 24,
+        push_bytes: 28,
         invocations: Invocations::Fixed(64),
         needs_subgroup_size: false,
     };

@@ -45,6 +45,8 @@ struct Shading<'a> {
     samples: vk::Pipeline,
     corners: vk::Pipeline,
     triangles: u32,
+    /// Factor on the brightness of back faces.
+    back: f32,
 }
 
 impl ShadeSamples for Shading<'_> {
@@ -68,12 +70,13 @@ impl ShadeSamples for Shading<'_> {
             }
             device.cmd_bind_descriptor_sets(commands, compute, self.layout, 0, &sets, &[]);
             device.cmd_bind_pipeline(commands, compute, self.corners);
+            let [triangles, back] = [self.triangles, self.back.to_bits()].map(u32::to_ne_bytes);
             device.cmd_push_constants(
                 commands,
                 self.layout,
                 vk::ShaderStageFlags::COMPUTE,
                 0,
-                &self.triangles.to_ne_bytes(),
+                &[triangles, back].concat(),
             );
             device.cmd_dispatch(commands, (3 * self.triangles).div_ceil(64), 1, 1);
             device.cmd_bind_pipeline(commands, compute, self.samples);
@@ -230,6 +233,8 @@ struct Lending<'a> {
     paints: Buffer,
     of_draws: Buffer,
     _maps: Vec<(Image, &'a Map)>,
+    /// Factor on the brightness of back faces.
+    back: f32,
     geometry: Geometry,
 }
 
@@ -315,7 +320,7 @@ impl<'a> Lending<'a> {
             alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
             blended: lent.draws.iter().any(|draw| draw.blended),
             clip: ClipSpace {
-                y_up: false,
+                y_up: way.y_up,
                 reversed_depth: true,
                 depth_range: way.depth_range,
             },
@@ -325,6 +330,7 @@ impl<'a> Lending<'a> {
             _coordinates: coordinates,
             paints,
             of_draws,
+            back: way.back,
             _maps: maps,
             geometry,
         }
@@ -386,7 +392,7 @@ impl<'a> Machine<'a> {
             let push = [vk::PushConstantRange {
                 stage_flags: compute,
                 offset: 0,
-                size: 4,
+                size: 8,
             }];
             let info = vk::PipelineLayoutCreateInfo::default()
                 .set_layouts(&sets)
@@ -752,6 +758,7 @@ impl<'a> Machine<'a> {
             samples: self.pipelines[0],
             corners: self.pipelines[1],
             triangles,
+            back: lending.back,
         }
     }
 

@@ -7,6 +7,7 @@ mod besides;
 mod blend;
 mod completion;
 mod draws;
+mod facing;
 mod filters;
 mod frames;
 mod lent;

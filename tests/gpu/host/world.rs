@@ -69,6 +69,12 @@ pub struct Way {
     pub bare: bool,
     pub topology: Topology,
     pub viewport: Option<Viewport>,
+    /// Whether y points up in clip space.
+    pub y_up: bool,
+    pub front_face: vk::FrontFace,
+    pub double_sided: bool,
+    /// Factor on the brightness of back faces.
+    pub back: f32,
     /// Values in the image of depth for a depth of 0 and for a depth of 1.
     pub depth_range: [f32; 2],
 }
@@ -85,6 +91,10 @@ pub const PLACED: Way = Way {
     bare: false,
     topology: Topology::List,
     viewport: None,
+    y_up: false,
+    front_face: vk::FrontFace::COUNTER_CLOCKWISE,
+    double_sided: true,
+    back: 1.0,
     depth_range: [0.0, 1.0],
 };
 
@@ -277,7 +287,8 @@ impl World {
                 material: number as u16,
                 alpha_map: part.alpha_map,
                 blended: part.opacity < 1.0,
-                double_sided: true,
+                double_sided: way.double_sided,
+                front_face: way.front_face,
                 ..Draw::default()
             });
         }

@@ -5,10 +5,9 @@
 #include "gpc_visibility.glsl"
 #include "host.glsl"
 layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { uint triangle_count; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= 3u * triangle_count) return;
+    if (i >= 3u * push.triangle_count) return;
     corners[i] = gpc_positions[gpc_triangles[i / 3u][i % 3u]];
 }

@@ -11,5 +11,6 @@ void main() {
     GpcSample s;
     if (!gpc_sample(KEY, s)) return;
     float paint = dot(vec3(paints[s.vertices.x], paints[s.vertices.y], paints[s.vertices.z]), s.weights);
+    if (!s.front) paint *= push.back;
     gpc_store(s, vec4(colors[s.draw].rgb * paint, colors[s.draw].a));
 }

@@ -46,6 +46,9 @@ pub struct BenchArgs {
     /// Also time the variants of the camera in each scene: planar, offset, superpixel and random sets, and a panorama
     #[arg(long)]
     pub variants: bool,
+    /// Also measure superpixels of 64 samples in each scene with other values of --contrast and --shading
+    #[arg(long)]
+    pub choices: bool,
     /// Measure the error and the flicker of these scenes in motion
     ///
     /// Each scene pans by fractions of a pixel for 16 frames, and turns slowly for 16 frames. Each frame has a reference of its own.

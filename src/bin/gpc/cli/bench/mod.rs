@@ -1,6 +1,7 @@
 //! `gpc bench`.
 
 mod args;
+mod choices;
 mod front;
 mod gallery;
 mod growth;
@@ -53,8 +54,9 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
     let timed = if args.variants { args.scenes.len() } else { 0 };
+    let chosen = if args.choices { args.scenes.len() } else { 0 };
     let moved = args.motion.len();
-    let parts = args.scenes.len() + moved + timed + curves + checks;
+    let parts = args.scenes.len() + moved + timed + chosen + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -87,6 +89,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
             let scene = bench.variants(path)?;
             bench.progress.suspend(|| variants::print(&scene))?;
             results.variants.push(scene);
+            write(&args.out, &results, &galleries)?;
+        }
+    }
+    if args.choices {
+        for path in &args.scenes {
+            let scene = bench.choices(path)?;
+            bench.progress.suspend(|| choices::print(&scene))?;
+            results.choices.push(scene);
             write(&args.out, &results, &galleries)?;
         }
     }
@@ -126,6 +136,10 @@ fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> an
     if !results.variants.is_empty() {
         let text = head.clone() + &variants::csv(&results.variants);
         files.push(("variants.csv", text));
+    }
+    if !results.choices.is_empty() {
+        let text = head.clone() + &choices::csv(&results.choices);
+        files.push(("choices.csv", text));
     }
     if !results.growth.is_empty() {
         files.push(("growth.csv", head + &growth::csv(&results.growth)));

@@ -33,6 +33,8 @@ pub struct Results {
     pub motion: Vec<SceneMotion>,
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
+    /// Superpixels with other options, scene by scene.
+    pub choices: Vec<SceneChoices>,
     /// Curves of time against the size of the scene or image.
     pub growth: Vec<ScalingCurve>,
     /// Findings of the stress suite.
@@ -85,6 +87,26 @@ pub struct VariantRow {
     pub gpu_ratio: f64,
     /// Variant / raster pass ratio of wall-clock time per sample.
     pub wall_ratio: f64,
+}
+
+/// Measurements of superpixels with other options, of one scene.
+#[derive(Serialize)]
+pub struct SceneChoices {
+    pub name: String,
+    /// Whether a visible material has a texture.
+    pub textured: bool,
+    pub rows: Vec<ChoiceRow>,
+}
+
+/// Measurements of superpixels with one option changed.
+#[derive(Serialize)]
+pub struct ChoiceRow {
+    /// Name of the option, as of the command's without dashes.
+    pub option: &'static str,
+    pub value: String,
+    pub superpixel_fraction: f64,
+    pub accuracy: Accuracy,
+    pub cost: Cost,
 }
 
 /// A part of the stress suite.
@@ -185,6 +207,7 @@ impl Results {
             motion_summary: Vec::new(),
             motion: Vec::new(),
             variants: Vec::new(),
+            choices: Vec::new(),
             growth: Vec::new(),
             stress: Vec::new(),
         }
