@@ -18,12 +18,16 @@ impl Composite {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
+        let lanes = layout.gpu.limits().lanes;
         let shader = spirv::Composite {
+            local_size: lanes,
+            lanes,
+            unsure: layout.is_unsure(lanes),
             tinted: output.tinted,
             tonemap: output.tonemap,
         };
         Ok(Self {
-            pipeline: layout.compute(&shader, None)?,
+            pipeline: layout.compute(&shader, layout.subgroup())?,
         })
     }
 

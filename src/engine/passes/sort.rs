@@ -20,9 +20,6 @@ struct Passes {
 }
 
 impl Sort {
-    /// Number of invocations of a workgroup, which may have several subgroups.
-    const WORKGROUP: u32 = 64;
-
     /// Makes the pipelines.
     ///
     /// # Errors
@@ -33,8 +30,9 @@ impl Sort {
         one_bin: bool,
     ) -> Result<Self, VulkanError> {
         let passes = || {
-            let lanes = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
+            let lanes = layout.gpu.limits().lanes;
             let shader = spirv::Sort {
+                local_size: lanes,
                 lanes,
                 instanced: scene.is_instanced(),
                 unsure: layout.is_unsure(lanes),
