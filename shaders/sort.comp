@@ -1,5 +1,6 @@
 // sort: sorts visibility samples by material bin. It runs twice: the first run counts the samples of each bin, the second one
-// (`scatter`) stores them in `shade_order`. Background and empty records are left out. An invocation takes a record.
+// (`scatter`) stores them in `shade_order`. Background and empty records are left out. A subgroup takes 64 records, and an
+// invocation some successive ones of these, so that a bin costs one atomic operation for 64 records.
 // Reads: records, the geometry. Writes: bins, shade_order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,26 +9,41 @@
 #include "include/append.glsl"
 #include "include/lanes.glsl"
 #include "include/triangle.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(push_constant) uniform Push { uint scatter; } push;
 
+const uint OWN = 64u / LANES;       // records of an invocation
+const uint NONE = ~0u;
+
 void main() {
-    if (in_other_subgroups(64u)) return;
+    if (in_other_subgroups(LANES)) return;
     bool scatter = push.scatter != 0u;
-    uint i = invocation_number();
+    uint first = workgroup_number() * 64u + gl_SubgroupInvocationID * OWN;
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
-    uint id = i < count ? texelFetch(records, int(i)).y : 0u;
-    uint bin = id == 0u ? ~0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
-    uint current = lanes_min(bin);
-    // One atomic operation for each bin of the subgroup.
+
+    uint bin[OWN], least = NONE;
+    [[unroll]] for (uint r = 0u; r < OWN; r++) {
+        uint i = first + r, id = i < count ? texelFetch(records, int(i)).y : 0u;
+        bin[r] = id == 0u ? NONE : triangle_word(id - 1u) >> 16 & 0x3fffu;
+        least = min(least, bin[r]);
+    }
+    uint current = lanes_min(least);
     do {
-        bool some = current != ~0u;
-        bool mine = some && bin == current;
-        uvec4 together = subgroupBallot(mine);
-        uint n = subgroupBallotBitCount(together), base = 0u;
-        if (gl_SubgroupInvocationID == 0u && some) base = atomicAdd(bins[current][scatter ? 2 : 0], n);
-        base = of_first(base);
-        if (scatter && mine) shade_order[base + subgroupBallotExclusiveBitCount(together)] = i;
-        current = some ? lanes_min(bin > current ? bin : ~0u) : ~0u;
-    } while (current != ~0u);
+        uint own = 0u;
+        least = NONE;
+        [[unroll]] for (uint r = 0u; r < OWN; r++) {
+            own += bin[r] == current ? 1u : 0u;
+            least = min(least, bin[r] > current ? bin[r] : NONE);
+        }
+        bool some = current != NONE;
+        uint together = lanes_add(own), base = 0u;
+        if (gl_SubgroupInvocationID == 0u && some) base = atomicAdd(bins[current][scatter ? 2 : 0], together);
+        uint at = of_first(base) + lanes_before(own);
+        [[unroll]] for (uint r = 0u; r < OWN; r++) {
+            bool mine = some && bin[r] == current;
+            if (scatter && mine) shade_order[at] = first + r;
+            at += mine ? 1u : 0u;
+        }
+        current = lanes_min(least);
+    } while (current != NONE);
 }

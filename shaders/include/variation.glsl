@@ -11,6 +11,10 @@ const uint PARTS_ALL = 0u, PARTS_PAIRS = 1u, PARTS_FOURS = 2u, PARTS_ONE = 3u;
 // sample have few parts anyway, which are merged less.
 const uint FEWER_PARTS = PART == 1u ? PARTS_PAIRS : PARTS_FOURS, SOME_PARTS = PART == 1u ? PARTS_ALL : PARTS_PAIRS;
 
+// With 65 to 256 samples, parts are merged in pairs where colours differ by at most so many 8-bit codes. With fewer samples the
+// error would rise more, and with more samples, too.
+const float PAIRED_RANGE = 12.0;
+
 // Number of samples of a part.
 uint part_length(uint parts) { return PART << parts; }
 
@@ -46,7 +50,8 @@ float variation_range(uint codes[9], uint among) {
 
 uint variation_parts(float range) {
     float alike = float(frame.alike);
-    return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? FEWER_PARTS : PARTS_ALL;
+    bool pairs = frame.alike != 0u && frame.sample_count > 64u && frame.sample_count <= 256u && range <= PAIRED_RANGE;
+    return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? FEWER_PARTS : pairs ? SOME_PARTS : PARTS_ALL;
 }
 
 // The parts for a triangle that the centres in the bit set `own` see. `of_material` are those for its material.

@@ -26,7 +26,10 @@ pub enum ShadedParts {
     One,
 }
 
-/// Parts in which `triangle` is shaded.
+/// With 65 to 256 samples, largest difference of code values with which parts are merged in pairs.
+const PAIRED_RANGE: u32 = 12;
+
+/// Parts in which `triangle` is shaded, in a superpixel of `samples` samples.
 ///
 /// Two triangles around the pixel are examined: that of its centre, and the first other one. The rules are, in order:
 ///
@@ -34,7 +37,8 @@ pub enum ShadedParts {
 ///   shaded once.
 /// - Otherwise, if 3 or more centres see its material, the difference of their colours decides: up to `alike`, it is
 ///   shaded once; up to four times that, in parts merged in fours; above, in all parts. All parts are merged in pairs
-///   if the triangle's own colours differ by at most a quarter of `alike`, though only 2 or 3 centres see it.
+///   if the triangle's own colours differ by at most a quarter of `alike`, though only 2 or 3 centres see it. With 65
+///   to 256 samples, they are also merged in pairs if the material's colours differ by at most 12.
 /// - If fewer centres see it, or the triangle is neither of the two and has neither of their materials, parts are
 ///   merged in pairs.
 ///
@@ -48,6 +52,7 @@ pub fn parts(
     material_of: impl Fn(u32) -> u32,
     triangle: u32,
     alike: u8,
+    samples: u32,
 ) -> ShadedParts {
     let alike = u32::from(alike);
     let own = around.ids[CENTRE];
@@ -77,6 +82,9 @@ pub fn parts(
         range if range <= alike => ShadedParts::One,
         range if range <= 4 * alike => ShadedParts::Fours,
         _ if even => ShadedParts::Pairs,
+        range if alike != 0 && (65..=256).contains(&samples) && range <= PAIRED_RANGE => {
+            ShadedParts::Pairs
+        }
         _ => ShadedParts::All,
     }
 }

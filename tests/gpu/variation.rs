@@ -11,7 +11,8 @@ use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 /// Sizes of two images: in one a triangle covers many pixels of a row, in the other a single one.
 const SIZES: [[u32; 2]; 2] = [[32, 24], [2, 96]];
-const CONTRAST: u8 = 8;
+/// Thresholds of contrast: those of few and of many samples.
+const CONTRASTS: [u8; 2] = [8, 1];
 /// Number of samples of a block, which is divided into parts on its own.
 const BLOCK: u32 = 64;
 /// Numbers of samples, and the number of parts of a superpixel for each.
@@ -100,7 +101,10 @@ fn places_are_as_many_as_the_twin_says() {
         for (size, seed, materials) in stages {
             let stage = stage(size, seed, materials);
             let base = stage.render(gpu, &once(size));
-            for (samples, all) in RATES {
+            let rates = CONTRASTS
+                .into_iter()
+                .flat_map(|c| RATES.map(|rate| (c, rate)));
+            for (contrast, (samples, all)) in rates {
                 let settings = |shading| {
                     once(size).method(
                         SuperpixelOptions::new(samples)
@@ -109,7 +113,7 @@ fn places_are_as_many_as_the_twin_says() {
                             // The twin is made for points; on lines, parts with little of a triangle share a
                             // visibility sample.
                             .pattern(Pattern::Sobol)
-                            .contrast(Some(CONTRAST))
+                            .contrast(Some(contrast))
                             .shading(shading)
                             .thin(false),
                     )
@@ -122,7 +126,7 @@ fn places_are_as_many_as_the_twin_says() {
                         let around = around(&base, size, x, y);
                         let own = around.ids[4];
                         assert!(own != 0);
-                        let parts = parts(&around, material, own, CONTRAST);
+                        let parts = parts(&around, material, own, contrast, samples);
                         seen[parts as usize] += 1;
                         expected += match parts {
                             ShadedParts::All => all,
@@ -135,7 +139,7 @@ fn places_are_as_many_as_the_twin_says() {
                 let records = rendered.statistics.records;
                 assert_eq!(
                     records, expected,
-                    "{materials} materials, {samples} samples"
+                    "{materials} materials, {samples} samples, contrast {contrast}"
                 );
                 // Texels are pixels, so that all places of a pixel have one colour: nothing is lost or counted twice.
                 let sampled = stage.render(gpu, &settings(Shading::Sample));

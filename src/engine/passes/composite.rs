@@ -11,7 +11,11 @@ use crate::vulkan::{Specialized, VulkanError};
 /// # Errors
 /// If the driver refuses the pipeline.
 pub(crate) fn pass(layout: &FrameLayout, output: &ColorConstants) -> Result<Pass, VulkanError> {
+    let lanes = layout.gpu.limits().lanes;
     let composite = layout.kernel(&spirv::Composite {
+        local_size: lanes,
+        lanes,
+        unsure: layout.is_unsure(lanes),
         tinted: output.tinted,
         tonemap: output.tonemap,
     })?;

@@ -6,9 +6,6 @@ use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::vulkan::{Specialized, VulkanError};
 
-/// Number of invocations of a workgroup, which may have several subgroups.
-const WORKGROUP: u32 = 64;
-
 /// Counting sort of a round's visibility samples. With a single bin, the pass only computes the sizes of dispatches over the
 /// samples.
 ///
@@ -25,8 +22,9 @@ pub(crate) fn pass(
     if one_bin {
         return Ok(pass);
     }
-    let lanes = layout.gpu.limits().subgroup_size.min(WORKGROUP);
+    let lanes = layout.gpu.limits().lanes;
     let sort = layout.kernel(&spirv::Sort {
+        local_size: lanes,
         lanes,
         instanced: scene.is_instanced(),
         unsure: layout.is_unsure(lanes),

@@ -499,14 +499,20 @@ impl Compiled for Centres {
 /// Constants of `shaders/composite.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Composite {
+    pub local_size: u32,
+    pub lanes: u32,
     pub tinted: bool,
+    pub unsure: bool,
     pub tonemap: bool,
 }
 
 impl Default for Composite {
     fn default() -> Self {
         Self {
+            local_size: 1,
+            lanes: 8,
             tinted: false,
+            unsure: false,
             tonemap: true,
         }
     }
@@ -520,19 +526,22 @@ impl Specialized for Composite {
         in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
         ],
         push_bytes: 0,
-        invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        invocations: Invocations::Constant,
+        needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.lanes)
             .flag(16, self.tinted)
+            .flag(24, self.unsure)
             .flag(30, self.tonemap)
     }
 }
@@ -2498,6 +2507,7 @@ pub struct SortPush {
 /// Constants of `shaders/sort.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sort {
+    pub local_size: u32,
     pub lanes: u32,
     pub instanced: bool,
     pub unsure: bool,
@@ -2506,6 +2516,7 @@ pub struct Sort {
 impl Default for Sort {
     fn default() -> Self {
         Self {
+            local_size: 1,
             lanes: 8,
             instanced: false,
             unsure: false,
@@ -2530,12 +2541,13 @@ impl Specialized for Sort {
             Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
         push_bytes: 4,
-        invocations: Invocations::Fixed(64),
+        invocations: Invocations::Constant,
         needs_subgroup_size: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(0, self.local_size)
             .with(1, self.lanes)
             .flag(23, self.instanced)
             .flag(24, self.unsure)
