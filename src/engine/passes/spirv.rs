@@ -2780,6 +2780,7 @@ pub struct ThinPush {
 pub struct Thin {
     pub select: bool,
     pub blend_ids: bool,
+    pub folds: bool,
     pub instanced: bool,
 }
 
@@ -2788,6 +2789,7 @@ impl Default for Thin {
         Self {
             select: false,
             blend_ids: false,
+            folds: false,
             instanced: false,
         }
     }
@@ -2821,6 +2823,7 @@ impl Specialized for Thin {
         Constants::new()
             .flag(0, self.select)
             .flag(1, self.blend_ids)
+            .flag(2, self.folds)
             .flag(23, self.instanced)
     }
 }
