@@ -35,7 +35,7 @@
 // Value of GpcOptions.contrast for the default threshold: 6, or 1 from 128 samples on.
 #define GPC_CONTRAST_OF_SAMPLES UINT32_MAX
 
-// Value of GpcOptions.growths for the default number: 1, or 2 from 128 samples on.
+// Value of GpcOptions.growths for the default number: 1, or 4 from 128 samples on.
 #define GPC_GROWTHS_OF_SAMPLES UINT32_MAX
 
 // Version of the header; gpc_version returns that of the library.

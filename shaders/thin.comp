@@ -10,6 +10,8 @@
 // On a dense mesh, small triangles lie within the surface of their neighbours, and mark nothing.
 // If a triangle lies close to a surface, like paint on a road, depths do not tell which is nearer. Pixels where some of it may be
 // nearer get marks of another kind, and become superpixels only if `detect` finds them amid another triangle.
+// FOLDS: such a pixel is also marked if the triangle lies at an angle to the one at the pixel's centre, like the tread of a small
+// step. Light differs on the two. Twin: src/reference/thin.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -21,10 +23,12 @@
 layout(local_size_x = 64) in;
 layout(constant_id = THIN_CONSTANT_SELECT) const bool SELECT = false;
 layout(constant_id = THIN_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
+layout(constant_id = THIN_CONSTANT_FOLDS) const bool FOLDS = false;
 
 layout(set = SET_DATA, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
 const float LONG = 64.0;            // in pixels: longer triangles are followed by a workgroup, not an invocation
+const float FOLD = 0.5;             // cosine of the angle between two triangles from which on they are a fold
 layout(push_constant) uniform Push {
     uint long_;             // 1: follows the long triangles, not the short ones
     float depth_factor;     // raster's depth * depth_factor + depth_constant = depth of triangles
@@ -51,14 +55,27 @@ void select_thin() {
     } while (++step_ < THIN_PER_INVOCATION);
 }
 
+// The normal of a triangle on the side that the eye sees.
+vec3 facing_normal(Triangle k) {
+    vec3 a = position_of(k, vec3(1.0, 0.0, 0.0)), b = position_of(k, vec3(0.0, 1.0, 0.0)), c = position_of(k, vec3(0.0, 0.0, 1.0));
+    vec3 normal = unit_or(cross(b - a, c - a), vec3(0.0));
+    vec3 ray = frame.view_direction.w != 0.0 ? frame.view_direction.xyz : a - frame.eye.xyz;
+    return dot(normal, ray) > 0.0 ? -normal : normal;
+}
+
 // Marks a pixel if triangle `t` is not seen there and passes the tests above. `depths`: the triangle's farthest and nearest depth
-// there.
-void mark(ivec2 pixel, uint t, vec2 depths) {
+// there; `normal`: its normal.
+void mark(ivec2 pixel, uint t, vec2 depths, vec3 normal) {
     float drawn = texelFetch(raster_depth, ivec2(frame.seen_corner) + pixel, 0).x;
     float seen = push.depth_factor * drawn + push.depth_constant;
     bool unseen = !BLEND_IDS || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = depths.x - seen > frame.gap.x * depths.x + frame.gap.y;
     bool painted = depths.y >= seen && id_at(pixel) != t + 1u;
+    if (FOLDS) {
+        uint id = id_at(pixel);
+        vec3 seen_normal = facing_normal(triangle_at(max(id, 1u) - 1u));
+        apart = apart || (painted && id != 0u && dot(normal, seen_normal) < FOLD);
+    }
     if (unseen && depths.y <= 1.0 && (apart || painted)) {
         uvec2 tile = uvec2(pixel) / uvec2(8u, 4u), within = uvec2(pixel) % uvec2(8u, 4u);
         uint word = (apart ? 0u : frame.tiles.x * frame.tiles.y) + tile.y * frame.tiles.x + tile.x;
@@ -77,6 +94,7 @@ void walk() {
     if (i >= min(counters[long_ ? COUNTER_THIN_LONG : COUNTER_THIN], frame.survivor_capacity)) return;
     uint t = survivors[long_ ? frame.survivor_capacity - 1u - i : i];
     Triangle k = triangle_at(t);
+    vec3 normal = FOLDS ? facing_normal(k) : vec3(0.0);
     vec3 p0 = projected(k.v0), p1 = projected(k.v1), p2 = projected(k.v2);
 
     // The triangle is followed along its longer side. If that is along y, x and y are exchanged.
@@ -94,7 +112,7 @@ void walk() {
         int y = int(clamp(floor(span.x + 0.5), 0.0, float(last.y) + 1.0));
         int bottom = int(clamp(floor(span.y + 0.5), -1.0, float(last.y)));
         do {
-            if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, span.zw);
+            if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, span.zw, normal);
         } while (++y <= bottom);
         x += step_;
     } while (x <= end);

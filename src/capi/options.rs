@@ -60,7 +60,7 @@ pub enum GpcDetection {
 /// Value of GpcOptions.contrast for the default threshold: 6, or 1 from 128 samples on.
 pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
 
-/// Value of GpcOptions.growths for the default number: 1, or 2 from 128 samples on.
+/// Value of GpcOptions.growths for the default number: 1, or 4 from 128 samples on.
 pub const GPC_GROWTHS_OF_SAMPLES: u32 = u32::MAX;
 
 /// Possible values of GpcOptions.growths, in words.

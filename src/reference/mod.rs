@@ -21,6 +21,7 @@ pub mod shadow;
 pub mod sheen;
 pub mod stroke;
 pub mod texture;
+pub mod thin;
 pub mod topology;
 pub mod transform;
 pub mod variation;

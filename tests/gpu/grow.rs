@@ -12,7 +12,7 @@ use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
 
 const SIZE: [u32; 2] = [61, 43];
 
-/// Compares the superpixels of a mosaic with the twin's, with numbers of samples that let them grow once and twice.
+/// Compares the superpixels of a mosaic with the twin's, with numbers of samples that let them grow once and four times.
 /// Pixels beside one whose code rounding may change are excused; there are few of them.
 fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let base = render(&once(SIZE));
@@ -20,7 +20,7 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let ids = ids(&base);
     let blend = vec![0; ids.len()];
     let frame = DetectionImage::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
-    for (samples, growths) in [(4, 1), (144, 2)] {
+    for (samples, growths) in [(4, 1), (144, 4)] {
         let rendered = render(
             &once(SIZE).method(
                 SuperpixelOptions::new(samples)
@@ -115,7 +115,7 @@ fn growths_of_locations_do_not_depend_on_memory() {
 }
 
 /// The tips of wedges are narrower than a pixel and cover no centre, but show in the superpixels beside them.
-/// Superpixels grow twice here.
+/// Superpixels grow four times here.
 #[test]
 fn tips_that_no_centre_saw_are_found() {
     on_gpu(|gpu| {

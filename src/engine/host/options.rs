@@ -23,7 +23,7 @@ pub struct Options {
     /// or 1 from 128 samples on.
     pub contrast: Option<u8>,
     /// Number of growths, 0 to 8, with [`Detection::Contrast`]. In each growth, pixels that contrast with a
-    /// neighbouring superpixel become superpixels too. `None` is 1, or 2 from 128 samples on.
+    /// neighbouring superpixel become superpixels too. `None` is 1, or 4 from 128 samples on.
     pub growths: Option<u8>,
     /// Whether a triangle that is too thin to cover a pixel's centre makes the pixel a superpixel. If IDs are lent,
     /// depth is needed too.

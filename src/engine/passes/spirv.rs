@@ -2793,6 +2793,7 @@ pub struct ThinPush {
 pub struct Thin {
     pub select: bool,
     pub blend_ids: bool,
+    pub folds: bool,
     pub instanced: bool,
 }
 
@@ -2801,6 +2802,7 @@ impl Default for Thin {
         Self {
             select: false,
             blend_ids: false,
+            folds: false,
             instanced: false,
         }
     }
@@ -2834,6 +2836,7 @@ impl Specialized for Thin {
         Constants::new()
             .flag(0, self.select)
             .flag(1, self.blend_ids)
+            .flag(2, self.folds)
             .flag(23, self.instanced)
     }
 }

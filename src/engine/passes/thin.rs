@@ -7,7 +7,8 @@ use crate::engine::pipelines::{FrameLayout, Pass, Size};
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Marks pixels that `detect` turns into superpixels, for the triangle slots of a scene. `blend_ids` says whether BLEND
-/// triangles are looked up in the IDs of the nearest BLEND triangles. `depth_of_image` holds the factor and the offset that
+/// triangles are looked up in the IDs of the nearest BLEND triangles. `folds` says whether pixels are marked in which a
+/// thin triangle lies at an angle to the surface that the centre sees. `depth_of_image` holds the factor and the offset that
 /// convert values of the depth image to reversed depth, in which larger values are nearer.
 ///
 /// # Errors
@@ -16,12 +17,14 @@ pub(crate) fn pass(
     layout: &FrameLayout,
     scene: &dyn Content,
     blend_ids: bool,
+    folds: bool,
     [depth_factor, depth_constant]: [f32; 2],
 ) -> Result<Pass, VulkanError> {
     let thin = |select| {
         layout.kernel(&spirv::Thin {
             select,
             blend_ids,
+            folds,
             instanced: scene.is_instanced(),
         })
     };

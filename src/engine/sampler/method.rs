@@ -134,6 +134,10 @@ impl SuperpixelOptions {
     /// Largest number of growths. Each growth records further rounds.
     pub const MOST_GROWTHS: u8 = 8;
 
+    /// Number of samples from which on more pixels become superpixels: by a lower contrast, more growths, and thin
+    /// triangles at an angle to the surface around them.
+    pub(crate) const MANY_SAMPLES: u32 = 128;
+
     /// Default options with `samples` samples of a superpixel.
     #[must_use]
     pub fn new(samples: u32) -> Self {
@@ -153,13 +157,13 @@ impl SuperpixelOptions {
     /// superpixels have a larger part in the error, so the threshold is lower.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        if samples < 128 { 6 } else { 1 }
+        if samples < Self::MANY_SAMPLES { 6 } else { 1 }
     }
 
     /// Default number of growths for `samples` samples.
     #[must_use]
     pub fn default_growths(samples: u32) -> u8 {
-        if samples < 128 { 1 } else { 2 }
+        if samples < Self::MANY_SAMPLES { 1 } else { 4 }
     }
 
     /// Number of growths; 0 unless [`Self::detection`] is [`Detection::Contrast`].

@@ -5,7 +5,7 @@ use crate::engine::data::{Cells, HostImage};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{SampleOptions, grow, thin};
-use crate::engine::sampler::{Detection, EngineError, Settings};
+use crate::engine::sampler::{Detection, EngineError, Settings, SuperpixelOptions};
 use std::sync::Arc;
 
 /// The pixels of an image that become cells.
@@ -14,6 +14,8 @@ pub(crate) struct PixelCells {
     pub mode: DetectMode,
     /// Whether pixels that a thin triangle crosses without covering a centre become cells too.
     pub thin: bool,
+    /// Whether these are also pixels in which such a triangle lies at an angle to the surface that the centre sees.
+    pub folds: bool,
     /// Factor and offset that convert values of the depth image to reversed depth, in which larger values are nearer.
     pub depth_of_image: [f32; 2],
     /// Whether IDs of the nearest BLEND triangles exist.
@@ -49,6 +51,7 @@ impl PixelCells {
         Self {
             mode: DetectMode::of(options.detection),
             thin: options.thin && options.detection != Detection::Every,
+            folds: options.samples >= SuperpixelOptions::MANY_SAMPLES,
             depth_of_image: [1.0, 0.0],
             blend_ids: true,
             multisampled: false,
@@ -89,7 +92,7 @@ impl PixelCells {
                 },
                 beyond: self.growths,
             };
-            let thin = || thin::pass(layout, scene, blend_ids, self.depth_of_image);
+            let thin = || thin::pass(layout, scene, blend_ids, self.folds, self.depth_of_image);
             Ok(Source::Pixels {
                 thin: self.thin.then(thin).transpose()?,
                 detect: detect::pass(layout, &options)?,
