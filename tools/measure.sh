@@ -32,7 +32,8 @@ slug() { # CSV
 
 # Prints lines with the driver, the machine and the date, as `gpc bench` writes them.
 head_of_run() {
-    gpc bench assets/checker.glb --out "$work/head" --size 16x16 --methods none --samples 1 --reference 256 --repeat 1 >"$work/log"
+    gpc bench assets/checker.glb --out "$work/head" --size 16x16 --methods none --samples 1 --reference 256 --repeat 1 \
+        >"$work/log"
     grep -E '^# (driver|machine|date): ' "$work/head/results.csv"
 }
 
@@ -66,7 +67,8 @@ for kind in "${kinds[@]}"; do
             keep variants "$out/variants.csv"
             ;;
         choices)
-            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --methods none --samples 1 --repeat 9 --budget 2 --choices
+            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --methods none --samples 1 --repeat 9 --budget 2 \
+                --choices
             keep choices "$out/choices.csv"
             ;;
         growth)

@@ -34,13 +34,13 @@ fn table(option: &str, default: &str) -> String {
                 });
                 let spread = spread(values.collect());
                 let spread = spread.unwrap_or_else(|| panic!("no {option} {value}"));
-                [spread.median, spread.worst.0]
+                spread.median
             };
-            let [share, _] = over(&|row, _| row.number("superpixel_fraction"));
+            let share = over(&|row, _| row.number("superpixel_fraction"));
             let time =
                 over(&|row, default| row.number("gpu_ms_min") / default.number("gpu_ms_min"));
-            let [rmse, _] = over(&|row, _| row.number("rmse"));
-            let [flip, _] = over(&|row, _| row.number("flip"));
+            let rmse = over(&|row, _| row.number("rmse"));
+            let flip = over(&|row, _| row.number("flip"));
             let name = if value == default {
                 format!("**{value}**")
             } else {
@@ -49,7 +49,7 @@ fn table(option: &str, default: &str) -> String {
             table.row(&[
                 name,
                 format!("{:.1} %", 100.0 * share),
-                format!("{:.2} ({:.2})", time[0], time[1]),
+                format!("{time:.2}"),
                 error(rmse),
                 error(flip),
             ]);
