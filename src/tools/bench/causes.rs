@@ -111,11 +111,9 @@ impl PixelTriangles {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<Vec<Cause>, RenderError> {
+        // Which pixels become superpixels depends on the number of samples.
         let superpixels = match &settings.method {
-            Method::Superpixel(options) => SuperpixelOptions {
-                samples: 1,
-                ..options.clone()
-            },
+            Method::Superpixel(options) => options.clone(),
             _ => SuperpixelOptions::new(1),
         };
         let mut frame = headless.prepare(scene, &with_attributes(settings, superpixels.into()))?;
@@ -137,7 +135,7 @@ impl PixelTriangles {
     }
 }
 
-/// Settings for IDs and superpixels with one sample a pixel, which suffices for these.
+/// Settings for a frame with IDs and superpixels.
 fn with_attributes(settings: &Settings, method: Method) -> Settings {
     settings.clone().attributes(true).method(method)
 }
