@@ -436,3 +436,30 @@ impl SampleOptions {
             && !self.by_lines()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_have_no_more_parts_than_lines_can_tell_apart() {
+        // A part is at least 4 bits wide on lines of 64 bits, so that a cell is cut at most 16 times along them, and as often across.
+        const MOST_PARTS: u32 = 256;
+        for samples in (0..=10).map(|log| 1 << log) {
+            let options = SampleOptions {
+                cells: Cells::Pixels,
+                samples,
+                lines: true,
+                records: RecordRate::Part,
+                exact_areas: true,
+                can_settle: true,
+                long_lists: LongLists::Together,
+                unlisted: false,
+                has_mask: false,
+                has_blend: false,
+                always_blends: false,
+            };
+            assert!(samples / options.part_samples() <= MOST_PARTS, "{samples}");
+        }
+    }
+}
