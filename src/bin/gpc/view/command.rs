@@ -7,7 +7,6 @@ use glam::DVec3;
 use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
 use gpc::names::name;
 use gpc::render::{Footprint, Method, Settings, SuperpixelOptions};
-use gpc::sampling::Pattern;
 use std::path::Path;
 
 /// A picture to be made by a command.
@@ -144,7 +143,7 @@ impl Arguments {
             self.add("--detect", name(&options.detection));
         }
         if options.pattern != default.pattern {
-            self.add("--pattern", pattern_name(&options.pattern));
+            self.add("--pattern", &options.pattern);
         }
         if options.coverage != default.coverage {
             self.add("--coverage", name(&options.coverage));
@@ -181,18 +180,6 @@ impl Arguments {
     }
 }
 
-/// A pattern's name for `--pattern`.
-pub fn pattern_name(pattern: &Pattern) -> &'static str {
-    match pattern {
-        Pattern::Lines => "lines",
-        Pattern::Sobol | Pattern::List(_) => "sobol",
-        Pattern::Lattice => "lattice",
-        Pattern::Korobov => "korobov",
-        Pattern::Grid => "grid",
-        Pattern::Rotated => "rotated",
-    }
-}
-
 /// A command line for a POSIX shell.
 pub fn line(arguments: &[String]) -> String {
     let quoted = arguments.iter().map(|argument| quote(argument));
@@ -216,6 +203,7 @@ mod tests {
     use super::super::navigate::Turntable;
     use super::*;
     use gpc::render::{Detection, Shading};
+    use gpc::sampling::Pattern;
 
     fn source(path: &str) -> SceneSource {
         SceneSource::new(path.into())

@@ -357,14 +357,15 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     });
     ui.horizontal(|ui| {
         ui.label("pattern");
-        for (pattern, name) in [
-            (Pattern::Lines, "lines"),
-            (Pattern::Sobol, "sobol"),
-            (Pattern::Lattice, "lattice"),
-            (Pattern::Korobov, "korobov"),
-            (Pattern::Grid, "grid"),
+        for pattern in [
+            Pattern::Lines,
+            Pattern::Sobol,
+            Pattern::Lattice,
+            Pattern::Korobov,
+            Pattern::Grid,
         ] {
             if pattern.offsets(superpixels.samples).is_ok() {
+                let name = pattern.to_string();
                 ui.selectable_value(&mut superpixels.pattern, pattern, name);
             }
         }
