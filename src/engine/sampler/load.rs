@@ -49,7 +49,7 @@ impl Load {
 
     /// Numbers of rounds to record for a scene with at most `triangles` triangles: for the cells that are found first,
     /// and for each growth. Without a `factor`, these are the numbers that any image may need. Otherwise, these are
-    /// `factor` times the numbers that images usually need; a growth usually needs a quarter of the first rounds.
+    /// `factor` times the numbers that images usually need; a growth usually needs an eighth of the first rounds.
     pub fn rounds(&self, sizes: &ResourceSizes, triangles: u32, factor: Option<u32>) -> [u32; 2] {
         let most = self.most_rounds(sizes, triangles);
         let Some(factor) = factor else {
@@ -62,7 +62,7 @@ impl Load {
             Some(list) => u64::from(list.cells) * u64::from(records_of_cell),
         };
         let usual = records.div_ceil(u64::from(sizes.record_capacity).max(1));
-        [1, 4].map(|share| {
+        [1, 8].map(|share| {
             let rounds = usual.div_ceil(share) * u64::from(factor);
             rounds.clamp(1, most.into()) as u32
         })
