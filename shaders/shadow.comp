@@ -2,7 +2,8 @@
 // With probes it instead marks pixels for `detect`: those at whose centre and probe different shares of the light arrive. An
 // invocation takes a record.
 // Reads: records of OCCLUDERS and, if casters may let light pass, their opacities; counters. Writes: words of
-// `include/shadows.glsl`, or marks_of_pixels. Its last step adds what the passes before it could not finish to the frame's count of that.
+// `include/shadows.glsl`, or marks_of_pixels. Its last step adds what the passes before it could not finish to the frame's count
+// of that.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

@@ -5,7 +5,7 @@
 #     tools/image-hashes.sh target/release/gpc > new.txt
 #     diff old.txt new.txt
 #
-# The images are of the scenes in assets/, and of those in the folder SCENES if it is set. All are 480 x 270 pixels.
+# The images are of the scenes in assets/, and of those in the folder SCENES if it is set. All are 480 pixels wide.
 set -eu
 
 gpc=$1
@@ -14,28 +14,24 @@ trap 'rm -rf "$out"' EXIT
 
 # image NAME COMMAND...: the hash of the image that a command writes to a file, or the exit status of the command.
 image() {
-    name=$1
+    label=$1
     shift
     if "$gpc" "$@" --quiet -o "$out/image.png" >"$out/log" 2>&1; then
-        printf '%s  %s\n' "$(sha256sum <"$out/image.png" | cut -c 1-16)" "$name"
+        printf '%s  %s\n' "$(sha256sum <"$out/image.png" | cut -c 1-16)" "$label"
     else
-        printf 'exit status %s  %s\n' "$?" "$name"
+        printf 'exit status %s  %s\n' "$?" "$label"
     fi
     rm -f "$out/image.png"
 }
 
-methods() {
-    name=$(basename "$1")
-    image "$name none" render "$1" --size 480x270 --aa none
-    image "$name msaa 4" render "$1" --size 480x270 --aa msaa --samples 4
-    image "$name ssaa 16" render "$1" --size 480x270 --aa ssaa --samples 16
-    for samples in 16 64 256 1024; do
-        image "$name $samples" render "$1" --size 480x270 --samples "$samples"
-    done
-}
-
 for scene in assets/*.glb; do
-    methods "$scene"
+    name=$(basename "$scene")
+    image "$name none" render "$scene" --size 480x270 --aa none
+    image "$name msaa 4" render "$scene" --size 480x270 --aa msaa --samples 4
+    image "$name ssaa 16" render "$scene" --size 480x270 --aa ssaa --samples 16
+    for samples in 16 64 256 1024; do
+        image "$name $samples" render "$scene" --size 480x270 --samples "$samples"
+    done
 done
 for scene in letters glass foliage; do
     image "$scene shadows" render "assets/$scene.glb" --size 480x270 --shadows exact

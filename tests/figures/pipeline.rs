@@ -122,19 +122,14 @@ pub fn draw() -> String {
         let [x, y] = place(second, find(last).unwrap());
         let [to_x, to_y] = place(second, find(first).unwrap());
         let (down, side) = (bottom - 14 + 26 * number, 8 + 4 * number);
-        let shift = 6 * number;
         let path = format!(
             "M{} {}V{down}H{}V{}H{}V{}",
-            x + BOX[0] / 2 + shift,
+            x + BOX[0] / 2 + 6 * number,
             y + 76,
-            if to_y == y {
-                to_x + BOX[0] / 2
-            } else {
-                26 - side + 2
-            },
-            if to_y == y { to_y + 76 } else { to_y - 14 },
+            28 - side,
+            to_y - 14,
             to_x + BOX[0] / 2 - 12,
-            if to_y == y { to_y + 74 } else { to_y - 2 },
+            to_y - 2,
         );
         svg += &arrow(&path, true);
         svg += &label(why, [210, down + 15]);

@@ -121,11 +121,8 @@ impl FrameLayout {
         shader: &S,
     ) -> Result<Kernel<S>, VulkanError> {
         let constants = &shader.constants();
-        let subgroup = if S::INTERFACE.needs_subgroup_size {
-            Some(self.gpu.limits().subgroup_size)
-        } else {
-            None
-        };
+        let needed = S::INTERFACE.needs_subgroup_size;
+        let subgroup = needed.then_some(self.gpu.limits().subgroup_size);
         let made = || {
             let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
             compute_pipeline(layout, shader, constants, subgroup)

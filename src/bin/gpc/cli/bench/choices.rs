@@ -1,9 +1,12 @@
 //! Superpixels with other thresholds of contrast, and with other shadings.
 
+use super::csv;
 use super::results::{ChoiceRow, SceneChoices};
 use super::subject::{self, Bench};
 use crate::cli::print;
-use gpc::bench::{self, Yardstick};
+use clap::ValueEnum;
+use gpc::bench::{self, Contender, Yardstick};
+use gpc::names::name;
 use gpc::output::Picture;
 use gpc::render::{MethodKind, Settings, Shading, SuperpixelOptions};
 use std::fmt::Write;
@@ -11,12 +14,6 @@ use std::path::Path;
 
 /// Thresholds of contrast.
 const CONTRASTS: [u8; 8] = [0, 1, 2, 4, 6, 12, 16, 32];
-/// Shadings, with their names in the command.
-const SHADINGS: [(&str, Shading); 3] = [
-    ("triangle", Shading::Triangle),
-    ("part", Shading::Part),
-    ("sample", Shading::Sample),
-];
 
 /// Options of superpixels, with the name and the value of the one that differs from the default.
 fn choices() -> impl Iterator<Item = (&'static str, String, SuperpixelOptions)> {
@@ -25,9 +22,9 @@ fn choices() -> impl Iterator<Item = (&'static str, String, SuperpixelOptions)> 
         let options = default().contrast(Some(contrast));
         ("contrast", contrast.to_string(), options)
     });
-    let shadings = SHADINGS.map(|(name, shading)| {
-        let options = default().shading(shading);
-        ("shading", name.to_owned(), options)
+    let shadings = Shading::value_variants().iter().map(move |shading| {
+        let options = default().shading(*shading);
+        ("shading", name(shading), options)
     });
     contrasts.into_iter().chain(shadings)
 }
@@ -45,19 +42,15 @@ impl Bench<'_> {
         let truth = Picture::new(plain.size, &truth)?;
         let yardstick = Yardstick::new(&truth, &Picture::new(plain.size, &one_sample.colors)?)?;
         let mut contenders = Vec::new();
-        let mut rows = Vec::new();
+        let mut measured = Vec::new();
         for (option, value, options) in choices() {
             self.progress.say(&format!("{option} {value}, warming up"));
             let settings = plain.clone().method(options);
             let (contender, rendered) = self.warm_up(&subject, &settings)?;
             let superpixels = rendered.statistics.superpixels as f64;
-            rows.push(ChoiceRow {
-                option,
-                value,
-                superpixel_fraction: superpixels / rendered.colors.len() as f64,
-                accuracy: yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?,
-                cost: contender.cost(),
-            });
+            let fraction = superpixels / rendered.colors.len() as f64;
+            let accuracy = yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?;
+            measured.push((option, value, fraction, accuracy));
             contenders.push(contender);
         }
         self.progress.say("taking turns");
@@ -69,13 +62,18 @@ impl Bench<'_> {
             self.args.budget(),
             |_| {},
         )?;
-        for (row, contender) in rows.iter_mut().zip(&contenders) {
-            row.cost = contender.cost();
-        }
+        let measured = measured.into_iter().zip(&contenders);
+        let row = |((option, value, superpixel_fraction, accuracy), contender)| ChoiceRow {
+            option,
+            value,
+            superpixel_fraction,
+            accuracy,
+            cost: Contender::cost(contender),
+        };
         Ok(SceneChoices {
             name,
             textured: subject.is_textured(),
-            rows,
+            rows: measured.map(row).collect(),
         })
     }
 }
@@ -103,8 +101,11 @@ pub fn print(scene: &SceneChoices) -> anyhow::Result<()> {
     Ok(())
 }
 
-const COLUMNS: &str = "scene,textured,option,value,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
-    wall_ms_min,wall_ms_spread,superpixel_fraction,rmse,flip";
+const COLUMNS: &str = concat!(
+    "scene,textured,option,value,samples,frames,",
+    csv::time_columns!(),
+    ",superpixel_fraction,rmse,flip"
+);
 
 /// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneChoices]) -> String {
@@ -115,19 +116,14 @@ pub fn csv(scenes: &[SceneChoices]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
-                scene.name.replace('"', "\"\""),
+                "{},{},{},{},{},{},{},{},{},{}",
+                csv::quoted(&scene.name),
                 scene.textured,
                 row.option,
                 row.value,
                 Settings::DEFAULT_SAMPLES,
                 cost.gpu_ms.count,
-                cost.gpu_ms.median,
-                cost.gpu_ms.min,
-                cost.gpu_ms.spread,
-                cost.wall_ms.median,
-                cost.wall_ms.min,
-                cost.wall_ms.spread,
+                csv::times(&cost.gpu_ms, &cost.wall_ms),
                 row.superpixel_fraction,
                 accuracy.rmse,
                 accuracy.flip,

@@ -1,5 +1,6 @@
 //! Times of the methods while one quantity of the scene or the image grows.
 
+use super::csv;
 use super::results::{Point, ScalingCurve, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
@@ -19,8 +20,8 @@ pub fn csv(curves: &[ScalingCurve]) -> String {
                 // Writing to a string can't fail.
                 let _ = writeln!(
                     text,
-                    "\"{}\",{},{},{},{},{},{},{},{},{}",
-                    curve.quantity.replace('"', "\"\""),
+                    "{},{},{},{},{},{},{},{},{},{}",
+                    csv::quoted(&curve.quantity),
                     point.value,
                     point.size[0],
                     point.size[1],

@@ -2,6 +2,7 @@
 
 mod args;
 mod choices;
+mod csv;
 mod front;
 mod gallery;
 mod growth;

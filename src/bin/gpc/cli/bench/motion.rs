@@ -1,5 +1,6 @@
 //! Errors and flicker of the methods in motion.
 
+use super::csv;
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
@@ -188,8 +189,8 @@ pub fn csv(scenes: &[SceneMotion]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{}",
-                scene.name.replace('"', "\"\""),
+                "{},{},{},{},{},{},{},{},{}",
+                csv::quoted(&scene.name),
                 scene.textured,
                 scene.size[0],
                 scene.size[1],

@@ -1,5 +1,6 @@
 //! Results as text: for the terminal and as CSV.
 
+use super::csv;
 use super::results::{Row, SceneResults};
 use super::summary::{Ratio, Summary};
 use crate::cli::print;
@@ -166,9 +167,11 @@ pub fn decibels(psnr: Option<f64>) -> String {
     psnr.map_or_else(|| "inf".to_owned(), |psnr| format!("{psnr:.2}"))
 }
 
-const COLUMNS: &str = "scene,triangles,textured,surface_fraction,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
-    wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
-    removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,left_superpixel_edges,left_superpixel_texture,left_superpixel_light,left_inside_texture,left_inside_light,geometry_rmse,geometry_flip";
+const COLUMNS: &str = concat!(
+    "scene,triangles,textured,surface_fraction,method,samples,frames,",
+    csv::time_columns!(),
+    ",memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,left_superpixel_edges,left_superpixel_texture,left_superpixel_light,left_inside_texture,left_inside_light,geometry_rmse,geometry_flip"
+);
 
 /// Table of all rows of all scenes as CSV, without the times of passes (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneResults]) -> String {
@@ -179,20 +182,15 @@ pub fn csv(scenes: &[SceneResults]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
-                scene.name.replace('"', "\"\""),
+                "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                csv::quoted(&scene.name),
                 scene.triangles,
                 scene.textured,
                 scene.surface_fraction,
                 row.method,
                 row.samples,
                 cost.gpu_ms.count,
-                cost.gpu_ms.median,
-                cost.gpu_ms.min,
-                cost.gpu_ms.spread,
-                cost.wall_ms.median,
-                cost.wall_ms.min,
-                cost.wall_ms.spread,
+                csv::times(&cost.gpu_ms, &cost.wall_ms),
                 row.memory_bytes,
                 row.superpixel_fraction,
                 row.candidates,

@@ -1,5 +1,6 @@
 //! Costs of the camera's variants.
 
+use super::csv;
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
 use crate::cli::print;
@@ -80,8 +81,11 @@ pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
     Ok(())
 }
 
-const COLUMNS: &str = "scene,triangles,variant,samples,runs,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
-    wall_ms_min,wall_ms_spread,gpu_ns,wall_ns,gpu_ratio,wall_ratio";
+const COLUMNS: &str = concat!(
+    "scene,triangles,variant,samples,runs,",
+    csv::time_columns!(),
+    ",gpu_ns,wall_ns,gpu_ratio,wall_ratio"
+);
 
 /// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneVariants]) -> String {
@@ -92,18 +96,13 @@ pub fn csv(scenes: &[SceneVariants]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
-                scene.name.replace('"', "\"\""),
+                "{},{},{},{},{},{},{},{},{},{}",
+                csv::quoted(&scene.name),
                 scene.triangles,
                 cost.variant,
                 cost.samples,
                 cost.wall_ms.count,
-                cost.gpu_ms.median,
-                cost.gpu_ms.min,
-                cost.gpu_ms.spread,
-                cost.wall_ms.median,
-                cost.wall_ms.min,
-                cost.wall_ms.spread,
+                csv::times(&cost.gpu_ms, &cost.wall_ms),
                 row.gpu_ns,
                 row.wall_ns,
                 row.gpu_ratio,
