@@ -62,6 +62,7 @@ const VARIANTS: &[Variant] = &[
         "raster.frag",
         &[("MASKED", ""), ("BYTES", "")],
     ),
+    ("filter", "filter.comp", &[]),
     ("detect", "detect.comp", &[]),
     ("thin", "thin.comp", &[]),
     (

@@ -220,7 +220,7 @@ enum GpcPattern
     GPC_PATTERN_LIST = 5,
     // Samples on straight lines, 64 on each: 8 or 16 lines up to 64 samples, depending on the device, 32 up to 256, and 64
     // above (32 where alpha is tested). Any number of samples; the number determines in how many places a superpixel is
-    // shaded. Below 16 samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
+    // shaded. Below 4 samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
     GPC_PATTERN_LINES = 6,
 };
 #ifndef __cplusplus

@@ -527,7 +527,7 @@ void main() {
                     id = s / LANES == h ? its.y : id;
                 }
                 Grid grid = grid_of(parts, columns);
-                bool wide = part_is_wide(frame.sample_count, parts);
+                bool wide = part_is_wide(max(frame.sample_count, 4u * part_length(parts)), parts);
                 uint bits[WORDS], pending[WORDS], rest[WORDS], own = 0u;
                 [[unroll]] for (uint r = 0u; r < WORDS; r++) bits[r] = exists ? owned_by(s + 1u, r) : 0u;
                 find_parts(bits, grid, pending);

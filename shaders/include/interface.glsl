@@ -74,6 +74,8 @@
 #define BINDING_STROKES 55
 #define BINDING_SHADOW_WORDS 56
 #define BINDING_LOCATION_ORDER 57
+#define BINDING_CORNERS_OUT 58
+#define BINDING_INDEXED_DRAWS_OUT 59
 
 // Binding of the set of textures.
 #define BINDING_TEXTURES 0
@@ -383,6 +385,7 @@
 
 // Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u
+#define FILTER_TRIANGLES 2048u
 
 // Vectors of a material, see material.glsl.
 #define MATERIAL_BASE_COLOR 0u

@@ -80,7 +80,7 @@ struct Grid {
 
 Grid grid_of(uint parts, bool columns) {
     // The cell is halved again and again, its height first: see part_is_wide.
-    uint number = uint(findMSB(max(frame.sample_count / part_length(parts), 1u)));
+    uint number = max(uint(findMSB(max(frame.sample_count / part_length(parts), 1u))), 2u);
     uint along = (columns ? number + 1u : number) >> 1;
     return Grid(BITS >> along, LINES >> (number - along));
 }

@@ -16,9 +16,9 @@ use crate::visibility::soup;
 const SIZE: [u32; 2] = [32, 24];
 
 /// Numbers of samples of a superpixel, and the numbers of lines that belong to them.
-const SAMPLES: [(u32, u32); 3] = [(64, 8), (256, 32), (1024, 64)];
+const SAMPLES: [(u32, u32); 4] = [(4, 8), (64, 8), (256, 32), (1024, 64)];
 /// Those for tests of many meshes: 64 lines take the twin longest.
-const FEW_SAMPLES: &[(u32, u32)] = SAMPLES.split_at(2).0;
+const FEW_SAMPLES: &[(u32, u32)] = SAMPLES.split_at(3).0;
 
 fn on_lines(samples: u32) -> Settings {
     everywhere(SIZE, Pattern::Lines, samples)

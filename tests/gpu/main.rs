@@ -13,6 +13,7 @@ mod distribute;
 mod edges;
 mod environment;
 mod extremes;
+mod filter;
 mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;

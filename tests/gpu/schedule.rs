@@ -134,6 +134,7 @@ impl<'a> Passes<'a> {
             lanes: gpu.gpu().limits().lanes,
             locations: None,
             survivor_capacity: 1,
+            filtered_triangles: 0,
             pair_capacity: 1,
             list_capacity: case.candidates,
             record_capacity: case.records,

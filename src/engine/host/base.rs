@@ -25,8 +25,8 @@ enum Colors {
 }
 
 impl Base {
-    /// Makes the pipelines; `image` is there where the host has drawn colours, `draws_ids` says that it lends no IDs, `output` are
-    /// the colour constants.
+    /// Makes the pipelines; `image` is there where the host has drawn colours, `filters` is there where it lends no IDs, and
+    /// says whether long runs of triangles are filtered before they are drawn; `output` are the colour constants.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -34,12 +34,12 @@ impl Base {
         shared: &Shared,
         content: &dyn Content,
         image: Option<&Arc<HostImage>>,
-        draws_ids: bool,
+        filters: Option<bool>,
         output: &ColorConstants,
     ) -> Result<Self, HostError> {
         let layout = &shared.frame;
         let single = vk::SampleCountFlags::TYPE_1;
-        let raster = || Raster::new(layout, single, content);
+        let raster = |filters| Raster::new(layout, single, content, filters);
         let colors = match image {
             Some(image) => Colors::Drawn(take::pass(layout, image, output)?),
             None => Colors::Shaded {
@@ -48,7 +48,7 @@ impl Base {
             },
         };
         Ok(Self {
-            raster: draws_ids.then(raster).transpose()?,
+            raster: filters.map(raster).transpose()?,
             colors,
         })
     }

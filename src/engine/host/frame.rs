@@ -106,7 +106,11 @@ impl Work {
         settings.check(gpu.limits())?;
         check_size(settings.size)?;
         let content = &lending.content;
-        let plan = Plan::whole(&settings, content, gpu.limits(), capacity, lending.bytes())?;
+        let mut plan = Plan::whole(&settings, content, gpu.limits(), capacity, lending.bytes())?;
+        if kinds.ids {
+            plan.sizes.filtered_triangles = 0;
+        }
+        let filters = plan.sizes.filtered_triangles > 0;
         let allowed = |taken| settings.max_memory.map(|most| most.saturating_sub(taken));
         let scratch = shared.scratch.get(
             layout,
@@ -171,7 +175,13 @@ impl Work {
             (false, _) => Patched::Grown,
         };
         Ok(Self {
-            base: Base::new(shared, content, image.as_ref(), !kinds.ids, &output)?,
+            base: Base::new(
+                shared,
+                content,
+                image.as_ref(),
+                (!kinds.ids).then_some(filters),
+                &output,
+            )?,
             patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
             timings: Timings::new(gpu),
             settings,

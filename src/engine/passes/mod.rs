@@ -24,6 +24,7 @@ pub(crate) mod cull;
 pub(crate) mod detect;
 mod distribute;
 mod enlist;
+mod filter;
 pub(crate) mod groups;
 pub(crate) mod grow;
 mod patch;

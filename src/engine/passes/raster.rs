@@ -1,6 +1,7 @@
 //! raster: draws depth and triangle ID of every pixel with the device's rasterizer.
 
-use super::spirv;
+use super::filter::{self, Filter, FilteredDraws};
+use super::spirv::{self, frame_set};
 use crate::engine::data::{Content, IdViews};
 use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{
@@ -137,10 +138,11 @@ pub(crate) struct RasterRun {
 pub struct Raster {
     opaque: Arc<Pipeline>,
     masked: Option<Arc<Pipeline>>,
+    filter: Option<Filter>,
 }
 
 impl Raster {
-    /// Makes the pipelines that a scene needs.
+    /// Makes the pipelines that a scene needs. `filters` says whether long runs are filtered before they are drawn.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -148,6 +150,7 @@ impl Raster {
         layout: &FrameLayout,
         samples: vk::SampleCountFlags,
         scene: &dyn Content,
+        filters: bool,
     ) -> Result<Self, VulkanError> {
         let bytes = samples != vk::SampleCountFlags::TYPE_1;
         let (opaque, masked) = if bytes {
@@ -176,6 +179,7 @@ impl Raster {
         Ok(Self {
             opaque: make(opaque)?,
             masked: scene.has_mask().then(|| make(masked)).transpose()?,
+            filter: filters.then(|| Filter::new(layout, scene)).transpose()?,
         })
     }
 
@@ -189,6 +193,10 @@ impl Raster {
         size: [u32; 2],
         drawn: [[u32; 2]; 2],
     ) {
+        let runs = || filter::placed(runs.clone(), self.filter.is_some());
+        if let Some(filter) = &self.filter {
+            filter.record(recorder, runs());
+        }
         let area = rectangle([0, 0], size);
         let scissor = rectangle(drawn[0], drawn[1]);
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
@@ -205,7 +213,7 @@ impl Raster {
             recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
             self.draw(
                 recorder,
-                runs.clone().filter(|run| !run.blended),
+                runs().filter(|(run, _)| !run.blended),
                 targets,
                 &targets.ids,
                 [area, scissor],
@@ -216,7 +224,7 @@ impl Raster {
                 recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
                 self.draw(
                     recorder,
-                    runs.filter(|run| run.blended),
+                    runs().filter(|(run, _)| run.blended),
                     targets,
                     blend_ids,
                     [area, scissor],
@@ -236,7 +244,7 @@ impl Raster {
     fn draw(
         &self,
         recorder: &Recorder<'_>,
-        runs: impl Iterator<Item = RasterRun>,
+        runs: impl Iterator<Item = (RasterRun, Option<FilteredDraws>)>,
         targets: &RasterTargets,
         ids: &Image,
         [area, scissor]: [vk::Rect2D; 2],
@@ -272,7 +280,12 @@ impl Raster {
             device.cmd_set_viewport(raw, 0, &[viewport]);
             device.cmd_set_scissor(raw, 0, &[scissor]);
         }
-        for run in runs {
+        if self.filter.is_some() {
+            let corners = recorder.shown(frame_set::CORNERS_OUT);
+            // SAFETY: as above; the buffer was created for indices.
+            unsafe { device.cmd_bind_index_buffer(raw, corners, 0, vk::IndexType::UINT32) };
+        }
+        for (run, filtered) in runs {
             let masked = self.masked.as_ref().filter(|_| run.masked);
             let pipeline = masked.unwrap_or(&self.opaque);
             recorder.bind(pipeline);
@@ -282,10 +295,19 @@ impl Raster {
                 vk::CullModeFlags::BACK
             };
             recorder.push(pipeline, bytemuck::bytes_of(&run.push));
-            // SAFETY: as above; the shader reads 3 vertices for each triangle of the run.
+            // SAFETY: as above; the shader reads 3 vertices for each triangle of the run. `filter` has written the draws of its
+            // triangles, and their indices.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);
-                device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_index, 0);
+                match filtered {
+                    None => device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_index, 0),
+                    Some(draws) => {
+                        let buffer = recorder.shown(frame_set::INDEXED_DRAWS_OUT);
+                        for offset in draws.offsets() {
+                            device.cmd_draw_indexed_indirect(raw, buffer, offset, 1, 0);
+                        }
+                    }
+                }
             }
         }
         // SAFETY: as above.

@@ -35,7 +35,7 @@ pub(super) fn kernel(
 impl SampleOptions {
     /// Whether the special kernels have samples on lines.
     pub(super) fn by_lines(&self) -> bool {
-        self.by_cell() && self.lines && self.samples >= 16
+        self.by_cell() && self.lines && self.samples >= 4
     }
 
     /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes

@@ -70,6 +70,8 @@ pub mod frame_set {
     pub const STROKES: Binding = Binding::new(55, "strokes", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const SHADOW_WORDS: Binding = Binding::new(56, "shadow_words", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const LOCATION_ORDER: Binding = Binding::new(57, "location_order", Kind::UNIFORM_TEXEL_BUFFER, 1);
+    pub const CORNERS_OUT: Binding = Binding::new(58, "corners_out", Kind::STORAGE_BUFFER, 1);
+    pub const INDEXED_DRAWS_OUT: Binding = Binding::new(59, "indexed_draws_out", Kind::STORAGE_BUFFER, 1);
 }
 
 /// An element of the buffer `draws`, as in `shaders/adopt.comp`.
@@ -984,6 +986,79 @@ impl Specialized for Enlist {
 impl Compiled for Enlist {
     fn code() -> &'static [u8] {
         ENLIST
+    }
+}
+
+/// An element of the buffer `indexed_draws_out`, as in `shaders/filter.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct IndexedDraw {
+    pub index_count: u32,
+    pub instance_count: u32,
+    pub first_index: u32,
+    pub vertex_offset: u32,
+    pub first_instance: u32,
+}
+
+/// What is pushed to `shaders/filter.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FilterPush {
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    pub first_draw: u32,
+    pub snap: f32,
+}
+
+/// Constants of `shaders/filter.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Filter {
+    pub local_size: u32,
+    pub lanes: u32,
+    pub instanced: bool,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            lanes: 8,
+            instanced: false,
+        }
+    }
+}
+
+impl Specialized for Filter {
+    type Push = FilterPush;
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "filter",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::CORNERS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::INDEXED_DRAWS_OUT, access: Access::Write },
+        ],
+        push_bytes: 16,
+        invocations: Invocations::Constant,
+        needs_subgroup_size: false,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.lanes)
+            .flag(23, self.instanced)
+    }
+}
+
+impl Compiled for Filter {
+    fn code() -> &'static [u8] {
+        FILTER
     }
 }
 
@@ -2904,7 +2979,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 43] = [
+pub const INTERFACES: [&Interface; 44] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -2920,6 +2995,7 @@ pub const INTERFACES: [&Interface; 43] = [
     Distribute::INTERFACE,
     Encode::INTERFACE,
     Enlist::INTERFACE,
+    Filter::INTERFACE,
     Groups::INTERFACE,
     Grow::INTERFACE,
     Multisample::INTERFACE,
@@ -3161,6 +3237,7 @@ pub const LOAD_FIRST: u32 = 32;
 pub const LOAD_COUNT: u32 = 33;
 pub const LOAD_FIRST_GROUP: u32 = 34;
 pub const THIN_PER_INVOCATION: u32 = 8;
+pub const FILTER_TRIANGLES: u32 = 2048;
 pub const MATERIAL_BASE_COLOR: u32 = 0;
 pub const MATERIAL_EMISSIVE_METALLIC: u32 = 1;
 pub const MATERIAL_FACTORS: u32 = 2;

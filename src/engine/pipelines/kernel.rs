@@ -61,6 +61,12 @@ impl<S: Specialized> Kernel<S> {
         recorder.dispatch_each(&self.pipeline, invocations.into());
     }
 
+    /// Records a dispatch of `groups` workgroups whose push constants are known only now.
+    pub fn record_groups(&self, recorder: &Recorder<'_>, pushed: &S::Push, groups: u32) {
+        recorder.push(&self.pipeline, bytemuck::bytes_of(pushed));
+        recorder.dispatch(&self.pipeline, groups.into());
+    }
+
     /// Records a dispatch whose push constants are known only now. The device reads its size from the frame's indirect
     /// dispatches.
     pub fn record_indirect(&self, recorder: &Recorder<'_>, pushed: &S::Push, argument: Argument) {

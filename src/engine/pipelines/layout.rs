@@ -99,8 +99,7 @@ impl FrameLayout {
     /// Whether kernels that use `lanes` invocations of a subgroup have to check the subgroup size: the constant
     /// `UNSURE` of `shaders/include/lanes.glsl`.
     pub(crate) fn is_unsure(&self, lanes: u32) -> bool {
-        let limits = self.gpu.limits();
-        !(limits.can_require_subgroup_size && lanes == limits.subgroup_size)
+        !self.gpu.limits().has_subgroups_of(lanes)
     }
 
     /// Kernel of a compute shader of the crate.

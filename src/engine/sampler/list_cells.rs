@@ -107,6 +107,7 @@ impl ListCells {
             lanes: limits.lanes,
             locations: Some(locations),
             survivor_capacity: scene.triangle_slots(),
+            filtered_triangles: 0,
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records.clamp(1 << 16, MOST_RECORDS).max(layered) as u32,

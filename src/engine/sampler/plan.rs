@@ -4,8 +4,10 @@ use super::statistics::Shortfall;
 use super::{EngineError, Method, RoundPolicy, Settings, Shading};
 use crate::engine::data::{Content, ResourceSizes};
 use crate::engine::passes::LongLists;
+use crate::engine::passes::spirv::FILTER_TRIANGLES;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
+use ash::vk;
 
 /// Part of an image, in output pixels. If only a part of the image is wanted, the region is still placed and drawn as
 /// for the whole image, because devices round vertices to a fraction of a pixel after the viewport transform.
@@ -402,6 +404,11 @@ impl Plan {
         } else {
             0
         };
+        let filters = limits.device_type == vk::PhysicalDeviceType::CPU
+            && limits.has_subgroups_of(limits.lanes)
+            && !matches!(settings.method, Method::Msaa { .. })
+            && scene.triangle_slots() >= FILTER_TRIANGLES
+            && triangles * 12 <= limits.max_storage_bytes;
         let sizes = ResourceSizes {
             region: outer,
             lanes: limits.lanes,
@@ -409,6 +416,7 @@ impl Plan {
             // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
                 .min(scene.triangle_slots()),
+            filtered_triangles: if filters { scene.triangle_slots() } else { 0 },
             pair_capacity: at_most(pairs, most_listed),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,

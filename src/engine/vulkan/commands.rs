@@ -5,7 +5,7 @@ use super::conditions::{Change, Conditions};
 use super::descriptor_set::ShownSets;
 use super::trace::Dispatched;
 use super::{
-    Access, Binding, Buffer, DescriptorSets, Gpu, Image, Interface, Pipeline, VulkanError,
+    Access, Binding, Buffer, DescriptorSets, Gpu, Image, Interface, Limits, Pipeline, VulkanError,
 };
 use ash::vk;
 use std::cell::{Cell, RefCell};
@@ -180,6 +180,11 @@ impl<'a> Recorder<'a> {
         if self.traces {
             self.gpu.trace_barrier();
         }
+    }
+
+    /// Limits of the device.
+    pub(crate) fn limits(&self) -> &Limits {
+        self.gpu.limits()
     }
 
     pub(crate) fn device(&self) -> &ash::Device {

@@ -113,6 +113,10 @@ const DEBUG_UTILS_FUNCTIONS: [&CStr; 2] = [
     c"vkCmdBeginDebugUtilsLabelEXT",
 ];
 
+/// Largest error of a corner's position in pixels, besides its rounding to the device's steps: positions have 32 bits in images of
+/// up to 16,384 pixels.
+const POSITION_ERROR: f32 = 1.0 / 64.0;
+
 /// Properties of the device on which the layout of work depends.
 #[derive(Clone, Debug)]
 pub struct Limits {
@@ -132,6 +136,8 @@ pub struct Limits {
     pub can_require_subgroup_size: bool,
     /// Largest width or height of an image in pixels.
     pub max_image_side: u32,
+    /// How far the device may move a corner of a triangle before it draws the triangle, in pixels.
+    pub snap: f32,
     /// Largest number of elements of a texel buffer.
     pub max_texel_elements: u64,
     /// Alignment of offsets into storage and texel buffers, in bytes.
@@ -150,6 +156,13 @@ pub struct Limits {
     /// Largest number of unused pipelines that are kept. A frame has some 25, and a driver may need a megabyte or two
     /// for each.
     pub max_unused_pipelines: usize,
+}
+
+impl Limits {
+    /// Whether the device runs subgroups of exactly `lanes` invocations where it is asked to.
+    pub(crate) fn has_subgroups_of(&self, lanes: u32) -> bool {
+        self.can_require_subgroup_size && lanes == self.subgroup_size
+    }
 }
 
 /// A device with its limits and allocator.
@@ -414,6 +427,7 @@ pub(super) unsafe fn limits(
         subgroup_size,
         can_require_subgroup_size,
         max_image_side: basic.limits.max_image_dimension2_d,
+        snap: (-(basic.limits.sub_pixel_precision_bits as f32)).exp2() + POSITION_ERROR,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
         buffer_alignment: basic
             .limits

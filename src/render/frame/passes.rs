@@ -127,7 +127,12 @@ impl Passes {
                 .has_strokes()
                 .then(|| Stroke::new(layout))
                 .transpose()?,
-            raster: Raster::new(layout, raster_samples(settings), scene)?,
+            raster: Raster::new(
+                layout,
+                raster_samples(settings),
+                scene,
+                plan.sizes.filtered_triangles > 0,
+            )?,
             pixels,
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,

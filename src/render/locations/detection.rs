@@ -480,6 +480,7 @@ fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> Resour
         lanes: limits.lanes,
         locations: None,
         survivor_capacity: 0,
+        filtered_triangles: 0,
         pair_capacity: 0,
         list_capacity: 0,
         record_capacity: 0,

@@ -53,6 +53,8 @@ impl Resources {
             (frame_set::TILES, &self.tiles),
             (frame_set::TILE_LISTS, &self.tile_lists),
             (frame_set::SURVIVORS, &self.survivors),
+            (frame_set::CORNERS_OUT, &self.corners),
+            (frame_set::INDEXED_DRAWS_OUT, &self.indexed_draws),
             (frame_set::HEADERS, &self.headers),
             (frame_set::SHADE_ORDER, &self.shade_order),
             (frame_set::BINS, &self.bins),

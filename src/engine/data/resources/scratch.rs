@@ -22,6 +22,8 @@ pub struct Scratch {
     /// The work lists, see `shaders/include/work.glsl`.
     pub tile_lists: Buffer,
     pub(super) survivors: Buffer,
+    pub(super) corners: Buffer,
+    pub(super) indexed_draws: Buffer,
     pub(super) pairs: BufferView,
     pub(super) candidates: BufferView,
     pub(super) headers: Buffer,
@@ -92,6 +94,18 @@ impl Scratch {
             tiles: storage("tiles", sizes.tile_bytes())?,
             tile_lists: storage("tile lists", sizes.work_bytes())?,
             survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
+            corners: memory.buffer(
+                "corners of triangles",
+                sizes.corner_bytes(),
+                STORAGE | vk::BufferUsageFlags::INDEX_BUFFER,
+                MemoryUse::Device,
+            )?,
+            indexed_draws: memory.buffer(
+                "indirect draws",
+                sizes.indexed_draw_bytes(),
+                STORAGE | vk::BufferUsageFlags::INDIRECT_BUFFER,
+                MemoryUse::Device,
+            )?,
             pairs: texels(
                 "pairs",
                 u64::from(sizes.pair_capacity),

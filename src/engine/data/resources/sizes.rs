@@ -1,7 +1,9 @@
 //! Sizes of a frame's memory.
 
 use crate::engine::data::{LocationSizes, STRETCH};
+use crate::engine::passes::spirv::FILTER_TRIANGLES;
 use crate::vulkan::{Limits, VulkanError};
+use ash::vk;
 
 /// Sizes of a frame's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +16,8 @@ pub struct ResourceSizes {
     pub locations: Option<LocationSizes>,
     /// Largest number of triangles that may touch a cell, or that are thin.
     pub survivor_capacity: u32,
+    /// Number of triangle slots of which `filter` lists some; 0 if it does not run.
+    pub filtered_triangles: u32,
     /// Largest number of pairs of a triangle and a tile, over all rounds.
     pub pair_capacity: u32,
     /// Largest number of candidates in all lists of a round.
@@ -71,6 +75,7 @@ impl ResourceSizes {
                 lists,
                 pairs,
                 survivors,
+                sizes.filtered_triangles.into(),
                 sizes.filtered.into(),
                 sizes.all_shadow_words(),
                 sizes.attributes.into(),
@@ -94,7 +99,15 @@ impl ResourceSizes {
         let receivers = u64::from(self.receivers()) * 32;
         let shadows = self.all_shadow_words() * 4;
         [
-            attributes, colors, records, candidates, pairs, work, receivers, shadows,
+            attributes,
+            colors,
+            records,
+            candidates,
+            pairs,
+            work,
+            receivers,
+            shadows,
+            self.corner_bytes(),
         ]
         .into_iter()
         .fold(0, u64::max)
@@ -185,6 +198,18 @@ impl ResourceSizes {
         16 * (u64::from(self.tiles()) + 2 * u64::from(stretches))
     }
 
+    /// Number of bytes of the corners that `filter` lists.
+    pub(crate) fn corner_bytes(&self) -> u64 {
+        u64::from(self.filtered_triangles) * 12
+    }
+
+    /// Number of bytes of the draws that `filter` makes. It makes a draw of every [`FILTER_TRIANGLES`] triangles of a run,
+    /// and one of its last triangles; no run has fewer triangles.
+    pub(crate) fn indexed_draw_bytes(&self) -> u64 {
+        let draws = u64::from(self.filtered_triangles.div_ceil(FILTER_TRIANGLES)) * 2;
+        draws * size_of::<vk::DrawIndexedIndirectCommand>() as u64
+    }
+
     /// Checks that no buffer of these sizes exceeds a limit of the device; `what` describes the largest one in the
     /// error.
     ///
@@ -212,6 +237,8 @@ impl ResourceSizes {
             + records * 40
             + records.max(pixels) * 4
             + u64::from(self.survivor_capacity) * 4
+            + self.corner_bytes()
+            + self.indexed_draw_bytes()
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
             + self.all_shadow_words() * 4
