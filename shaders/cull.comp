@@ -8,7 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
-#include "include/append.glsl"
+#include "include/survivors.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
@@ -20,6 +20,7 @@ const uint PER_INVOCATION = 8u;
 
 void main() {
     uint outside = 0u, backfacing = 0u, degenerate = 0u, untouching = 0u;
+    uint small = 0u, large = 0u;        // a bit for each step
     uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
     uint step_ = 0u;
     do {
@@ -37,26 +38,25 @@ void main() {
 
         ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
         int count = (high.x - low.x + 1) * (high.y - low.y + 1);
-        bool large = candidate && count > SMALL_TILES;
+        bool is_large = candidate && count > SMALL_TILES;
         ivec2 tile = low;
         uint touched = 0u;
-        int left = candidate && !large ? count : 1;
+        int left = candidate && !is_large ? count : 1;
         do {
             touched |= masks[tile.y * int(frame.tiles.x) + tile.x] & footprint_mask(f, tile);
             bool wrap = tile.x == high.x;
             tile = wrap ? ivec2(low.x, tile.y + 1) : tile + ivec2(1, 0);
         } while (--left > 0);
-        bool small = candidate && !large && touched != 0u;
-
-        uint slot = append(COUNTER_SURVIVORS, small);
-        if (small && slot < frame.survivor_capacity) survivors[slot] = t;
-        slot = append(COUNTER_LARGE, large);
-        if (large && slot < frame.survivor_capacity) survivors[frame.survivor_capacity - 1u - slot] = t;
+        bool is_small = candidate && !is_large;
+        small |= is_small && touched != 0u ? 1u << step_ : 0u;
+        large |= is_large ? 1u << step_ : 0u;
         outside += uint(is_outside);
         degenerate += uint(is_degenerate);
         backfacing += uint(is_backfacing);
-        untouching += uint(candidate && !large && touched == 0u);
+        untouching += uint(is_small && touched == 0u);
     } while (++step_ < PER_INVOCATION);
+
+    list_survivors(first, uvec2(small, large), uvec2(COUNTER_SURVIVORS, COUNTER_LARGE));
 
     outside = subgroupAdd(outside);
     backfacing = subgroupAdd(backfacing);

@@ -1,5 +1,5 @@
-// filter: lists the triangles of a run that may cover a pixel's centre, in their order, so that `raster` draws no others. In a dense
-// mesh, most triangles face away or lie between centres, and CPU devices process triangles on one thread. A subgroup takes
+// filter: lists the triangles of a run that may cover a pixel's centre, in their order, so that `raster` draws no others. In a
+// dense mesh, most triangles face away or lie between centres, and CPU devices process triangles on one thread. A subgroup takes
 // FILTER_TRIANGLES neighbouring triangles, and makes one draw of them.
 // Reads: the geometry. Writes: corners, indexed_draws.
 #version 460
@@ -21,7 +21,9 @@ struct IndexedDraw {
 };
 
 layout(std430, set = SET_DATA, binding = BINDING_CORNERS_OUT) writeonly buffer Corners { uint corners_out[]; };
-layout(std430, set = SET_DATA, binding = BINDING_INDEXED_DRAWS_OUT) writeonly buffer IndexedDraws { IndexedDraw indexed_draws_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_INDEXED_DRAWS_OUT) writeonly buffer IndexedDraws {
+    IndexedDraw indexed_draws_out[];
+};
 
 layout(push_constant) uniform Push {
     uint first_triangle;
@@ -38,14 +40,15 @@ bool may_contain(vec2 a, vec2 b, vec2 c, vec2 p) {
     return all(greaterThanEqual(side, -slack)) || all(lessThanEqual(side, slack));
 }
 
-// Whether a triangle covers a pixel's centre, where rounding decides. Triangles that are wider or higher than two pixels may always.
+// Whether a triangle covers a pixel's centre, where rounding decides. For triangles that are wider or higher than two pixels,
+// the answer is yes.
 bool may_cover_centre(Triangle k) {
     vec4 v0 = relative_to(k.v0, frame.origin), v1 = relative_to(k.v1, frame.origin), v2 = relative_to(k.v2, frame.origin);
     vec2 a = v0.xy / v0.w, b = v1.xy / v1.w, c = v2.xy / v2.w;
     vec2 first = ceil(min(a, min(b, c)) - push.snap), last = floor(max(a, max(b, c)) + push.snap);
     if (any(greaterThan(last, first + 1.0))) return true;
-    bool some = may_contain(a, b, c, first) || may_contain(a, b, c, vec2(last.x, first.y)) || may_contain(a, b, c, vec2(first.x, last.y))
-        || may_contain(a, b, c, last);
+    bool some = may_contain(a, b, c, first) || may_contain(a, b, c, vec2(last.x, first.y))
+        || may_contain(a, b, c, vec2(first.x, last.y)) || may_contain(a, b, c, last);
     return some && all(lessThanEqual(first, last));
 }
 
@@ -59,8 +62,8 @@ void main() {
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool lists = i < end && k.exists && !f.outside && !hidden && (f.unprojected || may_cover_centre(k));
-        uint at = 3u * (begin + listed + lanes_before(uint(lists)));
-        for (uint corner = 0u; corner < 3u && lists; corner++) corners_out[3u * push.first_triangle + at + corner] = 3u * (i - begin) + corner;
+        uint at = 3u * (push.first_triangle + begin + listed + lanes_before(uint(lists)));
+        for (uint corner = 0u; corner < 3u && lists; corner++) corners_out[at + corner] = 3u * (i - begin) + corner;
         listed += lanes_add(uint(lists));
         i += LANES;
     } while (--steps > 0u);

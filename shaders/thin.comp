@@ -16,7 +16,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
-#include "include/append.glsl"
+#include "include/survivors.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
@@ -37,6 +37,7 @@ layout(push_constant) uniform Push {
 
 void select_thin() {
     uint first = workgroup_number() * 64u * THIN_PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
+    uint short_ = 0u, long_ = 0u;       // a bit for each step
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;
@@ -47,12 +48,11 @@ void select_thin() {
         bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool thin = exists && !f.outside && !f.unprojected && height < THIN && height > 0.0 && !hidden;
         vec2 extent = max(q0, max(q1, q2)) - min(q0, min(q1, q2));
-        bool long_ = max(extent.x, extent.y) > LONG;
-        uint slot = append(COUNTER_THIN, thin && !long_);
-        if (thin && !long_ && slot < frame.survivor_capacity) survivors[slot] = t;
-        slot = append(COUNTER_THIN_LONG, thin && long_);
-        if (thin && long_ && slot < frame.survivor_capacity) survivors[frame.survivor_capacity - 1u - slot] = t;
+        bool is_long = max(extent.x, extent.y) > LONG;
+        short_ |= thin && !is_long ? 1u << step_ : 0u;
+        long_ |= thin && is_long ? 1u << step_ : 0u;
     } while (++step_ < THIN_PER_INVOCATION);
+    list_survivors(first, uvec2(short_, long_), uvec2(COUNTER_THIN, COUNTER_THIN_LONG));
 }
 
 // The normal of a triangle on the side that the eye sees.

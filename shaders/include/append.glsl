@@ -1,5 +1,5 @@
 // Appending to a list whose length is a counter, with one atomic addition per subgroup. All invocations of the subgroup have
-// to call `append` together.
+// to call these functions together.
 #ifndef APPEND_GLSL
 #define APPEND_GLSL
 
@@ -12,6 +12,13 @@ uint append(uint counter, bool wanted) {
     uint count = subgroupBallotBitCount(together), base = 0u;
     if (gl_SubgroupInvocationID == 0u && count != 0u) base = atomicAdd(counters[counter], count);
     return of_first(base) + subgroupBallotExclusiveBitCount(together);
+}
+
+// Makes room for `count` entries of this invocation, and returns the index of the first one.
+uint append_several(uint counter, uint count) {
+    uint all = subgroupAdd(count), base = 0u;
+    if (gl_SubgroupInvocationID == 0u && all != 0u) base = atomicAdd(counters[counter], all);
+    return of_first(base) + subgroupExclusiveAdd(count);
 }
 
 #endif
