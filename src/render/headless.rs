@@ -84,7 +84,7 @@ impl ReadBack {
         ];
         let has_room = |known: &Self| {
             let attributes = known.attributes.as_ref().map_or(0, Buffer::size);
-            let bounded = settings.max_memory.is_some();
+            let bounded = settings.scene.max_memory.is_some();
             known.colors.size() >= needs[0]
                 && attributes >= needs[1]
                 && !(bounded && known.colors.size() + attributes > Self::bytes(settings).max(32))

@@ -1,7 +1,7 @@
 //! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
 use super::statistics::Shortfall;
-use super::{EngineError, Method, RoundPolicy, Settings, Shading};
+use super::{CellOptions, EngineError, ImageRequest, Method, RoundPolicy, Shading};
 use crate::engine::data::{Content, ResourceSizes};
 use crate::engine::passes::LongLists;
 use crate::sampling::Pattern;
@@ -213,8 +213,7 @@ pub(crate) fn most_records(limits: &Limits) -> u64 {
 }
 
 /// Average number of visibility samples for which a superpixel has room.
-pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
-    let options = settings.superpixels();
+pub(crate) fn records_of_superpixel(options: &CellOptions, scene: &dyn Content) -> u64 {
     let samples = u64::from(options.samples);
     let usual = if options.shading == Shading::Sample || scene.has_blend() {
         samples.min(64)
@@ -227,26 +226,26 @@ pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) ->
 impl Plan {
     /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer for a host's image (0 without one), and
     /// its places have `shadow_words` shadow words. `taken` returns, for memory of some sizes, the bytes that others
-    /// use of the memory that the settings allow.
+    /// use of the memory that the request allows.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if not even a region of 8 x 8 pixels fits.
     pub fn new(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         (encoded_bytes, shadow_words): (u64, u32),
         capacity: Capacity,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> Result<Self, EngineError> {
-        let side = settings.side();
-        let [width, height] = settings.size;
-        let samples_a_pixel = match settings.method {
+        let side = image.method.side();
+        let [width, height] = image.size;
+        let samples_a_pixel = match image.method {
             // A line of 64 samples takes as long as a few points.
-            Method::Superpixel(ref options) if options.pattern == Pattern::Lines => {
-                u64::from(options.samples.min(LINES_AS_POINTS))
+            Method::Superpixel(options) if options.cells.pattern == Pattern::Lines => {
+                u64::from(options.cells.samples.min(LINES_AS_POINTS))
             }
-            Method::Superpixel(_) | Method::Msaa { .. } => u64::from(settings.method.samples()),
+            Method::Superpixel(_) | Method::Msaa { .. } => u64::from(image.method.samples()),
             Method::None | Method::Ssaa { .. } => 1,
         };
         let lights = if shadow_words > 0 { SHADOWED } else { 1 };
@@ -255,13 +254,13 @@ impl Plan {
             .max(SMALL_REGION_PIXELS);
         let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
-        let allowed = settings.max_memory;
+        let allowed = image.max_memory;
         loop {
             let mut plan =
-                Self::with_region(settings, scene, limits, encoded_bytes, capacity, region)?;
+                Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
-            let needed = plan.shrink(scene, settings, taken);
+            let needed = plan.shrink(scene, image, taken);
             let fits = pixels <= most
                 && plan.sizes.largest_storage() <= limits.max_storage_bytes
                 && plan.sizes.largest_texels() <= limits.max_texel_elements;
@@ -285,16 +284,16 @@ impl Plan {
     /// # Errors
     /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
     pub fn whole(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         capacity: Capacity,
         taken: u64,
     ) -> Result<Self, EngineError> {
-        let mut plan = Self::with_region(settings, scene, limits, 0, capacity, settings.size)?;
-        let needed = plan.shrink(scene, settings, &|_| taken);
+        let mut plan = Self::with_region(image, scene, limits, 0, capacity, image.size)?;
+        let needed = plan.shrink(scene, image, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
-        match settings.max_memory {
+        match image.max_memory {
             Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
             _ => Ok(plan),
         }
@@ -305,13 +304,13 @@ impl Plan {
     fn shrink(
         &mut self,
         scene: &dyn Content,
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> u64 {
-        let all = |plan: &Self| plan.bytes(scene, settings) + taken(&plan.sizes);
+        let all = |plan: &Self| plan.bytes(scene, image) + taken(&plan.sizes);
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
-        while settings.max_memory.is_some_and(|allowed| needed > allowed)
+        while image.max_memory.is_some_and(|allowed| needed > allowed)
             && self.sizes.record_capacity > 1 << 16
         {
             self.sizes.record_capacity /= 2;
@@ -322,16 +321,16 @@ impl Plan {
     }
 
     fn with_region(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         encoded_bytes: u64,
         capacity: Capacity,
         region: [u32; 2],
     ) -> Result<Self, EngineError> {
-        let [width, height] = settings.size;
-        let side = settings.side();
-        let detects = matches!(settings.method, Method::Superpixel(_));
+        let [width, height] = image.size;
+        let side = image.method.side();
+        let detects = matches!(image.method, Method::Superpixel(_));
         let mut regions = Vec::new();
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
@@ -355,18 +354,18 @@ impl Plan {
             let [w, h] = r.outer();
             [most[0].max(w * side), most[1].max(h * side)]
         });
-        if let Some(wanted) = settings.region {
-            let end = wanted.end(settings.size)?;
+        if let Some(wanted) = image.region {
+            let end = wanted.end(image.size)?;
             regions.retain_mut(|region| region.keep(wanted.corner, end));
         }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
-        let samples = u64::from(settings.method.samples());
+        let samples = u64::from(image.method.samples());
         let policy = RoundPolicy::of(limits);
-        let records = match settings.method {
-            Method::Superpixel(_) => {
+        let records = match image.method {
+            Method::Superpixel(options) => {
                 let most = policy.most_records(limits);
-                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, most)
+                (pixels * records_of_superpixel(&options.cells, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
@@ -414,7 +413,7 @@ impl Plan {
             record_capacity: records as u32,
             filtered: filtered as u32,
             shadow_words: 0,
-            attributes: settings.attributes,
+            attributes: image.attributes,
             encoded: encoded_bytes * pixels,
         };
         Ok(Self {
@@ -425,9 +424,9 @@ impl Plan {
         })
     }
 
-    fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {
-        let samples = match settings.method {
-            Method::Msaa { samples } => u64::from(samples),
+    fn bytes(&self, scene: &dyn Content, image: &ImageRequest<'_>) -> u64 {
+        let samples = match image.method {
+            Method::Msaa { samples } => u64::from(*samples),
             _ => 1,
         };
         let images =

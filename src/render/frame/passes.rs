@@ -5,7 +5,7 @@ use crate::engine::passes::detect::DetectMode;
 use crate::engine::passes::{Raster, RecordRate, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::Plan;
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerSettings, record_rate};
 use crate::render::data::GpuScene;
 use crate::render::passes::{Encoding, Pose, Shade, ShadeSource, Stroke};
 use crate::render::passes::{attributes, box_filter, encode, multisample, spans};
@@ -60,16 +60,19 @@ impl Passes {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &GpuScene,
-        settings: &Settings,
+        (settings, sampler): (&Settings, &SamplerSettings),
         plan: &Plan,
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
-        let output = settings.color_constants(scene);
+        let output = sampler.color_constants(scene);
         let multisampled = matches!(settings.method, Method::Msaa { .. });
         let antialiased = matches!(settings.method, Method::Superpixel(_));
-        let detection = settings.superpixels().detection;
+        let superpixels = settings.superpixels();
+        let detection = superpixels.detection;
+        let grows = antialiased && superpixels.growth_count() > 0;
+        let side = settings.method.side();
         let compares = !matches!(detection, Detection::Exact | Detection::Every);
-        let by_part = record_rate(settings, scene) == RecordRate::Part;
+        let by_part = record_rate(sampler.cells.shading, scene) == RecordRate::Part;
         let words = plan.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
@@ -93,7 +96,7 @@ impl Passes {
             layout,
             memory,
             scene,
-            settings,
+            settings: sampler,
             output: &output,
             sizes: &plan.sizes,
             capacity: plan.capacity,
@@ -110,10 +113,10 @@ impl Passes {
             },
             growths: 0,
             detected: display_codes,
-            ..PixelCells::superpixels(settings)
+            ..PixelCells::superpixels(&superpixels)
         };
         let blended = || blended.sampler(&context);
-        let superpixels = || PixelCells::superpixels(settings).sampler(&context);
+        let antialiasing = || PixelCells::superpixels(&superpixels).sampler(&context);
         let multisampling = || -> Result<_, RenderError> {
             Ok(Multisampling {
                 multisample: multisample::pass(layout)?,
@@ -132,13 +135,13 @@ impl Passes {
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
             blended: scene.has_blend().then(blended).transpose()?,
-            superpixels: antialiased.then(superpixels).transpose()?,
+            superpixels: antialiased.then(antialiasing).transpose()?,
             attributes: settings
                 .attributes
-                .then(|| attributes::pass(layout, scene, antialiased, settings.growths() > 0))
+                .then(|| attributes::pass(layout, scene, antialiased, grows))
                 .transpose()?,
-            box_filter: (settings.side() > 1)
-                .then(|| box_filter::pass(layout, settings.side()))
+            box_filter: (side > 1)
+                .then(|| box_filter::pass(layout, side))
                 .transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)

@@ -8,7 +8,7 @@ use crate::engine::data::Resources;
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
-use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun};
+use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::render::passes::{Receiving, Shade, StrokeSizes};
@@ -26,6 +26,7 @@ const OFFSETS: usize = 1;
 /// A recording of a frame: the frame's parts, borrowed without its timings, with the camera and the target.
 pub(super) struct Recording<'a> {
     pub settings: &'a Settings,
+    pub sampler: &'a SamplerSettings,
     pub plan: &'a Plan,
     pub passes: &'a Passes,
     pub targets: &'a RasterTargets,
@@ -115,7 +116,7 @@ impl Recording<'_> {
         let whole = self.uniform(region, main.count(), false);
         let [width, height] = whole.size;
         let pixels = width * height;
-        let side = self.settings.side();
+        let side = self.settings.method.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
         let views = self.light_views(region).unwrap_or_default();
@@ -138,12 +139,7 @@ impl Recording<'_> {
         }
         if let (0, Some(stroke)) = (index, &passes.stroke) {
             let to_clip = to_clip(scene, self.camera, self.settings);
-            let sizes = StrokeSizes {
-                line_width: self.settings.line_width,
-                point_size: self.settings.point_size,
-                edge_width: self.settings.edge_width,
-                side,
-            };
+            let sizes = StrokeSizes::new(&self.settings.scene, side);
             stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
         }
         passes.raster.record(

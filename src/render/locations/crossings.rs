@@ -1,5 +1,6 @@
 //! Search for thin triangles that cross the cells of locations without covering any location, run by run.
 
+use super::ListSettings;
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
@@ -11,7 +12,7 @@ use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{CounterLog, SamplerRun};
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
 use crate::render::plane::PlaneWindow;
-use crate::render::{PreparedScene, RenderError, Settings, Statistics};
+use crate::render::{PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -35,7 +36,7 @@ impl CrossingFinder {
     pub unsafe fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         plan: &LocationPlan,
         marks: &Buffer,
     ) -> Result<Self, RenderError> {

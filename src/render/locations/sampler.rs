@@ -1,17 +1,18 @@
 //! Passes and memory that sample locations: the engine's sampler with the caller's cells instead of pixels.
 
+use super::ListSettings;
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
-use crate::render::{RenderError, Settings, Statistics};
+use crate::render::{RenderError, Statistics};
 use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -29,7 +30,7 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
 /// Pipelines and memory for sampling runs of locations of one scene.
 pub(super) struct LocationSampler {
     cells: Cells,
-    settings: Settings,
+    settings: SamplerSettings,
     sampler: Sampler,
     shade: Shade,
     shadows: Option<ShadowFinder>,
@@ -48,7 +49,7 @@ impl LocationSampler {
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         plan: &LocationPlan,
     ) -> Result<Self, RenderError> {
         let LocationPlan {
@@ -61,20 +62,20 @@ impl LocationSampler {
         let capacity = *capacity;
         let scene = &*prepared.gpu_scene;
         let listed = list_cells(*cells, sizes.shadow_words);
-        let (offsets, count) = listed.offsets(layout, settings)?;
+        let (offsets, count) = listed.offsets(layout, &settings.sampler.cells)?;
         let offsets = Offsets {
             all: &offsets,
             count,
         };
         let run = RunMemory::new(layout, prepared, settings, *sizes, offsets)?;
         let resources = &run.resources;
-        let output = settings.color_constants(scene);
+        let output = settings.sampler.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };
         let context = SamplerContext {
             layout,
             memory: &run.memory,
             scene,
-            settings,
+            settings: &settings.sampler,
             output: &output,
             sizes,
             capacity,
@@ -88,7 +89,7 @@ impl LocationSampler {
                 layout,
                 &run.memory,
                 casters,
-                settings,
+                &settings.sampler,
                 capacity,
                 shading,
                 *places,
@@ -97,7 +98,7 @@ impl LocationSampler {
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
-            settings: settings.clone(),
+            settings: settings.sampler.clone(),
             shade: Shade::new(layout, scene, (source, sizes.shadow_words), &output)?,
             shadows,
             cells: *cells,

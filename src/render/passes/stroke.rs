@@ -2,6 +2,7 @@
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::render::SceneSettings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Edge;
 use crate::vulkan::{Recorder, VulkanError};
@@ -27,6 +28,18 @@ pub struct StrokeSizes {
     pub edge_width: f32,
     /// Number of rendered pixels along the side of an output pixel.
     pub side: u32,
+}
+
+impl StrokeSizes {
+    /// Sizes of a scene's points and lines, in an image with `side` x `side` rendered pixels for each output pixel.
+    pub(in crate::render) fn new(scene: &SceneSettings, side: u32) -> Self {
+        Self {
+            line_width: scene.line_width,
+            point_size: scene.point_size,
+            edge_width: scene.edge_width,
+            side,
+        }
+    }
 }
 
 impl Stroke {

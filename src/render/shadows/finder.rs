@@ -8,12 +8,14 @@ use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{
+    ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
+};
+use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
     LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource, Shadow, ShadowTarget,
 };
-use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -25,7 +27,7 @@ pub(in crate::render) struct ShadowFinder {
     lit: Lit,
     /// Moment that is shown instead of the first pose.
     moment: Option<Moment>,
-    settings: Settings,
+    settings: SamplerSettings,
     receivers: Receivers,
     sampler: Sampler,
     /// Shading of casters that let light pass; `None` without such casters.
@@ -89,12 +91,12 @@ const OCCLUDERS: ListCells = ListCells {
 fn sizes(
     layout: &FrameLayout,
     casters: &Casters,
-    settings: &Settings,
+    settings: &SamplerSettings,
     capacity: Capacity,
     (places, shading): (u64, &ResourceSizes),
 ) -> ResourceSizes {
     let room = (shading.receivers(), [LightView::side(places); 2]);
-    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity)
+    OCCLUDERS.sizes(layout, &*casters.scene, &settings.cells, room, capacity)
 }
 
 impl ShadowFinder {
@@ -103,7 +105,7 @@ impl ShadowFinder {
     pub fn bytes(
         layout: &FrameLayout,
         casters: &Casters,
-        settings: &Settings,
+        settings: &SamplerSettings,
         capacity: Capacity,
         (places, shading): (u64, &ResourceSizes),
     ) -> u64 {
@@ -122,7 +124,7 @@ impl ShadowFinder {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         casters: &Arc<Casters>,
-        settings: &Settings,
+        settings: &SamplerSettings,
         capacity: Capacity,
         (scene, cells, shading): (&GpuScene, Cells, &Resources),
         places: u64,
@@ -136,7 +138,7 @@ impl ShadowFinder {
             (places, shading.sizes()),
         );
         sizes.check("the largest list of shadows", layout.gpu.limits())?;
-        let (offsets, count) = OCCLUDERS.offsets(layout, settings)?;
+        let (offsets, count) = OCCLUDERS.offsets(layout, &settings.cells)?;
         let offsets = Offsets {
             all: &offsets,
             count,
