@@ -10,9 +10,9 @@ use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
 use crate::engine::data::{Content, FrameUniform, HostImage, IdViews, Offsets, Resources};
 use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
+use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
-use crate::engine::sampler::plan::{Capacity, Plan};
-use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{
     PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
@@ -307,7 +307,8 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.work.sampler.capacity().more(self.shortfall()?);
+        let work = &self.work;
+        let capacity = self.lending.more(&work.sampler, work.plan.sizes.tiles())?;
         // SAFETY: passed on to the caller.
         unsafe {
             Self::with_capacity(
@@ -422,31 +423,17 @@ impl Frame {
         Ok(())
     }
 
-    fn shortfall(&self) -> Result<Shortfall, HostError> {
-        self.lending.check_done()?;
-        let mut shortfall = Shortfall::default();
-        let work = &self.work;
-        let tiles = work.plan.sizes.tiles();
-        work.sampler.add_shortfall([tiles], &mut shortfall)?;
-        Ok(shortfall)
-    }
-
     /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
     ///
     /// # Errors
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
     /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
-        let shortfall = self.shortfall()?;
-        let statistics = self.lending.statistics(
-            (&self.work.sampler, &self.work.plan.sizes),
-            (&self.work.timings, self.memory_bytes()),
-            &shortfall,
-        )?;
-        Ok(Outcome {
-            statistics,
-            left_over: shortfall.left(),
-        })
+        let work = &self.work;
+        self.lending.outcome(
+            (&work.sampler, &work.plan.sizes),
+            (&work.timings, self.memory_bytes()),
+        )
     }
 
     /// Where clip space lies on the images.

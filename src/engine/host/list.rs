@@ -5,13 +5,12 @@ use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
-use super::{Draw, Geometry, HostError, ListOptions, Shared};
+use super::{Draw, Geometry, HostError, ListOptions, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
-use crate::engine::sampler::plan::Capacity;
-use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{SamplerSettings, Statistics, check_image_size};
@@ -256,7 +255,8 @@ impl List {
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.sampler.capacity().more(self.shortfall()?);
+        let tiles = self.resources.sizes().tiles();
+        let capacity = self.lending.more(&self.sampler, tiles)?;
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
@@ -354,25 +354,18 @@ impl List {
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
     /// or timestamps can't be read, or the driver ran kernels in subgroups of another size.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let shortfall = self.shortfall()?;
-        let statistics = self.lending.statistics(
+        let Outcome {
+            statistics,
+            left_over,
+        } = self.lending.outcome(
             (&self.sampler, self.resources.sizes()),
             (&self.timings, self.memory.used()),
-            &shortfall,
         )?;
         Ok(ListOutcome {
             statistics,
-            left_over: shortfall.left(),
+            left_over,
             left_out: self.sampler.left_out()?,
         })
-    }
-
-    fn shortfall(&self) -> Result<Shortfall, HostError> {
-        self.lending.check_done()?;
-        let mut shortfall = Shortfall::default();
-        let tiles = self.resources.sizes().tiles();
-        self.sampler.add_shortfall([tiles], &mut shortfall)?;
-        Ok(shortfall)
     }
 
     fn footprints(&self) -> Footprints {

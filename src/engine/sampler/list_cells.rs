@@ -6,9 +6,9 @@ use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
-    Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
+    MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
 };
-use crate::engine::sampler::{CellOptions, EngineError};
+use crate::engine::sampler::{Capacity, CellOptions, EngineError};
 use crate::vulkan::Texels;
 
 /// Kind of the cells of a list, and the results that are computed for them.

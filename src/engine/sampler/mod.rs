@@ -7,6 +7,7 @@
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 
+mod capacity;
 pub(crate) mod color;
 mod counter_log;
 mod error;
@@ -19,9 +20,10 @@ mod pixel_cells;
 pub(crate) mod plan;
 mod rounds;
 mod settings;
-pub(crate) mod statistics;
+mod statistics;
 pub(crate) mod uniform;
 
+pub(crate) use capacity::{Capacity, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
@@ -49,8 +51,6 @@ use crate::engine::passes::{
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
 use crate::vulkan::{Memory, Recorder, VulkanError};
-use plan::Capacity;
-use statistics::Shortfall;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 

@@ -1,9 +1,8 @@
 //! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
-use super::statistics::Shortfall;
+use super::capacity::Capacity;
 use super::{CellOptions, EngineError, ImageRequest, Method, RoundPolicy, Shading};
 use crate::engine::data::{Content, ResourceSizes};
-use crate::engine::passes::LongLists;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
@@ -76,107 +75,6 @@ pub(crate) struct Plan {
     pub lists_can_grow: bool,
 }
 
-/// Capacity of a frame. It is raised if a frame turns out to need more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Capacity {
-    /// Number of BLEND layers of a list for which tiles are admitted; half of the number of lists in a block.
-    pub layers: u32,
-    /// Factor for the room for candidates and pairs.
-    pub lists: u32,
-    /// Factor on the number of recorded rounds that images usually need; `None` to record all rounds that any image may
-    /// need.
-    pub rounds: Option<u32>,
-    /// How cells with long lists of candidates are sampled.
-    pub long_lists: LongLists,
-    /// Whether tiles without a list of candidates are sampled.
-    pub unlisted: bool,
-}
-
-impl Capacity {
-    /// Number of BLEND layers of a list for which a frame is first planned.
-    pub const LAYERS: u32 = 4;
-
-    /// This capacity with `factor` times the room for candidates.
-    pub fn with_lists(self, factor: u32) -> Self {
-        Self {
-            lists: self.lists.saturating_mul(factor.next_power_of_two()),
-            ..self
-        }
-    }
-
-    /// Capacity for the first frame on a device.
-    pub fn first(policy: RoundPolicy) -> Self {
-        Self {
-            rounds: match policy {
-                RoundPolicy::Small => None,
-                RoundPolicy::Large { .. } => Some(1),
-            },
-            ..Self::default()
-        }
-    }
-
-    /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may
-    /// take longer than a frame.
-    pub fn without_unlisted(self) -> Self {
-        Self {
-            unlisted: false,
-            ..self
-        }
-    }
-
-    /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
-    /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
-    /// because testing every triangle takes long.
-    pub fn more(self, shortfall: Shortfall) -> Self {
-        let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
-        let unshadowed = shortfall.unshadowed > 0;
-        // The counters don't say what passes of lights lacked. Rounds are raised first, as long as there are few.
-        let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
-        let crowded = shortfall.crowded > 0;
-        // Lists are lengthened next, and layers are raised last.
-        let deeper = of_lights && self.long_lists == LongLists::Scattered;
-        let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
-        let rounds = factor(shortfall.waiting > 0, 2)
-            .max(factor(unshadowed, 4))
-            .max(shortfall.rounds.next_power_of_two());
-        Self {
-            layers: self
-                .layers
-                .saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
-            rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
-            long_lists: if of_lights || shortfall.stalled > 0 {
-                self.long_lists.shorter()
-            } else {
-                self.long_lists
-            },
-            unlisted: self.unlisted
-                || (shortfall.unlisted > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
-            ..self.with_lists(lists.max(shortfall.rooms))
-        }
-    }
-
-    /// Number of visibility samples for `samples` samples with all layers; 0 if the frame is not known to need more
-    /// layers than usual.
-    pub fn layered(&self, samples: u64) -> u64 {
-        match self.layers {
-            Self::LAYERS => 0,
-            layers => samples * (2 + u64::from(layers)),
-        }
-    }
-}
-
-impl Default for Capacity {
-    fn default() -> Self {
-        Self {
-            layers: Self::LAYERS,
-            lists: 1,
-            rounds: None,
-            long_lists: LongLists::default(),
-            unlisted: true,
-        }
-    }
-}
-
 /// Distance in pixels within which pixels affect each other: a pixel is compared with its neighbours, which may have
 /// become superpixels because of their own neighbours, and so on.
 const NEIGHBOURS: u32 = 3;
@@ -185,8 +83,6 @@ const NEIGHBOURS: u32 = 3;
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
-/// Factor for the number of rounds from which on more rounds no longer help.
-const MANY_ROUNDS: u32 = 8;
 /// Number of point samples that take as long as the lines of a superpixel.
 const LINES_AS_POINTS: u32 = 64;
 /// Factor for the cost of a sample with shadows: the sample is projected once for each light, on up to six planes.
@@ -432,76 +328,5 @@ impl Plan {
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
         self.sizes.bytes() + images
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::data::Counter;
-
-    /// A frame that dropped triangles reports how many. The next frame then has lists that are long enough, instead of
-    /// repeatedly too short ones.
-    #[test]
-    fn lists_grow_to_what_they_are_known_to_need() {
-        const ROOM: u32 = 1 << 14;
-        let mut counters = [0; Counter::COUNT];
-        counters[Counter::Survivors as usize] = 70 * ROOM + 1;
-        let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, ROOM, 1), false);
-        assert_eq!(Capacity::default().more(shortfall).lists, 128);
-        counters = [0; Counter::COUNT];
-        counters[Counter::Pairs as usize] = 5 * ROOM;
-        let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, 1, ROOM), false);
-        assert_eq!(Capacity::default().more(shortfall).lists, 8);
-        // A shortage of unknown size multiplies only the capacity that was short.
-        let crowded = Shortfall {
-            crowded: 1,
-            ..Shortfall::default()
-        };
-        let more = Capacity::default().without_unlisted().more(crowded);
-        assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
-        let unlisted = Shortfall {
-            unlisted: 1,
-            ..Shortfall::default()
-        };
-        assert_eq!(
-            Capacity::default().without_unlisted().more(unlisted),
-            Capacity::default()
-        );
-        // If pairs lacked room, tiles without a list may get one once there is room.
-        let outgrown = Shortfall {
-            unlisted: 1,
-            rooms: 2,
-            ..Shortfall::default()
-        };
-        let more = Capacity::default().without_unlisted().more(outgrown);
-        assert_eq!((more.lists, more.unlisted), (2, false));
-        assert!(more.more(outgrown).unlisted);
-        // Lights may lack rounds.
-        let unshadowed = Shortfall {
-            unshadowed: 1,
-            ..Shortfall::default()
-        };
-        let few = Capacity {
-            rounds: Some(2),
-            ..Capacity::default()
-        };
-        let more = few.more(unshadowed);
-        let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
-        assert_eq!(unlike(&more), (Some(8), 1, LongLists::Together));
-        let longer = more.more(unshadowed);
-        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::Apart));
-        let late = Shortfall {
-            waiting: 5,
-            rounds: 3,
-            ..Shortfall::default()
-        };
-        assert_eq!(few.more(late).rounds, Some(8));
-        assert_eq!(
-            Capacity::default().more(Shortfall::default()),
-            Capacity::default()
-        );
     }
 }

@@ -1,7 +1,7 @@
 //! Counters of a frame, read once its commands have run.
 
 use super::Frame;
-use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 
 impl Frame {

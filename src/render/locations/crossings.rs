@@ -8,8 +8,7 @@ use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
 use crate::engine::passes::cull::{self, CullFilter};
 use crate::engine::passes::{Distribute, ListLength, bin};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{CounterLog, SamplerRun};
+use crate::engine::sampler::{CounterLog, SamplerRun, Shortfall};
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
 use crate::render::plane::PlaneWindow;
 use crate::render::{PreparedScene, RenderError, Statistics};
@@ -116,22 +115,24 @@ impl CrossingFinder {
         unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
-    /// Checks that the pairs of triangles and tiles of the last run fitted into memory.
+    /// Triangles, and pairs of triangles and tiles, for which the last run had no room.
     ///
     /// # Errors
-    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if they did not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
-    pub fn check(&self) -> Result<(), RenderError> {
+    /// If the counters can't be read.
+    pub fn shortfall(&self) -> Result<Shortfall, VulkanError> {
         let sizes = self.run.resources.sizes();
         let mut shortfall = Shortfall::default();
         for counters in self.counters.read(1)?.flatten() {
-            let get = |counter: Counter| counter.of(counters);
-            let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
-            let dropped = survivors.saturating_sub(sizes.survivor_capacity);
-            let unpaired = get(Counter::Pairs).saturating_sub(sizes.pair_capacity);
-            shortfall.dropped += u64::from(dropped) + u64::from(unpaired);
+            let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
+            shortfall.add(counters, room, true);
             shortfall.add_subgroups(counters);
+            // No other pass looks at the pairs that were left out.
+            let unpaired = Counter::Pairs
+                .of(counters)
+                .saturating_sub(sizes.pair_capacity);
+            shortfall.dropped += u64::from(unpaired);
         }
-        Ok(shortfall.check(sizes.lanes)?)
+        Ok(shortfall)
     }
 
     /// Adds the times of the last run's passes to `statistics`.

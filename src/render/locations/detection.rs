@@ -13,13 +13,11 @@ use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::grow;
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
-use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
 use crate::render::{
-    CellOptions, EngineError, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows,
-    Statistics,
+    CellOptions, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -180,18 +178,13 @@ impl Headless {
             scene: scene_settings,
         };
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let plan = LocationPlan::new(
-            &layout,
-            scene,
-            &settings,
-            &partition,
-            false,
-            Capacity::default(),
-        )?;
         let marks = &detector.resources.marks;
-        // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-        let mut crossings =
-            unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
+        let make = |capacity| {
+            let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
+            // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
+            let finder = unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
+            Ok((plan, finder))
+        };
         let width = detector.settings.size[0];
         let output = MarkedOutput {
             tiles: band.tiles(width),
@@ -200,28 +193,25 @@ impl Headless {
         };
         let first = band.seen.start * width;
         let mut statistics = Statistics::default();
-        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
-        while let Some(run) = waiting.pop() {
-            let window = partition.window(&run);
-            let (listed, seen) = crossings.listed_mut(run.len())?;
-            partition.list((&run, &window), listed);
-            for (seen, place) in seen.iter_mut().zip(run.clone()) {
-                *seen = image.seen_at(partition.location(place).output, first);
-            }
-            // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
-            // cells are those of the band.
-            self.submit(|commands| unsafe {
-                crossings.record(scene, (pinhole, &window), (&output, run.len()), commands);
-            })?;
-            match crossings.check() {
-                Ok(()) => crossings.add_statistics(scene, &mut statistics)?,
-                // Half of the locations have fewer pairs; cells that were marked before stay marked.
-                Err(RenderError::Engine(EngineError::Unfinished { .. })) if run.len() > 1 => {
-                    waiting.extend(LocationPlan::halves(&run));
+        // Cells that a run marked stay marked if it is repeated.
+        self.each_run(
+            make,
+            |headless, finder, run| {
+                let window = partition.window(run);
+                let (listed, seen) = finder.listed_mut(run.len())?;
+                partition.list((run, &window), listed);
+                for (seen, place) in seen.iter_mut().zip(run.clone()) {
+                    *seen = image.seen_at(partition.location(place).output, first);
                 }
-                Err(error) => return Err(error),
-            }
-        }
+                // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
+                // cells are those of the band.
+                headless.submit(|commands| unsafe {
+                    finder.record(scene, (pinhole, &window), (&output, run.len()), commands);
+                })?;
+                Ok(finder.shortfall()?)
+            },
+            |finder, _| Ok(finder.add_statistics(scene, &mut statistics)?),
+        )?;
         Ok(statistics)
     }
 }

@@ -10,6 +10,7 @@ mod error;
 mod image;
 mod partition;
 mod plan;
+mod retry;
 mod run;
 mod sampler;
 
@@ -17,14 +18,12 @@ pub use error::LocationError;
 
 use super::shadows::Sight;
 use super::{
-    CellOptions, EngineError, Headless, PreparedScene, RenderError, SceneSettings, Shading,
-    Statistics,
+    CellOptions, Headless, PreparedScene, RenderError, SceneSettings, Shading, Statistics,
 };
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::Cells;
-use crate::engine::sampler::SamplerSettings;
 use crate::engine::sampler::footprint::TextureFilter;
-use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::{Capacity, SamplerSettings};
 use partition::Partition;
 use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
@@ -50,10 +49,6 @@ pub struct PointSample {
     /// [`Shadows::Exact`](super::Shadows::Exact).
     pub shadows: u32,
 }
-
-/// Factor on the memory for lists of candidates. Once the memory has grown this much, it is not raised any more for a
-/// single location that does not fit.
-const MOST_LISTS: u32 = 1 << 16;
 
 /// Pinholes, each with the locations on its plane.
 type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
@@ -182,57 +177,35 @@ impl Headless {
             let sampler = LocationSampler::new(&layout, scene, settings, &plan)?;
             Ok::<_, RenderError>((plan, sampler))
         };
-        let (plan, mut sampler) = make(Capacity::default())?;
-        let mut capacity = plan.capacity;
         let mut statistics = Statistics::default();
         let ([low, high], beyond) = partition.reach();
-        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
-        while let Some(run) = waiting.pop() {
-            let window = partition.window(&run);
-            partition.list((&run, &window), sampler.listed_mut(run.len())?);
-            let sight = Sight {
-                pinhole: *pinhole,
-                whole: [low - beyond, high + beyond],
-                part: window.rectangle(beyond),
-                places: partition.places(),
-                origin: scene.gpu_scene.origin(),
-            };
-            // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
-            self.submit(|commands| unsafe {
-                sampler.record(scene, &sight, &window, run.len(), commands);
-            })?;
-            match sampler.check(&window) {
-                Ok(()) => {}
-                // Half of the locations have about half of the visibility samples.
-                Err(RenderError::Engine(EngineError::Unfinished { cells })) => {
-                    let (count, shortfall) = (run.len(), sampler.shortfall(&window)?);
-                    log::debug!(
-                        "{cells} cells or tiles of {count} locations are left: {shortfall:?}"
-                    );
-                    let more = capacity.more(shortfall);
-                    if count > 1 && more.long_lists == capacity.long_lists {
-                        waiting.extend(LocationPlan::halves(&run));
-                    } else if capacity.lists < MOST_LISTS {
-                        capacity = more;
-                        let (plan, larger) = make(capacity)?;
-                        sampler = larger;
-                        let left = plan.runs.iter().rev().filter(|other| other.end > run.start);
-                        waiting = left
-                            .map(|other| other.start.max(run.start)..other.end)
-                            .collect();
-                    } else {
-                        return Err(EngineError::Unfinished { cells }.into());
-                    }
-                    continue;
-                }
-                Err(error) => return Err(error),
-            }
-            sampler.add_statistics(scene, &window, &mut statistics)?;
-            take(&RunValues {
-                seen: sampler.values(run.len())?,
-                places: run,
-            });
-        }
+        self.each_run(
+            make,
+            |headless, sampler, run| {
+                let window = partition.window(run);
+                partition.list((run, &window), sampler.listed_mut(run.len())?);
+                let sight = Sight {
+                    pinhole: *pinhole,
+                    whole: [low - beyond, high + beyond],
+                    part: window.rectangle(beyond),
+                    places: partition.places(),
+                    origin: scene.gpu_scene.origin(),
+                };
+                // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
+                headless.submit(|commands| unsafe {
+                    sampler.record(scene, &sight, &window, run.len(), commands);
+                })?;
+                Ok(sampler.shortfall(&window)?)
+            },
+            |sampler, run| {
+                sampler.add_statistics(scene, &partition.window(&run), &mut statistics)?;
+                take(&RunValues {
+                    seen: sampler.values(run.len())?,
+                    places: run,
+                });
+                Ok(())
+            },
+        )?;
         Ok(statistics)
     }
 }

@@ -5,7 +5,7 @@ use super::partition::Partition;
 use super::sampler::list_cells;
 use crate::engine::data::{Cells, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::Capacity;
 use crate::render::data::FrameGeometry;
 use crate::render::plane::PlaneWindow;
 use crate::render::shadows::{Casters, ShadowFinder};
@@ -110,15 +110,6 @@ impl LocationPlan {
             }
             longest /= 2;
         }
-    }
-}
-
-impl LocationPlan {
-    /// Halves of a run, the first half last. Half of the locations have about half of the visibility samples and
-    /// pairs.
-    pub fn halves(run: &Range<usize>) -> [Range<usize>; 2] {
-        let middle = run.start + run.len() / 2;
-        [middle..run.end, run.start..middle]
     }
 }
 

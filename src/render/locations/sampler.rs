@@ -5,8 +5,9 @@ use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings};
+use crate::engine::sampler::{
+    ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall,
+};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::PlaneWindow;
@@ -195,16 +196,6 @@ impl LocationSampler {
             shadows.add_shortfall(&mut shortfall)?;
         }
         Ok(shortfall)
-    }
-
-    /// Checks that the last run was finished: its visibility samples fitted into memory, and its lists were not too
-    /// long.
-    ///
-    /// # Errors
-    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if it was not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
-    pub fn check(&self, window: &PlaneWindow) -> Result<(), RenderError> {
-        let shortfall = self.shortfall(window)?;
-        Ok(shortfall.check(self.run.resources.sizes().lanes)?)
     }
 
     /// Adds the last run to `statistics`.

@@ -6,10 +6,9 @@ use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Reso
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::Capacity;
-use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{
-    ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
+    Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
+    Shortfall,
 };
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
