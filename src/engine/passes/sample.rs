@@ -129,7 +129,6 @@ enum Run {
 struct ListRun {
     list: TileList,
     run: Run,
-    kernels: &'static Kernels,
     /// Whether the list's tiles have MASK triangles.
     masked: bool,
 }
@@ -146,50 +145,58 @@ pub struct SampleBlocks {
     pub subgroups: [u32; 3],
 }
 
-/// Variants of a kernel by their number of register rows, the smallest first.
-type Kernels = [(u32, &'static [u8]); 5];
+/// Variant of the general kernel.
+#[derive(Clone, Copy)]
+struct Variant {
+    /// Whether cells may have BLEND layers.
+    layered: bool,
+    /// Whether tiles have no list of candidates.
+    unlisted: bool,
+    /// Number of register rows: samples of an invocation.
+    rows: u32,
+    code: &'static [u8],
+}
 
-const KERNELS: Kernels = [
-    (1, spirv::SAMPLE_1),
-    (2, spirv::SAMPLE_2),
-    (4, spirv::SAMPLE_4),
-    (8, spirv::SAMPLE_8),
-    (16, spirv::SAMPLE_16),
+/// Variants of the general kernel. Of those that differ in the number of rows alone, the smallest comes first.
+#[rustfmt::skip]
+const VARIANTS: [Variant; 20] = [
+    Variant { layered: false, unlisted: false, rows: 1, code: spirv::SAMPLE_1 },
+    Variant { layered: false, unlisted: false, rows: 2, code: spirv::SAMPLE_2 },
+    Variant { layered: false, unlisted: false, rows: 4, code: spirv::SAMPLE_4 },
+    Variant { layered: false, unlisted: false, rows: 8, code: spirv::SAMPLE_8 },
+    Variant { layered: false, unlisted: false, rows: 16, code: spirv::SAMPLE_16 },
+    Variant { layered: false, unlisted: true, rows: 1, code: spirv::SAMPLE_UNLISTED_1 },
+    Variant { layered: false, unlisted: true, rows: 2, code: spirv::SAMPLE_UNLISTED_2 },
+    Variant { layered: false, unlisted: true, rows: 4, code: spirv::SAMPLE_UNLISTED_4 },
+    Variant { layered: false, unlisted: true, rows: 8, code: spirv::SAMPLE_UNLISTED_8 },
+    Variant { layered: false, unlisted: true, rows: 16, code: spirv::SAMPLE_UNLISTED_16 },
+    Variant { layered: true, unlisted: false, rows: 1, code: spirv::SAMPLE_LAYERED_1 },
+    Variant { layered: true, unlisted: false, rows: 2, code: spirv::SAMPLE_LAYERED_2 },
+    Variant { layered: true, unlisted: false, rows: 4, code: spirv::SAMPLE_LAYERED_4 },
+    Variant { layered: true, unlisted: false, rows: 8, code: spirv::SAMPLE_LAYERED_8 },
+    Variant { layered: true, unlisted: false, rows: 16, code: spirv::SAMPLE_LAYERED_16 },
+    Variant { layered: true, unlisted: true, rows: 1, code: spirv::SAMPLE_LAYERED_UNLISTED_1 },
+    Variant { layered: true, unlisted: true, rows: 2, code: spirv::SAMPLE_LAYERED_UNLISTED_2 },
+    Variant { layered: true, unlisted: true, rows: 4, code: spirv::SAMPLE_LAYERED_UNLISTED_4 },
+    Variant { layered: true, unlisted: true, rows: 8, code: spirv::SAMPLE_LAYERED_UNLISTED_8 },
+    Variant { layered: true, unlisted: true, rows: 16, code: spirv::SAMPLE_LAYERED_UNLISTED_16 },
 ];
-const UNLISTED: Kernels = [
-    (1, spirv::SAMPLE_UNLISTED_1),
-    (2, spirv::SAMPLE_UNLISTED_2),
-    (4, spirv::SAMPLE_UNLISTED_4),
-    (8, spirv::SAMPLE_UNLISTED_8),
-    (16, spirv::SAMPLE_UNLISTED_16),
-];
-const LAYERED: Kernels = [
-    (1, spirv::SAMPLE_LAYERED_1),
-    (2, spirv::SAMPLE_LAYERED_2),
-    (4, spirv::SAMPLE_LAYERED_4),
-    (8, spirv::SAMPLE_LAYERED_8),
-    (16, spirv::SAMPLE_LAYERED_16),
-];
-const LAYERED_UNLISTED: Kernels = [
-    (1, spirv::SAMPLE_LAYERED_UNLISTED_1),
-    (2, spirv::SAMPLE_LAYERED_UNLISTED_2),
-    (4, spirv::SAMPLE_LAYERED_UNLISTED_4),
-    (8, spirv::SAMPLE_LAYERED_UNLISTED_8),
-    (16, spirv::SAMPLE_LAYERED_UNLISTED_16),
-];
+
+impl Variant {
+    /// The smallest variant for a list of tiles with at least `rows` rows, or otherwise the largest.
+    fn of(list: TileList, has_blend: bool, rows: u32) -> Self {
+        let unlisted = list == TileList::Unlisted;
+        let layered = list == TileList::Blended || (unlisted && has_blend);
+        let fits = VARIANTS
+            .iter()
+            .filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
+        let found = fits.clone().find(|variant| variant.rows >= rows);
+        *found.or_else(|| fits.last()).unwrap_or(&VARIANTS[0])
+    }
+}
 
 /// Number of blocks of several cells that a subgroup processes, as in `shaders/sample.comp`.
 const BLOCKS_AT_ONCE: u32 = 4;
-
-/// The smallest kernel with at least `rows` rows, or otherwise the largest.
-fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
-    let largest = kernels[kernels.len() - 1];
-    kernels
-        .iter()
-        .copied()
-        .find(|(has, _)| *has >= rows)
-        .unwrap_or(largest)
-}
 
 /// Number of samples of the first of two runs; their offsets follow those of the cell.
 pub const PROBES: u32 = spirv::PROBE_SAMPLES;
@@ -201,8 +208,8 @@ impl SampleBlocks {
     /// Blocks of kernels that use `lanes` invocations of a subgroup.
     #[must_use]
     pub fn new(lanes: u32, options: SampleOptions) -> Self {
-        let (rows, _) = kernel(&KERNELS, options.samples.min(BLOCK).div_ceil(lanes));
-        let block = rows * lanes;
+        let rows = options.samples.min(BLOCK).div_ceil(lanes);
+        let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
         let apart = options.long_lists.is_apart();
         let taking = |samples: u32, apart: bool| {
             let blocks = samples.div_ceil(block);
@@ -248,12 +255,7 @@ impl SampleBlocks {
         scene: &dyn Content,
         run: &ListRun,
     ) -> Result<Dispatch, VulkanError> {
-        let ListRun {
-            list,
-            run,
-            kernels,
-            masked,
-        } = *run;
+        let ListRun { list, run, masked } = *run;
         let (options, block) = (&self.options, self.block);
         let lanes = layout.gpu.limits().lanes;
         let is_rest = run == Run::Rest;
@@ -283,8 +285,8 @@ impl SampleBlocks {
             let kernel = sample_masks::kernel(layout, &shader, options.samples)?;
             Ok(kernel.dispatch((), size))
         } else {
-            let (_, code) = kernel(kernels, block / lanes);
-            let kernel = layout.kernel_variant(code, &shader)?;
+            let variant = Variant::of(list, options.has_blend, block / lanes);
+            let kernel = layout.kernel_variant(variant.code, &shader)?;
             Ok(kernel.dispatch((), size))
         }
     }
@@ -343,12 +345,7 @@ pub(crate) fn pass(
 impl SampleOptions {
     /// Runs over tiles of opaque and alpha-tested triangles.
     fn listed(&self, run: Run) -> impl Iterator<Item = ListRun> {
-        let run_of = |list, masked| ListRun {
-            list,
-            run,
-            kernels: &KERNELS,
-            masked,
-        };
+        let run_of = |list, masked| ListRun { list, run, masked };
         let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
         let has_masked = self.has_mask && !self.always_blends;
         let masked = has_masked.then(|| run_of(TileList::Masked, true));
@@ -357,24 +354,18 @@ impl SampleOptions {
 
     /// First runs, one for each list of tiles; that of tiles without a list is the last.
     fn first_runs(&self) -> Vec<ListRun> {
-        let whole = |list, kernels| ListRun {
+        let whole = |list| ListRun {
             list,
             run: Run::Whole,
-            kernels,
             masked: self.has_mask,
-        };
-        let blended = whole(TileList::Blended, &LAYERED);
-        let unlisted = match self.has_blend {
-            true => whole(TileList::Unlisted, &LAYERED_UNLISTED),
-            false => whole(TileList::Unlisted, &UNLISTED),
         };
         self.listed(if self.probes() {
             Run::Probe
         } else {
             Run::Whole
         })
-        .chain(self.has_blend.then_some(blended))
-        .chain(self.unlisted.then_some(unlisted))
+        .chain(self.has_blend.then(|| whole(TileList::Blended)))
+        .chain(self.unlisted.then(|| whole(TileList::Unlisted)))
         .collect()
     }
 

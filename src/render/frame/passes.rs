@@ -7,8 +7,8 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerSettings, record_rate};
 use crate::render::data::GpuScene;
-use crate::render::passes::{Encoding, Pose, Shade, ShadeSource, Stroke};
-use crate::render::passes::{attributes, box_filter, encode, multisample, spans};
+use crate::render::passes::{Encoding, Pose, ShadeSource, Stroke};
+use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
 use crate::vulkan::Memory;
 use ash::vk;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Passes that shade the centres of pixels.
 pub(super) struct PixelShading {
     pub spans: Pass,
-    pub shade: Shade,
+    pub shade: Pass,
 }
 
 /// Passes that turn the device's multisampling into colours.
@@ -35,7 +35,7 @@ pub(super) struct Passes {
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
     /// Shading of visibility samples, shared by samplers and multisampling.
-    pub shade: Option<Arc<Shade>>,
+    pub shade: Option<Arc<Pass>>,
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
     pub attributes: Option<Pass>,
@@ -79,13 +79,13 @@ impl Passes {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
                 spans: spans::pass(layout, scene)?,
-                shade: Shade::new(layout, scene, (source, words), &output)?,
+                shade: shade::pass(layout, scene, (source, words), &output)?,
             })
         };
         const SUPERPIXELS: ShadeSource = ShadeSource::Records {
             cells: Cells::Pixels,
         };
-        let shading = || Shade::new(layout, scene, (SUPERPIXELS, words), &output);
+        let shading = || shade::pass(layout, scene, (SUPERPIXELS, words), &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) = rayon::join(
             || (!multisampled).then(pixels).transpose(),

@@ -6,12 +6,13 @@ use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
 use crate::engine::data::Resources;
 use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::pipelines::Pass;
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
 use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
-use crate::render::passes::{Receiving, Shade, StrokeSizes};
+use crate::render::passes::{Receiving, StrokeSizes};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::Recorder;
@@ -42,8 +43,7 @@ pub(super) struct Recording<'a> {
 
 /// Shading of a scene's materials, as the engine calls it.
 pub(in crate::render) struct SceneShading<'a> {
-    pub scene: &'a GpuScene,
-    pub shade: Option<&'a Shade>,
+    pub shade: Option<&'a Pass>,
     /// Passes that find which lights reach a place; `None` without shadows.
     pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
 }
@@ -54,7 +54,7 @@ impl RecordShading for SceneShading<'_> {
             shadows.record(recorder, shadowed, Receiving::Records);
         }
         if let Some(shade) = self.shade {
-            shade.record(recorder, self.scene);
+            shade.record(recorder);
         }
     }
 
@@ -127,7 +127,6 @@ impl Recording<'_> {
             views: &views,
         };
         let shading_of = |set| SceneShading {
-            scene,
             shade: passes.shade.as_deref(),
             shadows: self.shadows.map(|shadows| (shadows, shadowed(set))),
         };
@@ -161,7 +160,7 @@ impl Recording<'_> {
             if let Some(shadows) = self.shadows {
                 shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
             }
-            shade.record(recorder, scene);
+            shade.record(recorder);
         }
         if let Some(Multisampling {
             multisample,

@@ -9,7 +9,7 @@ use crate::engine::passes::cull::{self, CullFilter};
 use crate::engine::passes::{Distribute, ListLength, bin};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{CounterLog, SamplerRun, Shortfall};
-use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
+use crate::render::passes::{MarkedOutput, SeenLocation, crossings};
 use crate::render::plane::PlaneWindow;
 use crate::render::{PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
@@ -21,14 +21,14 @@ pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Pass,
     bin: Pass,
-    crossings: Crossings,
+    crossings: Pass,
     seen: Buffer,
     counters: CounterLog,
     run: RunMemory,
 }
 
 impl CrossingFinder {
-    /// Makes the pipelines, and memory for the runs of a plan. Cells that are crossed are marked in `marks`.
+    /// Makes the pipelines, and memory for the runs of a plan. Cells of `output` that are crossed are marked in `marks`.
     ///
     /// # Safety
     /// `marks` outlives the execution of what is recorded, and has two words for each tile of the output.
@@ -37,7 +37,7 @@ impl CrossingFinder {
         prepared: &PreparedScene,
         settings: &ListSettings,
         plan: &LocationPlan,
-        marks: &Buffer,
+        (output, marks): (MarkedOutput, &Buffer),
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let offsets = Offsets {
@@ -62,7 +62,9 @@ impl CrossingFinder {
             bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
-            crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,
+            crossings: unsafe {
+                crossings::pass(layout, scene, resources, (&seen, marks), output)
+            }?,
             seen,
             counters: CounterLog::new(&run.memory, 1)?,
             run,
@@ -89,7 +91,7 @@ impl CrossingFinder {
         &mut self,
         scene: &PreparedScene,
         (pinhole, window): (&Pinhole, &PlaneWindow),
-        (output, count): (&MarkedOutput, usize),
+        count: usize,
         commands: vk::CommandBuffer,
     ) {
         let Self {
@@ -107,7 +109,7 @@ impl CrossingFinder {
             resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
             cull.record(recorder);
             bin.record(recorder);
-            crossings.record(recorder, output);
+            crossings.record(recorder);
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));

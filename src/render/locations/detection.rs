@@ -178,18 +178,19 @@ impl Headless {
             scene: scene_settings,
         };
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let marks = &detector.resources.marks;
-        let make = |capacity| {
-            let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
-            // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-            let finder = unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
-            Ok((plan, finder))
-        };
         let width = detector.settings.size[0];
         let output = MarkedOutput {
             tiles: band.tiles(width),
             width,
             pixel: pixel_width(pinhole) as f32,
+        };
+        let marks = &detector.resources.marks;
+        let make = |capacity| {
+            let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
+            // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
+            let finder =
+                unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks)) }?;
+            Ok((plan, finder))
         };
         let first = band.seen.start * width;
         let mut statistics = Statistics::default();
@@ -206,7 +207,7 @@ impl Headless {
                 // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
                 // cells are those of the band.
                 headless.submit(|commands| unsafe {
-                    finder.record(scene, (pinhole, &window), (&output, run.len()), commands);
+                    finder.record(scene, (pinhole, &window), run.len(), commands);
                 })?;
                 Ok(finder.shortfall()?)
             },

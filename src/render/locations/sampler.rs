@@ -4,12 +4,12 @@ use super::ListSettings;
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
     ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall,
 };
 use crate::render::frame::recording::SceneShading;
-use crate::render::passes::{Shade, ShadeSource};
+use crate::render::passes::{ShadeSource, shade};
 use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
@@ -33,7 +33,7 @@ pub(super) struct LocationSampler {
     cells: Cells,
     settings: SamplerSettings,
     sampler: Sampler,
-    shade: Shade,
+    shade: Pass,
     shadows: Option<ShadowFinder>,
     run: RunMemory,
 }
@@ -100,7 +100,7 @@ impl LocationSampler {
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
             settings: settings.sampler.clone(),
-            shade: Shade::new(layout, scene, (source, sizes.shadow_words), &output)?,
+            shade: shade::pass(layout, scene, (source, sizes.shadow_words), &output)?,
             shadows,
             cells: *cells,
             sampler,
@@ -162,7 +162,6 @@ impl LocationSampler {
                 views: &views,
             };
             let shading = SceneShading {
-                scene: &scene.gpu_scene,
                 shade: Some(shade),
                 shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
             };

@@ -1,4 +1,5 @@
-//! pose: computes vertices that move, at a moment.
+//! pose: computes vertices that move, at a moment. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
+//! depend on the moment.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};

@@ -1,4 +1,5 @@
-//! shadow: finds the receivers of light that another triangle occludes.
+//! shadow: finds the receivers of light that another triangle occludes. It is no [`Pass`](crate::engine::pipelines::Pass),
+//! because the lights, and what is shadowed, are known only when a frame is recorded.
 
 use crate::engine::data::{Argument, Resources};
 use crate::engine::passes::arguments::{self, After};

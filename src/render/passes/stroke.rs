@@ -1,4 +1,5 @@
-//! stroke: computes points and lines for a camera.
+//! stroke: computes points and lines for a camera. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
+//! depend on the camera.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};

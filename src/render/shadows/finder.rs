@@ -5,7 +5,7 @@ use super::light::{LightView, Sight, views};
 use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Resources, SampleSet};
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
-use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
     Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
     Shortfall,
@@ -13,7 +13,7 @@ use crate::engine::sampler::{
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource, Shadow, ShadowTarget,
+    LightPlane, Pose, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
 };
 use crate::scene::Moment;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
@@ -30,7 +30,7 @@ pub(in crate::render) struct ShadowFinder {
     receivers: Receivers,
     sampler: Sampler,
     /// Shading of casters that let light pass; `None` without such casters.
-    shade: Option<Shade>,
+    shade: Option<Pass>,
     shadow: Shadow,
     pose: Option<Pose>,
     geometry: FrameGeometry,
@@ -69,7 +69,7 @@ impl RecordShading for Occlusion<'_> {
     /// Shades casters that let light pass, to get their opacities.
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some(shade) = &self.finder.shade {
-            shade.record(recorder, &self.finder.casters.scene);
+            shade.record(recorder);
         }
     }
 
@@ -186,7 +186,7 @@ impl ShadowFinder {
             let source = ShadeSource::Records {
                 cells: Cells::Occluders,
             };
-            Shade::new(layout, occluding, (source, 0), &output)
+            shade::pass(layout, occluding, (source, 0), &output)
         };
         Ok(Self {
             shade: occluding.has_blend().then(opacities).transpose()?,

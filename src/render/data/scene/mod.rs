@@ -12,7 +12,7 @@ mod texture;
 mod texture_set;
 mod triangles;
 
-pub use bins::ShadeFeatures;
+pub(in crate::render) use bins::MaterialBin;
 pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
 pub use look::FrameLook;
@@ -25,7 +25,7 @@ use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
-use bins::{Bins, MaterialBin};
+use bins::Bins;
 use environment::{EnvironmentUpload, GpuEnvironment};
 use glam::DVec3;
 use light::GpuLight;
