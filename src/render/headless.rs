@@ -261,7 +261,7 @@ impl Headless {
     ) -> Result<Frame, RenderError> {
         let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
-        let capacity = self.renderer.first_capacity().without_unlisted();
+        let capacity = self.renderer.first_capacity().without_unlisted_tiles();
         self.renderer
             .prepare_with(scene, settings, None, capacity, reserved)
     }

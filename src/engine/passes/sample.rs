@@ -1,6 +1,6 @@
 //! sample: finds the nearest triangle of every sample.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::{sample_lines, sample_masks, scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
@@ -57,7 +57,7 @@ pub struct SampleOptions {
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
     /// Whether tiles without a list are sampled, with `scatter`. Otherwise they are skipped and counted.
-    pub unlisted: bool,
+    pub samples_unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
@@ -72,9 +72,9 @@ pub struct SampleOptions {
 pub enum LongLists {
     /// Like other cells: a subgroup samples blocks of several cells.
     #[default]
-    Together,
+    SeveralCells,
     /// A subgroup samples a block of a single cell.
-    Apart,
+    OneCell,
     /// A subgroup samples a block of a single cell, and tiles have no list if loops over it might exceed the
     /// number of iterations.
     Scattered,
@@ -84,20 +84,20 @@ impl LongLists {
     /// Next option to try if loops over lists exceeded the number of iterations.
     pub(crate) fn shorter(self) -> Self {
         match self {
-            Self::Together => Self::Apart,
-            Self::Apart | Self::Scattered => Self::Scattered,
+            Self::SeveralCells => Self::OneCell,
+            Self::OneCell | Self::Scattered => Self::Scattered,
         }
     }
 
-    pub(super) fn is_apart(self) -> bool {
-        self != Self::Together
+    pub(super) fn takes_one_cell(self) -> bool {
+        self != Self::SeveralCells
     }
 
     /// Largest numbers of candidates in the list of a tile: of a tile without BLEND triangles, and of one with them.
     /// Tiles with more candidates have no list.
     pub(crate) fn longest(self) -> [u32; 2] {
         match self {
-            Self::Together | Self::Apart => [spirv::LONGEST_LIST; 2],
+            Self::SeveralCells | Self::OneCell => [spirv::LONGEST_LIST; 2],
             Self::Scattered => [spirv::SHORT_LIST, spirv::SHORT_LAYERED],
         }
     }
@@ -210,23 +210,23 @@ impl SampleBlocks {
     pub fn new(lanes: u32, options: SampleOptions) -> Self {
         let rows = options.samples.min(BLOCK).div_ceil(lanes);
         let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
-        let apart = options.long_lists.is_apart();
-        let taking = |samples: u32, apart: bool| {
+        let one_cell = options.long_lists.takes_one_cell();
+        let taking = |samples: u32, one_cell: bool| {
             let blocks = samples.div_ceil(block);
-            if apart {
+            if one_cell {
                 lanes * blocks
             } else {
                 blocks.div_ceil(BLOCKS_AT_ONCE)
             }
         };
         let first = if options.probes() {
-            taking(PROBES, apart)
+            taking(PROBES, one_cell)
         } else if options.by_lines() {
             1
         } else {
-            taking(options.samples, apart)
+            taking(options.samples, one_cell)
         };
-        let [all, unlisted] = [apart, true].map(|apart| taking(options.samples, apart));
+        let [all, unlisted] = [one_cell, true].map(|one_cell| taking(options.samples, one_cell));
         Self {
             options,
             block,
@@ -269,7 +269,7 @@ impl SampleBlocks {
             by_part: options.by_part(run, block),
             exact_areas: options.measures(list, run),
             part: options.part_samples(),
-            apart: options.long_lists.is_apart() || list == TileList::Unlisted,
+            apart: options.long_lists.takes_one_cell() || list == TileList::Unlisted,
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
             occluders: options.cells.are_occluders(),
@@ -321,13 +321,13 @@ pub(crate) fn pass(
     });
     let mut kernels = made?;
     let rest = kernels.split_off(first.len());
-    let unlisted = options.unlisted.then(|| kernels.pop()).flatten();
+    let unlisted = options.samples_unlisted.then(|| kernels.pop()).flatten();
     let mut pass = Pass::named(spirv::Sample::INTERFACE);
     for kernel in kernels {
         pass = pass.dispatch(kernel);
     }
     if !rest.is_empty() {
-        let sizes = arguments::of_samples(layout, After::Probe, blocks.subgroups)?;
+        let sizes = arguments::of_samples(layout, CountedBy::Probe, blocks.subgroups)?;
         pass = pass.dispatch(sizes);
     }
     for kernel in rest {
@@ -365,7 +365,7 @@ impl SampleOptions {
             Run::Whole
         })
         .chain(self.has_blend.then(|| whole(TileList::Blended)))
-        .chain(self.unlisted.then(|| whole(TileList::Unlisted)))
+        .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
         .collect()
     }
 
@@ -444,8 +444,8 @@ mod tests {
                 records: RecordRate::Part,
                 exact_areas: true,
                 can_settle: true,
-                long_lists: LongLists::Together,
-                unlisted: false,
+                long_lists: LongLists::SeveralCells,
+                samples_unlisted: false,
                 has_mask: false,
                 has_blend: false,
                 always_blends: false,

@@ -25,7 +25,7 @@ pub(crate) struct Capacity {
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
     /// Whether tiles without a list of candidates are sampled.
-    pub unlisted: bool,
+    pub samples_unlisted: bool,
 }
 
 impl Capacity {
@@ -53,9 +53,9 @@ impl Capacity {
 
     /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may
     /// take longer than a frame.
-    pub fn without_unlisted(self) -> Self {
+    pub fn without_unlisted_tiles(self) -> Self {
         Self {
-            unlisted: false,
+            samples_unlisted: false,
             ..self
         }
     }
@@ -85,8 +85,8 @@ impl Capacity {
             } else {
                 self.long_lists
             },
-            unlisted: self.unlisted
-                || (shortfall.unlisted > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
+            samples_unlisted: self.samples_unlisted
+                || (shortfall.unlisted_tiles > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
             ..self.with_lists(lists.max(shortfall.rooms))
         }
     }
@@ -108,7 +108,7 @@ impl Default for Capacity {
             lists: 1,
             rounds: None,
             long_lists: LongLists::default(),
-            unlisted: true,
+            samples_unlisted: true,
         }
     }
 }
@@ -125,7 +125,7 @@ pub(crate) struct Shortfall {
     /// Number of cells with more candidates than a loop may process.
     pub stalled: u64,
     /// Number of tiles without a list that were skipped, because the frame has no kernel for them.
-    pub unlisted: u64,
+    pub unlisted_tiles: u64,
     /// Number of triangles that did not fit into the list of triangles that may touch a cell, or into the list of thin
     /// triangles.
     pub dropped: u64,
@@ -157,7 +157,7 @@ impl Shortfall {
         self.crowded += u64::from(get(Counter::Unfinished));
         self.stalled += u64::from(get(Counter::Stalled));
         if !samples_unlisted {
-            self.unlisted += u64::from(get(Counter::UnlistedTotal));
+            self.unlisted_tiles += u64::from(get(Counter::UnlistedTotal));
         }
         let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
         let thin = get(Counter::Thin).saturating_add(get(Counter::ThinLong));
@@ -176,7 +176,7 @@ impl Shortfall {
     /// Number of cells and tiles that were not finished.
     pub fn left(&self) -> u64 {
         let of_lights = self.unshadowed;
-        self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped + of_lights
+        self.waiting + self.crowded + self.stalled + self.unlisted_tiles + self.dropped + of_lights
     }
 
     /// Returns an error if kernels that need subgroups of `lanes` invocations ran in others.
@@ -221,25 +221,28 @@ mod tests {
             crowded: 1,
             ..Shortfall::default()
         };
-        let more = Capacity::default().without_unlisted().more(crowded);
-        assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
+        let more = Capacity::default().without_unlisted_tiles().more(crowded);
+        assert_eq!(
+            (more.layers, more.lists, more.samples_unlisted),
+            (16, 4, false)
+        );
         let unlisted = Shortfall {
-            unlisted: 1,
+            unlisted_tiles: 1,
             ..Shortfall::default()
         };
         assert_eq!(
-            Capacity::default().without_unlisted().more(unlisted),
+            Capacity::default().without_unlisted_tiles().more(unlisted),
             Capacity::default()
         );
         // If pairs lacked room, tiles without a list may get one once there is room.
         let outgrown = Shortfall {
-            unlisted: 1,
+            unlisted_tiles: 1,
             rooms: 2,
             ..Shortfall::default()
         };
-        let more = Capacity::default().without_unlisted().more(outgrown);
-        assert_eq!((more.lists, more.unlisted), (2, false));
-        assert!(more.more(outgrown).unlisted);
+        let more = Capacity::default().without_unlisted_tiles().more(outgrown);
+        assert_eq!((more.lists, more.samples_unlisted), (2, false));
+        assert!(more.more(outgrown).samples_unlisted);
         // Lights may lack rounds.
         let unshadowed = Shortfall {
             unshadowed: 1,
@@ -251,9 +254,9 @@ mod tests {
         };
         let more = few.more(unshadowed);
         let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
-        assert_eq!(unlike(&more), (Some(8), 1, LongLists::Together));
+        assert_eq!(unlike(&more), (Some(8), 1, LongLists::SeveralCells));
         let longer = more.more(unshadowed);
-        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::Apart));
+        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::OneCell));
         let late = Shortfall {
             waiting: 5,
             rounds: 3,

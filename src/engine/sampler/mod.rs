@@ -104,7 +104,7 @@ impl SamplerContext<'_> {
             // suffice.
             can_settle: options.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             long_lists: self.capacity.long_lists,
-            unlisted: self.capacity.unlisted,
+            samples_unlisted: self.capacity.samples_unlisted,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
             always_blends: false,
@@ -326,7 +326,7 @@ impl Sampler {
             for counters in counted {
                 let [triangles, pairs] = self.capacities;
                 let room = (tiles, triangles, pairs);
-                shortfall.add(counters, room, self.capacity.unlisted);
+                shortfall.add(counters, room, self.capacity.samples_unlisted);
                 shortfall.add_subgroups(counters);
             }
         }

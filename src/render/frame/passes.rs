@@ -7,7 +7,7 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerSettings, record_rate};
 use crate::render::data::GpuScene;
-use crate::render::passes::{Encoding, Pose, ShadeSource, Stroke};
+use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
 use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
 use crate::vulkan::Memory;
@@ -29,8 +29,8 @@ pub(super) struct Multisampling {
 
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
-    pub pose: Option<Pose>,
-    pub stroke: Option<Stroke>,
+    pub pose: Option<PosePass>,
+    pub stroke: Option<StrokePass>,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
@@ -125,10 +125,10 @@ impl Passes {
             })
         };
         Ok(Self {
-            pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
+            pose: scene.moves().then(|| PosePass::new(layout)).transpose()?,
             stroke: scene
                 .has_strokes()
-                .then(|| Stroke::new(layout))
+                .then(|| StrokePass::new(layout))
                 .transpose()?,
             raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,

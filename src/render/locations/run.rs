@@ -7,7 +7,7 @@ use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::SamplerRun;
 use crate::render::data::{FrameGeometry, FrameLook};
-use crate::render::passes::{Stroke, StrokeSizes};
+use crate::render::passes::{StrokePass, StrokeSizes};
 use crate::render::plane::PlaneWindow;
 use crate::render::{PassTime, PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
@@ -19,7 +19,7 @@ pub(super) struct RunMemory {
     pub resources: Resources,
     pub memory: Memory,
     settings: ListSettings,
-    stroke: Option<Stroke>,
+    stroke: Option<StrokePass>,
     geometry: FrameGeometry,
     targets: RasterTargets,
     timings: Timings,
@@ -70,7 +70,7 @@ impl RunMemory {
             settings: settings.clone(),
             stroke: scene
                 .has_strokes()
-                .then(|| Stroke::new(layout))
+                .then(|| StrokePass::new(layout))
                 .transpose()?,
             geometry,
             targets,

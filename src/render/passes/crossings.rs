@@ -1,7 +1,7 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
 use crate::engine::data::{Argument, Content, Resources};
-use crate::engine::passes::arguments::{self, After};
+use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::passes::spirv::{self, crossings_set};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::vulkan::{Buffer, Specialized, VulkanError};
@@ -53,6 +53,6 @@ pub(crate) unsafe fn pass(
     // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
     let own = Arc::new(unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?);
     Ok(Pass::named(spirv::Crossings::INTERFACE)
-        .dispatch(arguments::dispatch(layout, After::Pairs)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Pairs)?)
         .dispatch(crossings.dispatch(output, Argument::Thin).with(&own)))
 }

@@ -17,8 +17,8 @@ mod stroke;
 
 pub use crossings::{MarkedOutput, SeenLocation};
 pub use encode::Encoding;
-pub use pose::Pose;
+pub use pose::PosePass;
 pub use receivers::{LightPlane, Receivers, Receiving};
 pub(crate) use shade::ShadeSource;
 pub use shadow::{Shadow, ShadowTarget};
-pub use stroke::{Stroke, StrokeSizes};
+pub use stroke::{StrokePass, StrokeSizes};

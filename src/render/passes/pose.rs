@@ -8,11 +8,11 @@ use crate::scene::Moment;
 use crate::vulkan::{Recorder, Specialized, VulkanError};
 
 /// Applies morph targets, skins and transforms to meshes.
-pub struct Pose {
+pub struct PosePass {
     kernel: Kernel<spirv::Pose>,
 }
 
-impl Pose {
+impl PosePass {
     /// Makes the pipeline.
     ///
     /// # Errors

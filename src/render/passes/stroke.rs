@@ -11,10 +11,10 @@ use glam::{DMat4, DVec3, Vec4Swizzles};
 
 /// Distance, in output pixels, by which edges are moved from their surfaces towards the camera: enough for the search
 /// for triangles thinner than a pixel.
-const APART: f32 = 2.0;
+const EDGE_OFFSET: f32 = 2.0;
 
 /// Gives points and lines their size on the screen.
-pub struct Stroke {
+pub struct StrokePass {
     kernel: Kernel<spirv::Stroke>,
 }
 
@@ -43,7 +43,7 @@ impl StrokeSizes {
     }
 }
 
-impl Stroke {
+impl StrokePass {
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -78,7 +78,7 @@ impl Stroke {
             down: vector(down, sizes.point_size),
             corners: strokes.corner_count,
             half_edge: half(sizes.edge_width),
-            apart: APART * side,
+            apart: EDGE_OFFSET * side,
             edges: strokes.edge_count,
         };
         let corners = u64::from(strokes.corner_count)

@@ -13,10 +13,10 @@ use crate::engine::sampler::{
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, Pose, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
+    LightPlane, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
 };
 use crate::scene::Moment;
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -32,12 +32,12 @@ pub(in crate::render) struct ShadowFinder {
     /// Shading of casters that let light pass; `None` without such casters.
     shade: Option<Pass>,
     shadow: Shadow,
-    pose: Option<Pose>,
+    pose: Option<PosePass>,
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
     targets: RasterTargets,
-    _locations: BufferView,
+    _locations: TexelBuffer,
 }
 
 /// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
@@ -174,7 +174,7 @@ impl ShadowFinder {
             output: &output,
             sizes: &sizes,
             capacity: Capacity {
-                unlisted: true,
+                samples_unlisted: true,
                 ..capacity
             },
             // `shadow` counts on the device, so that no runs are counted here.
@@ -192,7 +192,10 @@ impl ShadowFinder {
             shade: occluding.has_blend().then(opacities).transpose()?,
             receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
             shadow: Shadow::new(layout, memory, shading)?,
-            pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
+            pose: occluding
+                .moves()
+                .then(|| PosePass::new(layout))
+                .transpose()?,
             lit: casters.lit.clone(),
             moment: None,
             casters: casters.clone(),
