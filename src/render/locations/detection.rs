@@ -132,7 +132,7 @@ impl Headless {
     }
 
     /// Marks the cells in which a probe sees the location's triangle but is reached by other lights: the shadow of
-    /// something narrower than a cell falls there.
+    /// something narrower than a cell falls there. `docs/decisions.md` says why the passes of frames can't find these cells.
     fn mark_shadows(
         &mut self,
         scene: &PreparedScene,
