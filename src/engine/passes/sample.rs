@@ -187,11 +187,11 @@ impl Variant {
     fn of(list: TileList, has_blend: bool, rows: u32) -> Self {
         let unlisted = list == TileList::Unlisted;
         let layered = list == TileList::Blended || (unlisted && has_blend);
-        let fits = VARIANTS
+        let mut fits = VARIANTS
             .iter()
             .filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
         let found = fits.clone().find(|variant| variant.rows >= rows);
-        *found.or_else(|| fits.last()).unwrap_or(&VARIANTS[0])
+        *found.or_else(|| fits.next_back()).unwrap_or(&VARIANTS[0])
     }
 }
 
