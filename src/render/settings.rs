@@ -45,9 +45,9 @@ pub struct SceneSettings {
     pub edge_width: f32,
     /// Limit for device memory in bytes, including uploads and read-back; `None` for no limit.
     pub max_memory: Option<u64>,
-    /// Whether the passes of all rounds are timed one by one, instead of those of the first round alone and the other rounds as a
-    /// whole. It does not change the image. On CPU devices, timestamps take time: a round that has nothing to do takes ten times as
-    /// long with them.
+    /// Whether the passes of all rounds are timed one by one, instead of those of the first round alone and the other
+    /// rounds as a whole. It does not change the image. On CPU devices, timestamps take time: a round that has nothing to
+    /// do takes ten times as long with them.
     pub time_rounds: bool,
 }
 

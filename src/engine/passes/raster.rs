@@ -1,5 +1,5 @@
-//! raster: draws depth and triangle ID of every pixel with the device's rasterizer. It is no [`Pass`](crate::engine::pipelines::Pass),
-//! which declares dispatches, because it draws.
+//! raster: draws depth and triangle ID of every pixel with the device's rasterizer. It is no
+//! [`Pass`](crate::engine::pipelines::Pass), which declares dispatches, because it draws.
 
 use super::spirv;
 use crate::engine::data::{Content, IdViews};

@@ -1,8 +1,8 @@
 //! Capacity of a recording, and the shortfall of one that was not finished.
 //!
 //! A recording is made with a [`Capacity`], before anyone knows how much work there will be. Once its commands have run, its
-//! [`Shortfall`] says what was left undone. [`Capacity::more`] is the capacity with which it is made again. Frames, lists and hosts
-//! all use this.
+//! [`Shortfall`] says what was left undone. [`Capacity::more`] is the capacity with which it is made again. Frames, lists and
+//! hosts all use this.
 
 use super::{EngineError, RoundPolicy};
 use crate::engine::data::Counter;
