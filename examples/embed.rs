@@ -156,8 +156,8 @@ impl App {
             None => Orbit::default().frame(low, high, f64::from(WIDTH) / f64::from(HEIGHT))?,
         };
         let request = SceneRequest::new(scene, &pose)
-            .shadowed(settings.shadows)
-            .within(settings.max_memory);
+            .shadowed(settings.scene.shadows)
+            .within(settings.scene.max_memory);
         let prepared = renderer.prepare_scene(request)?;
         let mut frame = renderer.prepare(&prepared, &settings, Some(Encoding::Rgba8))?;
         let target = OwnImage::new(self)?;

@@ -145,6 +145,7 @@
 mod capi;
 // Scenes of files use all of the engine, hosts a part.
 #[cfg_attr(not(feature = "gltf"), allow(dead_code, unused_imports))]
+#[macro_use]
 mod engine;
 #[cfg(feature = "gltf")]
 mod random;

@@ -6,7 +6,7 @@ use crate::meshes::World;
 use crate::pipelines::{Pipelines, spirv};
 use crate::slot::Slot;
 use ash::vk;
-use gpc::host::{Antialiaser, List, Location, LocationList, Options};
+use gpc::host::{Antialiaser, List, ListOptions, Location, LocationList, Options};
 
 /// Largest number of locations of a recording.
 const MOST_LOCATIONS: u32 = 1 << 21;
@@ -108,7 +108,10 @@ impl<'a> Lens<'a> {
         };
         let geometry = self.slot.geometry(self.world);
         // SAFETY: the buffers have the stated contents, and outlive the list.
-        let mut list = unsafe { self.antialiaser.prepare_list(&geometry, &lent, options) }?;
+        let mut list = unsafe {
+            self.antialiaser
+                .prepare_list(&geometry, &lent, &ListOptions::from(options))
+        }?;
         let info = [vk::DescriptorBufferInfo::default()
             .buffer(locations.raw)
             .range(vk::WHOLE_SIZE)];

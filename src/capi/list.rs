@@ -8,7 +8,7 @@ use super::input::{
     Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, write,
 };
 use super::options::GpcOptions;
-use crate::host::{List, Location, LocationList};
+use crate::host::{List, ListOptions, Location, LocationList};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -209,7 +209,7 @@ pub unsafe extern "C" fn gpc_list_create(
             let options = read(options)?.options()?;
             antialiaser
                 .inner
-                .prepare_list(&geometry, &locations, &options)
+                .prepare_list(&geometry, &locations, &ListOptions::from(&options))
         }?;
         Ok(GpcList { inner })
     };

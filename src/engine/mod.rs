@@ -3,8 +3,23 @@
 //!
 //! Nothing in this folder depends on a file format, a material, a light or a feature.
 
-/// Methods of an option struct that set one field each, named with what it says, and take and return the struct.
+/// Methods of an option struct that set one field each, named with what it says, and take and return the struct. With `in`,
+/// the struct that has it in a field gets the same methods.
 macro_rules! setters {
+    ($options:ident in $outer:ident.$within:ident { $($field:ident: $type:ty = $what:literal,)* }) => {
+        setters! { $options { $($field: $type = $what,)* } }
+
+        impl $outer {
+            $(
+                #[doc = concat!("Sets ", $what, ".")]
+                #[must_use]
+                pub fn $field(mut self, $field: $type) -> Self {
+                    self.$within.$field = $field;
+                    self
+                }
+            )*
+        }
+    };
     ($options:ident { $($field:ident: $type:ty = $what:literal,)* }) => {
         impl $options {
             $(

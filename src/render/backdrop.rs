@@ -30,8 +30,8 @@ impl Rendered {
         let pinhole = Pinhole::from_camera(camera, settings.size)?;
         let corner = settings.region.map_or([0, 0], |region| region.corner);
         let width = self.size[0].max(1);
-        let exposure = f64::from(settings.exposure).exp2();
-        let tonemaps = settings.tonemaps();
+        let exposure = f64::from(settings.scene.exposure).exp2();
+        let tonemaps = settings.sampler().tonemaps();
         let colors = self.colors.par_iter_mut().enumerate();
         colors
             .filter(|(_, color)| color[3] < 1.0)

@@ -13,18 +13,22 @@ pub enum RenderError {
     #[error(transparent)]
     Engine(#[from] EngineError),
     /// Method that can't sample locations.
-    #[error("{method} can't sample locations{}", methods_of_locations(*.superpixels))]
+    #[error("{method} can't sample locations; none, superpixel and ssaa can")]
     LocationMethod {
         /// Method of the request.
         method: MethodKind,
-        /// Whether superpixels were asked for, at each location.
-        superpixels: bool,
     },
     /// Region in a request for locations: only the pixels of an image have regions.
     #[error(
         "a region is a part of an image's pixels; of locations, hand over those that are wanted"
     )]
     LocationRegion,
+    /// Width of lines, or size of points, that is not above 0 and at most the limit.
+    #[error(
+        "lines or points of {0} pixels: their width or size must be above 0 and at most {limit}",
+        limit = super::SceneSettings::LARGEST_STROKE
+    )]
+    Stroke(f32),
     /// A sampling location can't be used.
     #[error(transparent)]
     Location(#[from] LocationError),
@@ -59,14 +63,6 @@ pub enum RenderError {
     },
 }
 
-/// End of the message about a method that can't sample locations: those that can.
-fn methods_of_locations(superpixels: bool) -> &'static str {
-    match superpixels {
-        true => " as superpixels; superpixel and ssaa can",
-        false => "; none, superpixel and ssaa can",
-    }
-}
-
 impl From<VulkanError> for RenderError {
     fn from(error: VulkanError) -> Self {
         Self::Engine(error.into())
@@ -89,6 +85,7 @@ impl RenderError {
             | Self::Pinhole(_)
             | Self::LocationMethod { .. }
             | Self::LocationRegion
+            | Self::Stroke(_)
             | Self::ShadowLights { .. } => true,
             _ => false,
         }

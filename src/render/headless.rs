@@ -3,7 +3,6 @@
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
 use super::{EngineError, Frame, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
-use crate::engine::sampler::plan::Capacity;
 use crate::render::data::GpuScene;
 use crate::vulkan::{
     Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
@@ -84,7 +83,7 @@ impl ReadBack {
         ];
         let has_room = |known: &Self| {
             let attributes = known.attributes.as_ref().map_or(0, Buffer::size);
-            let bounded = settings.max_memory.is_some();
+            let bounded = settings.scene.max_memory.is_some();
             known.colors.size() >= needs[0]
                 && attributes >= needs[1]
                 && !(bounded && known.colors.size() + attributes > Self::bytes(settings).max(32))
@@ -262,7 +261,7 @@ impl Headless {
     ) -> Result<Frame, RenderError> {
         let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
-        let capacity = self.renderer.first_capacity().without_unlisted();
+        let capacity = self.renderer.first_capacity().without_unlisted_tiles();
         self.renderer
             .prepare_with(scene, settings, None, capacity, reserved)
     }
@@ -276,10 +275,8 @@ impl Headless {
     pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
-                Err(RenderError::Engine(EngineError::Unfinished { cells })) => {
-                    let shortfall = frame.shortfall()?;
-                    log::debug!("{cells} cells or tiles are left: {shortfall:?}");
-                    self.prepare_again(frame, frame.capacity().more(shortfall))?;
+                Err(RenderError::Engine(EngineError::Unfinished { .. })) => {
+                    *frame = self.renderer.prepare_again(frame)?;
                 }
                 Ok(image) => {
                     // The image is complete: in tiles whose list of candidates outgrew its memory, every triangle was
@@ -287,8 +284,11 @@ impl Headless {
                     let rooms = frame.shortfall()?.rooms;
                     if rooms > 1 && frame.lists_can_grow() {
                         let larger = frame.capacity().with_lists(rooms);
-                        if let Err(error) = self.prepare_again(frame, larger) {
-                            log::warn!("the frame stays slow, with short lists: {error}");
+                        match self.renderer.prepare_like(frame, larger) {
+                            Ok(larger) => *frame = larger,
+                            Err(error) => {
+                                log::warn!("the frame stays slow, with short lists: {error}");
+                            }
                         }
                     }
                     return Ok(image);
@@ -305,12 +305,6 @@ impl Headless {
         if !scene.is_uploaded() {
             return Err(RenderError::NotUploaded);
         }
-        Ok(())
-    }
-
-    fn prepare_again(&self, frame: &mut Frame, capacity: Capacity) -> Result<(), RenderError> {
-        log::debug!("the frame lacked room and is made again: {capacity:?}");
-        *frame = self.renderer.prepare_like(frame, capacity)?;
         Ok(())
     }
 

@@ -15,13 +15,13 @@ pub(crate) mod passes;
 mod plane;
 mod renderer;
 pub mod scene;
+mod settings;
 mod shadows;
 mod viewpoint;
 
 pub use crate::engine::sampler::{
-    Coverage, Detection, EngineError, Footprint, ImageState, Method, MethodKind, PassTime,
-    PixelRect, Reference, Settings, Shading, Shadows, Statistics, SuperpixelOptions,
-    TriangleCounts,
+    CellOptions, Coverage, Detection, EngineError, Footprint, ImageState, Method, MethodKind,
+    PassTime, PixelRect, Reference, Shading, Statistics, SuperpixelOptions, TriangleCounts,
 };
 pub use error::RenderError;
 pub use frame::{Frame, Target};
@@ -30,3 +30,4 @@ pub use locations::{LocationError, PointSample, Sampled};
 pub use pass_list::{FramePass, RecordedPasses};
 pub use passes::Encoding;
 pub use renderer::{PreparedScene, Renderer, SceneRequest};
+pub use settings::{SceneSettings, Settings, Shadows};

@@ -3,7 +3,7 @@
 use super::{Frame, Headless, RenderError};
 use crate::camera::Camera;
 use crate::engine::data::Argument;
-use crate::vulkan::{Access, Dispatch, Dispatched, Traced};
+use crate::vulkan::{Access, Dispatched, Traced, TracedDispatch};
 
 /// A pass of a frame: a dispatch of a compute shader, or a draw with a pair of shaders.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -40,7 +40,7 @@ impl From<Traced> for RecordedPasses {
 }
 
 impl FramePass {
-    fn new(dispatch: &Dispatch) -> Self {
+    fn new(dispatch: &TracedDispatch) -> Self {
         let interface = dispatch.interface;
         Self {
             name: interface.name,

@@ -1,9 +1,9 @@
 //! Rectangle of tiles on a pinhole's plane, as passes see it.
 
-use super::Settings;
 use crate::camera::Pinhole;
 use crate::engine::data::{Cells, FrameUniform, ResourceSizes};
 use crate::engine::passes::ListRegion;
+use crate::engine::sampler::SamplerSettings;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::GpuScene;
@@ -59,11 +59,12 @@ impl PlaneWindow {
         &self,
         scene: &GpuScene,
         pinhole: &Pinhole,
-        settings: &Settings,
+        settings: &SamplerSettings,
         (cells, samples): (Cells, u32),
         sizes: &ResourceSizes,
     ) -> FrameUniform {
-        let footprints = Footprints::new(settings, if cells.are_points() { 1 } else { samples });
+        let of_cell = if cells.are_points() { 1 } else { samples };
+        let footprints = Footprints::new(settings.filter, of_cell);
         let plane = PlaneBlock {
             transform: self.to_clip(scene, pinhole).as_mat4().to_cols_array(),
             corner: [0, 1].map(|axis| self.low[axis] as f64 - self.middle[axis]),

@@ -4,8 +4,7 @@ use super::frame::Frame;
 use super::shadows::Casters;
 use super::{RenderError, Settings, Shadows};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::RoundPolicy;
-use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::{Capacity, RoundPolicy};
 use crate::render::data::{GpuScene, SceneUploads};
 use crate::render::passes::Encoding;
 use crate::scene::{Motion, Pose, Scene};
@@ -235,7 +234,9 @@ impl Renderer {
     /// # Errors
     /// As [`Self::prepare`].
     pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
-        self.prepare_like(frame, frame.capacity().more(frame.shortfall()?))
+        let shortfall = frame.shortfall()?;
+        log::debug!("the frame lacked room and is made again: {shortfall:?}");
+        self.prepare_like(frame, frame.capacity().more(shortfall))
     }
 
     /// Capacity for the first frame of a scene.

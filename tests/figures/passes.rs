@@ -4,8 +4,8 @@ use crate::data::root;
 use gpc::camera::set::SamplingSet;
 use gpc::camera::{Camera, Orbit, Pinhole};
 use gpc::render::{
-    FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, Settings, Shadows,
-    SuperpixelOptions,
+    CellOptions, FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, SceneSettings,
+    Settings, Shadows, SuperpixelOptions,
 };
 use gpc::scene::{PoseRequest, Scene};
 use std::collections::BTreeSet;
@@ -36,9 +36,10 @@ pub fn list() -> String {
     let (mut headless, scene, camera) = stage("letters", Shadows::None);
     let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
     let locations = SamplingSet::planar(SIZE).unwrap().locations();
-    let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(64));
-    let (sampled, recorded) = headless
-        .passes_of(|headless| headless.sample_superpixels(&scene, &pinhole, &locations, &settings));
+    let (cells, settings) = (CellOptions::new(64), SceneSettings::default());
+    let (sampled, recorded) = headless.passes_of(|headless| {
+        headless.sample_superpixels(&scene, &pinhole, &locations, &cells, &settings)
+    });
     sampled.unwrap();
     draw(&recorded.passes)
 }
@@ -50,7 +51,7 @@ pub fn image() -> String {
     let rig = [(pinhole, SamplingSet::planar(SIZE).unwrap().locations())];
     let settings = Settings::new(SIZE[0], SIZE[1]);
     let (rendered, recorded) =
-        headless.passes_of(|headless| headless.render_locations(&scene, &rig, SIZE, &settings));
+        headless.passes_of(|headless| headless.render_locations(&scene, &rig, &settings));
     rendered.unwrap();
     let passes = recorded.passes;
     let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();

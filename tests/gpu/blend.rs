@@ -202,7 +202,10 @@ fn assert_is_the_twins(stage: &Stage) {
             ]));
             let rendered = stage.render(gpu, &settings);
             let offsets = match &settings.method {
-                Method::Superpixel(options) => options.pattern.offsets(options.samples).unwrap(),
+                Method::Superpixel(options) => {
+                    let cells = &options.cells;
+                    cells.pattern.offsets(cells.samples).unwrap()
+                }
                 _ => vec![[0.0, 0.0]],
             };
             let (mut checked, mut layered) = (0, 0);

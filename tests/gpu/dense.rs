@@ -9,7 +9,7 @@ use crate::devices::{few_texel_elements, within};
 use crate::locations::{pinhole, planar};
 use crate::mask::checker;
 use crate::meshes::Random;
-use crate::stage::{Stage, everywhere, flat, on_gpu, once, seen_at};
+use crate::stage::{Stage, cells, everywhere, flat, on_gpu, once_each, seen_at};
 use crate::visibility::soup;
 
 /// Size of the image in whole tiles, so that an image and its locations have the same middle.
@@ -85,8 +85,14 @@ fn locations_see_the_same_in_dense_tiles() {
             let settings = everywhere(SIZE, Pattern::Sobol, 80);
             let [listed, found] = [&mut *gpu, &mut *small].map(|gpu| {
                 let prepared = dense.upload(gpu);
-                let cells = gpu.sample_superpixels(&prepared, &pinhole, &locations, &settings);
-                let points = gpu.sample_points(&prepared, &pinhole, &locations, &once(SIZE));
+                let cells = gpu.sample_superpixels(
+                    &prepared,
+                    &pinhole,
+                    &locations,
+                    &cells(&settings),
+                    &settings.scene,
+                );
+                let points = gpu.sample_points(&prepared, &pinhole, &locations, &once_each());
                 (cells.unwrap(), points.unwrap().values)
             });
             let unlisted = [&listed, &found].map(|seen| seen.0.statistics.unlisted_tiles);

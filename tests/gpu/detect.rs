@@ -5,8 +5,8 @@ use gpc::color::srgb::{decode_u8, encode};
 use gpc::reference::detect::{DetectionImage, Mode, superpixels};
 use gpc::reference::thin::{FOLD, cosine};
 use gpc::render::{
-    Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings, Shading,
-    SuperpixelOptions,
+    CellOptions, Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings,
+    Shading, SuperpixelOptions,
 };
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -244,7 +244,7 @@ fn unseen_wires_make_superpixels() {
         let stage = wires(size, 2.0);
         let mut energy = |detection, thin| {
             let settings = once(size).method(
-                SuperpixelOptions::new(Settings::DEFAULT_SAMPLES)
+                SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES)
                     .thin(thin)
                     .detection(detection),
             );
@@ -341,7 +341,7 @@ fn an_image_without_edges_has_no_superpixels() {
             assert!(!marked.contains(&true), "{detection:?}");
         }
         let settings =
-            once(size).method(SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).thin(false));
+            once(size).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(false));
         let statistics = stage.render(gpu, &settings).statistics;
         assert!(
             statistics.skipped_passes.contains(&"sample"),

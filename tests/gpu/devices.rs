@@ -1,8 +1,8 @@
 //! One device that simulates others: larger and smaller subgroups, and the limits that Vulkan guarantees.
 
 use gpc::render::{
-    Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError, Rendered,
-    SceneRequest, Settings, Shading,
+    CellOptions, Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError,
+    Rendered, SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
@@ -127,7 +127,7 @@ fn other_subgroups_are_an_error() {
             },
             |gpu| {
                 let settings =
-                    Settings::new(64, 48).method(method.with_samples(Settings::DEFAULT_SAMPLES));
+                    Settings::new(64, 48).method(method.with_samples(CellOptions::DEFAULT_SAMPLES));
                 let (scene, pose) = stage.build();
                 let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
                 let mut frame = gpu.prepare(&prepared, &settings).unwrap();

@@ -197,7 +197,7 @@ impl Mesh {
     #[track_caller]
     fn check(&self, gpu: &mut Headless, settings: &Settings, look: &Look) -> usize {
         let found = self.drawn(gpu, settings, look);
-        let width = f64::from(settings.edge_width);
+        let width = f64::from(settings.scene.edge_width);
         let (shown, expected) = self.covered(look.is_double_sided, &look.camera, width);
         for (pixel, (found, expected)) in found.iter().zip(&expected).enumerate() {
             let error = (f64::from(*found) - expected).abs();

@@ -67,10 +67,7 @@ fn growths_of_locations_are_the_twins() {
     on_gpu(|gpu| {
         let prepared = mosaic(7, SIZE).upload(gpu);
         let rig = [(pinhole(SIZE), planar(SIZE))];
-        check_growths(|settings| {
-            gpu.render_locations(&prepared, &rig, SIZE, settings)
-                .unwrap()
-        });
+        check_growths(|settings| gpu.render_locations(&prepared, &rig, settings).unwrap());
     });
 }
 
@@ -92,7 +89,7 @@ fn growths_of_locations_do_not_depend_on_memory() {
                     .coverage(Coverage::Samples)
                     .thin(false),
             );
-            gpu.render_locations(&prepared, &rig, size, &settings)
+            gpu.render_locations(&prepared, &rig, &settings)
         };
         let whole = render(None).unwrap();
         // A single band for all cells would take more than a quarter of either limit.

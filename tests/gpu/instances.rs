@@ -10,7 +10,7 @@ use gpc::scene::{
 
 use crate::locations::{pinhole, planar};
 use crate::meshes::Random;
-use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, textured};
+use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, once_each, textured};
 
 const SIZE: [u32; 2] = [96, 64];
 /// Number of instances of each mesh.
@@ -255,7 +255,7 @@ fn locations_see_them() {
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let locations = planar(SIZE);
         let sampled = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &once_each())
             .unwrap();
         let found: Vec<u32> = sampled.values.iter().map(|sample| sample.id).collect();
         let expected = ids(&image);

@@ -71,7 +71,10 @@ fn alpha_is_tested_for_each_sample() {
         ] {
             let rendered = stage.render(gpu, &settings);
             let offsets = match &settings.method {
-                Method::Superpixel(options) => options.pattern.offsets(options.samples).unwrap(),
+                Method::Superpixel(options) => {
+                    let cells = &options.cells;
+                    cells.pattern.offsets(cells.samples).unwrap()
+                }
                 _ => vec![[0.0, 0.0]],
             };
             let share = 1.0 / offsets.len() as f64;

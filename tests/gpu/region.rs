@@ -152,7 +152,7 @@ fn impossible_regions_are_refused() {
             );
         }
         let settings = Settings::new(SIZE[0], SIZE[1]).region(Some(region([0, 0], [8, 8])));
-        let refused = gpu.render_locations(&prepared, &[], SIZE, &settings);
+        let refused = gpu.render_locations(&prepared, &[], &settings);
         assert!(matches!(refused, Err(RenderError::LocationRegion)));
     });
 }

@@ -30,7 +30,7 @@ fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
         color: [1.0; 3],
         range: None,
     }];
-    let request = SceneRequest::new(&scene, &pose).shadowed(settings.shadows);
+    let request = SceneRequest::new(&scene, &pose).shadowed(settings.scene.shadows);
     let prepared = gpu.upload(request).unwrap();
     let mut frame = gpu.prepare(&prepared, settings).unwrap();
     gpu.render(&mut frame, &camera()).unwrap()
@@ -62,7 +62,7 @@ fn large_rounds_make_the_same_image() {
 fn a_frame_that_needs_more_rounds_is_recorded_again() {
     let stage = layered();
     let mut settings = settings(1024);
-    settings.max_memory = Some(24 << 20);
+    settings.scene.max_memory = Some(24 << 20);
     let [small, large] = both(&stage, &settings);
     assert!(large.statistics.rounds > 8, "{}", large.statistics.rounds);
     assert!(small.colors == large.colors);
@@ -73,7 +73,7 @@ fn a_frame_that_needs_more_rounds_is_recorded_again() {
 fn the_passes_of_all_rounds_are_timed() {
     let stage = layered();
     let mut together = settings(1024);
-    together.max_memory = Some(24 << 20);
+    together.scene.max_memory = Some(24 << 20);
     let one_by_one = together.clone().time_rounds(true);
     on_gpu(|gpu| {
         let [together, one_by_one] =

@@ -152,7 +152,7 @@ impl<'a> Passes<'a> {
             exact_areas: false,
             can_settle: false,
             long_lists: LongLists::Scattered,
-            unlisted: case.unlisted,
+            samples_unlisted: case.unlisted,
             has_mask: false,
             has_blend: case.blends,
             always_blends: false,

@@ -1,6 +1,6 @@
 //! Shaders specialised for a material, compared with shaders that omit nothing.
 
-use gpc::render::{Method, SceneRequest, Settings, SuperpixelOptions};
+use gpc::render::{CellOptions, Method, SceneRequest, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
 use crate::meshes::Random;
@@ -100,7 +100,8 @@ fn textures_of_other_sizes_keep_their_own_footprint() {
             });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
-            let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
+            let uniform =
+                SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
             let settings = once(SIZE).method(uniform.thin(false));
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera()).unwrap().colors

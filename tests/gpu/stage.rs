@@ -5,11 +5,27 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
-use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, SceneRequest, Settings};
+use gpc::render::{
+    CellOptions, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Rendered,
+    SceneRequest, SceneSettings, Settings,
+};
 use gpc::scene::Material;
 use gpc::vulkan::Limits;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
+
+/// Settings for one sample at each location, like [`once`] for pixels.
+pub fn once_each() -> SceneSettings {
+    once([1, 1]).scene.footprint(Footprint::Pixel)
+}
+
+/// How the settings sample superpixels.
+pub fn cells(settings: &Settings) -> CellOptions {
+    match &settings.method {
+        Method::Superpixel(options) => options.cells.clone(),
+        method => panic!("{} has no superpixels", method.kind()),
+    }
+}
 
 /// Idle devices. Tests reuse them, because a new device compiles all its pipelines anew. Each device has its own
 /// instance, and therefore its own messages of the validation layer.

@@ -45,21 +45,17 @@ fn locations_are_stopped_between_runs_that_see_the_same() {
     let locations = planar(SIZE);
     let settings = Settings::new(96, 64).method(Method::Ssaa { samples: 1024 });
     let rig = [(pinhole(SIZE), locations)];
-    let whole = gpu
-        .render_locations(&prepared, &rig, SIZE, &settings)
-        .unwrap();
+    let whole = gpu.render_locations(&prepared, &rig, &settings).unwrap();
     // The function counts submissions, and stops before the first one that is not allowed.
     let left = Arc::new(AtomicUsize::new(usize::MAX));
     let counted = left.clone();
     gpu.stop_when(move || counted.fetch_sub(1, Ordering::Relaxed) == 0);
-    let runs = gpu
-        .render_locations(&prepared, &rig, SIZE, &settings)
-        .unwrap();
+    let runs = gpu.render_locations(&prepared, &rig, &settings).unwrap();
     assert_eq!(whole.colors, runs.colors);
     let submissions = usize::MAX - left.load(Ordering::Relaxed);
     assert!(submissions > 3, "{submissions}");
     left.store(submissions - 1, Ordering::Relaxed);
-    let stopped = gpu.render_locations(&prepared, &rig, SIZE, &settings);
+    let stopped = gpu.render_locations(&prepared, &rig, &settings);
     assert!(matches!(stopped, Err(RenderError::Stopped)));
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }

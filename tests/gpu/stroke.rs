@@ -5,8 +5,8 @@ use gpc::camera::{Camera, Projection};
 use gpc::reference::edge::triangle_area;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{
-    Coverage, Detection, EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered,
-    SceneRequest, Settings,
+    Coverage, Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest,
+    Settings,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use crate::locations::{pinhole, planar};
 use crate::meshes::Random;
 use crate::scene_builder::Builder;
-use crate::stage::{camera, centre, everywhere, on_gpu, once, seen_at};
+use crate::stage::{camera, cells, centre, everywhere, on_gpu, once, seen_at};
 
 const SIZE: [u32; 2] = [64, 48];
 const POINTS: u32 = 0;
@@ -394,7 +394,13 @@ fn locations_see_lines_as_wide() {
             let settings = by_area(width);
             let image = rendered(gpu, &loaded, &settings, &camera());
             let seen = gpu
-                .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                .sample_superpixels(
+                    &prepared,
+                    &pinhole(SIZE),
+                    &planar(SIZE),
+                    &cells(&settings),
+                    &settings.scene,
+                )
                 .unwrap();
             let pairs = image.colors.iter().zip(&seen.values);
             let apart = pairs.map(|(a, b)| (a[3] - b[3]).abs()).fold(0.0, f32::max);
@@ -412,7 +418,7 @@ fn impossible_sizes_are_refused() {
         for line_width in [0.0, -1.0, f32::NAN, 1e4] {
             let refused = gpu.prepare(&prepared, &by_area(line_width));
             assert!(
-                matches!(refused, Err(RenderError::Engine(EngineError::Stroke(_)))),
+                matches!(refused, Err(RenderError::Stroke(_))),
                 "{line_width}"
             );
         }

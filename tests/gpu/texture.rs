@@ -2,7 +2,7 @@
 //! reading another level, or another number of places, gives another colour.
 
 use gpc::reference::texture::{MOST_PROBES, Probes, probes};
-use gpc::render::{Headless, Settings, SuperpixelOptions};
+use gpc::render::{CellOptions, Headless, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use crate::meshes::Random;
@@ -130,7 +130,7 @@ fn compare(
         maps.push(map);
     }
     // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
-    let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
+    let uniform = SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
     let settings = once(SIZE).method(uniform.thin(false));
     let rendered = stage.render(gpu, &settings);
     for (pixel, color) in rendered.colors.iter().enumerate() {

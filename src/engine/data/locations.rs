@@ -4,7 +4,7 @@ use super::{Resources, SampleSet};
 use crate::engine::passes::spirv::{LOAD_WORDS, distribute_set};
 use crate::engine::passes::{Distribute, ListLength, ListRegion};
 use crate::vulkan::{
-    Buffer, BufferView, Memory, MemoryUse, Recorder, ShownBinding, Texels, VulkanError,
+    BoundDescriptor, Buffer, Memory, MemoryUse, Recorder, TexelBuffer, Texels, VulkanError,
 };
 use ash::vk;
 
@@ -135,13 +135,13 @@ fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
 /// Buffers of a list: see `shaders/include/locations.glsl`.
 pub struct LocationBuffers {
     /// The list; `None` if an application lends it.
-    pub locations: Option<BufferView>,
+    pub locations: Option<TexelBuffer>,
     /// Indices of the locations that are sampled once each, cell by cell.
-    pub order: BufferView,
+    pub order: TexelBuffer,
     /// Two vectors for each cell.
-    pub cells: BufferView,
+    pub cells: TexelBuffer,
     /// A vector for each group.
-    pub groups: BufferView,
+    pub groups: TexelBuffer,
     /// For each tile: number of cells, number of samples, and index of the first cell.
     pub tile_loads: Buffer,
     /// Words with which `distribute` counts, for each tile: see `shaders/include/tile_locations.glsl`.
@@ -208,7 +208,7 @@ impl Resources {
     }
 
     /// Buffers that `distribute` reads and writes.
-    pub(crate) fn location_buffers(&self, locations: Texels) -> [ShownBinding; 10] {
+    pub(crate) fn location_buffers(&self, locations: Texels) -> [BoundDescriptor; 10] {
         let LocationBuffers {
             order,
             cells,

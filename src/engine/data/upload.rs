@@ -1,6 +1,6 @@
 //! Filling of device buffers from the host.
 
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 use bytemuck::NoUninit;
 
@@ -63,7 +63,7 @@ impl<'a> Uploader<'a> {
         name: &str,
         format: vk::Format,
         data: &[T],
-    ) -> Result<BufferView, VulkanError> {
+    ) -> Result<TexelBuffer, VulkanError> {
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST
             | vk::BufferUsageFlags::TRANSFER_SRC;

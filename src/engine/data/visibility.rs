@@ -3,7 +3,7 @@
 use super::Resources;
 use super::draws::Draws;
 use crate::engine::passes::spirv::gpc_visibility_set;
-use crate::vulkan::{Buffer, DescriptorSets, Gpu, SetLayout, Shown, VulkanError};
+use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Gpu, SetLayout, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ impl Resources {
         geometry: &VisibleGeometry<'_>,
     ) -> Result<DescriptorSets, VulkanError> {
         let mut own = DescriptorSets::new(gpu, false, std::slice::from_ref(layout), 1)?.remove(0);
-        let draw_of = Shown::from(geometry.draw_of);
+        let draw_of = Descriptor::from(geometry.draw_of);
         let buffers = [
             (gpc_visibility_set::GPC_FRAME, uniform.into()),
             (gpc_visibility_set::GPC_KEYS, (&self.bins).into()),
@@ -60,7 +60,7 @@ impl Resources {
             // Without a list, shaders don't read this binding.
             (
                 gpc_visibility_set::GPC_LOCATIONS,
-                geometry.locations.map_or(draw_of, Shown::from),
+                geometry.locations.map_or(draw_of, Descriptor::from),
             ),
         ];
         // SAFETY: the set is new; the caller guarantees the host's buffers, and the others live as long as the frame.

@@ -11,7 +11,7 @@ use crate::engine::passes::alpha_map::{self, AlphaLevel};
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::vulkan::{
-    BufferView, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
+    DescriptorSets, Memory, MemoryUse, Recorder, Specialized, TexelBuffer, VulkanError,
 };
 use ash::vk;
 
@@ -181,10 +181,10 @@ impl Places {
 
 /// Alpha maps on the device.
 pub(super) struct Alpha {
-    pub atlas: BufferView,
-    pub rows: BufferView,
+    pub atlas: TexelBuffer,
+    pub rows: TexelBuffer,
     /// Texture coordinates of each position in clip space.
-    pub coordinates: BufferView,
+    pub coordinates: TexelBuffer,
     places: Places,
 }
 

@@ -5,7 +5,7 @@ use super::alpha::Alpha;
 use crate::engine::data::Content;
 use crate::engine::passes::spirv::frame_set;
 use crate::vulkan::{
-    Buffer, BufferView, Gpu, Memory, MemoryUse, ShownBinding, TexelView, VulkanError,
+    BoundDescriptor, Buffer, Gpu, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError,
 };
 use ash::vk;
 use std::sync::Arc;
@@ -18,18 +18,18 @@ enum Positions {
         info: vk::DescriptorBufferInfo,
     },
     /// Positions that `transform` writes.
-    Made(BufferView),
+    Made(TexelBuffer),
 }
 
 /// A host's triangles, with placeholders for data that hosts don't have.
 pub(super) struct HostContent {
-    triangles: BufferView,
+    triangles: TexelBuffer,
     draw_of: Buffer,
     positions: Positions,
     alpha: Option<Alpha>,
     /// Placeholders for attributes and materials, which no pass reads for a host's triangles.
-    unread_floats: BufferView,
-    unread_words: BufferView,
+    unread_floats: TexelBuffer,
+    unread_words: TexelBuffer,
     triangle_capacity: u32,
     keys: u32,
     blended: bool,
@@ -119,7 +119,7 @@ impl HostContent {
     }
 
     /// Bindings of `shaders/include/frame.glsl` that show a host's triangles to the passes.
-    pub fn shown(&self) -> Vec<ShownBinding> {
+    pub fn shown(&self) -> Vec<BoundDescriptor> {
         let positions = match &self.positions {
             Positions::Lent { texels, .. } => texels.texels(),
             Positions::Made(made) => made.texels(),

@@ -10,14 +10,14 @@ use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
 use crate::engine::data::{Content, FrameUniform, HostImage, IdViews, Offsets, Resources};
 use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
-use crate::engine::sampler::footprint::Footprints;
-use crate::engine::sampler::plan::{Capacity, Plan};
-use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::Capacity;
+use crate::engine::sampler::footprint::{Footprints, TextureFilter};
+use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{
     PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
 };
-use crate::engine::sampler::{Settings, Statistics};
+use crate::engine::sampler::{SamplerSettings, Statistics};
 use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -76,7 +76,7 @@ pub struct Frame {
 
 /// What a frame has for images of its size.
 struct Work {
-    settings: Settings,
+    settings: SamplerSettings,
     plan: Plan,
     resources: Resources,
     sampler: Sampler,
@@ -102,16 +102,19 @@ impl Work {
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
         let layout = &shared.frame;
-        let settings = options.settings();
-        settings.check(gpu.limits())?;
-        check_size(settings.size)?;
+        let (settings, superpixels) = (options.sampler(), options.superpixels());
+        let method = superpixels.clone().into();
+        let image = options.image(&method);
+        image.check(gpu.limits())?;
+        settings.check()?;
+        check_size(options.size)?;
         let content = &lending.content;
-        let mut plan = Plan::whole(&settings, content, gpu.limits(), capacity, lending.bytes())?;
+        let mut plan = Plan::whole(&image, content, gpu.limits(), capacity, lending.bytes())?;
         if kinds.ids {
             plan.sizes.filtered_triangles = 0;
         }
         let filters = plan.sizes.filtered_triangles > 0;
-        let allowed = |taken| settings.max_memory.map(|most| most.saturating_sub(taken));
+        let allowed = |taken| options.max_memory.map(|most| most.saturating_sub(taken));
         let scratch = shared.scratch.get(
             layout,
             &ScratchRequest {
@@ -122,7 +125,7 @@ impl Work {
             },
         )?;
         let memory = Memory::new(gpu.clone(), allowed(lending.bytes() + scratch.bytes()));
-        let offsets = settings.method.offsets()?;
+        let offsets = method.offsets()?;
         let count = offsets.len() as u32;
         let offsets = with_probes(offsets)?;
         let resources = Resources::with_scratch(
@@ -137,14 +140,14 @@ impl Work {
             }],
         )?;
         let output = settings.color_constants(content);
-        let image = (!options.shade_all)
+        let drawn = (!options.shade_all)
             .then(|| HostImage::new(layout, kinds.color_encoded))
             .transpose()?
             .map(Arc::new);
         let cells = PixelCells {
-            behind: image.clone().filter(|_| options.shows_drawn()),
+            behind: drawn.clone().filter(|_| options.shows_drawn()),
             blend_ids: false,
-            ..PixelCells::superpixels(&settings)
+            ..PixelCells::superpixels(&superpixels)
         };
         let cells = PixelCells {
             depth_of_image: if kinds.ids {
@@ -178,7 +181,7 @@ impl Work {
             base: Base::new(
                 shared,
                 content,
-                image.as_ref(),
+                drawn.as_ref(),
                 (!kinds.ids).then_some(filters),
                 &output,
             )?,
@@ -188,7 +191,7 @@ impl Work {
             plan,
             resources,
             sampler,
-            image,
+            image: drawn,
             visibility_set,
             is_uploaded: false,
             memory,
@@ -242,7 +245,10 @@ impl Frame {
         capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
-        options.settings().check(gpu.limits())?;
+        options
+            .image(&options.superpixels().into())
+            .check(gpu.limits())?;
+        options.sampler().check()?;
         geometry.check(gpu)?;
         if geometry.blended && options.shade_all {
             return Err(HostError::BlendedCentres);
@@ -311,7 +317,8 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.work.sampler.capacity().more(self.shortfall()?);
+        let work = &self.work;
+        let capacity = self.lending.more(&work.sampler, work.plan.sizes.tiles())?;
         // SAFETY: passed on to the caller.
         unsafe {
             Self::with_capacity(
@@ -393,8 +400,8 @@ impl Frame {
         lending.record_triangles(recorder, &placed);
         let shading = lending.shading(shading, &work.visibility_set, resources);
         let settings = &work.settings;
-        let footprints = Footprints::new(settings, settings.method.samples());
-        let boxes = settings.filters_boxes();
+        let footprints = Footprints::new(settings.filter, settings.cells.samples);
+        let boxes = settings.filter == TextureFilter::Boxes;
         let at_centres = Lending::visible(&plane, footprints.centre, false);
         let at_places = Lending::visible(&plane, footprints.place, boxes);
         let shades_all = self.options.shade_all;
@@ -419,20 +426,11 @@ impl Frame {
         };
         work.sampler.record(recorder, &run, &shading);
         images.record_draw(recorder);
-        let part = images.part(settings.size);
+        let part = images.part(self.options.size);
         work.patch.record(recorder, images.color.view, part);
         images.record_end(recorder);
         lending.record_end(recorder);
         Ok(())
-    }
-
-    fn shortfall(&self) -> Result<Shortfall, HostError> {
-        self.lending.check_done()?;
-        let mut shortfall = Shortfall::default();
-        let work = &self.work;
-        let tiles = work.plan.sizes.tiles();
-        work.sampler.add_shortfall([tiles], &mut shortfall)?;
-        Ok(shortfall)
     }
 
     /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
@@ -441,21 +439,16 @@ impl Frame {
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
     /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
-        let shortfall = self.shortfall()?;
-        let statistics = self.lending.statistics(
-            (&self.work.sampler, &self.work.plan.sizes),
-            (&self.work.timings, self.memory_bytes()),
-            &shortfall,
-        )?;
-        Ok(Outcome {
-            statistics,
-            left_over: shortfall.left(),
-        })
+        let work = &self.work;
+        self.lending.outcome(
+            (&work.sampler, &work.plan.sizes),
+            (&work.timings, self.memory_bytes()),
+        )
     }
 
     /// Where clip space lies on the images.
     fn plane(&self, scenery: &Scenery<'_>, images: &Images) -> Result<ClipPlane, HostError> {
-        let (clip, size) = (&self.lending.geometry.clip, self.work.settings.size);
+        let (clip, size) = (&self.lending.geometry.clip, self.options.size);
         match &scenery.viewport {
             Some(viewport) => ClipPlane::of_viewport(clip, viewport, images.corner, size),
             None => Ok(ClipPlane::of_size(clip, size)),
@@ -470,20 +463,23 @@ impl Frame {
         plane: &ClipPlane,
     ) -> FrameUniform {
         let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
+        let threshold = u32::from(self.options.superpixels().threshold());
         let plane = PlaneBlock {
             gap: gap(&scenery.projection, plane.scale[1].abs()),
+            contrast: threshold,
             // Materials that are filtered over their pixel vary within it by more than centres tell.
-            alike: u32::from(settings.superpixels().threshold()).div_ceil(4),
+            alike: threshold.div_ceil(4),
             seen_corner: images.ids.map_or([0, 0], |_| images.corner),
             color_corner: images.corner,
-            ..plane_block(&geometry.clip, plane, settings.size)
+            ..plane_block(&geometry.clip, plane, self.options.size)
         };
-        let footprints = Footprints::new(settings, settings.method.samples());
+        let samples = settings.cells.samples;
+        let footprints = Footprints::new(settings.filter, samples);
         frame_uniform(
             &scene_block(geometry, placed),
             &plane,
             settings,
-            (settings.method.samples(), &footprints),
+            (samples, &footprints),
             &self.work.plan.sizes,
         )
     }

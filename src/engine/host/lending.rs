@@ -6,11 +6,9 @@ use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
-use super::{Geometry, HostError, Shared};
+use super::{Geometry, HostError, Outcome, Shared};
 use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
-use crate::engine::sampler::Sampler;
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{EngineError, PassTime, Statistics};
+use crate::engine::sampler::{Capacity, EngineError, PassTime, Sampler, Shortfall, Statistics};
 use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -123,9 +121,20 @@ impl Lending {
         self.completion.end(recorder);
     }
 
-    /// Checks that the commands of the last recording are done, so that its results can be read.
-    pub fn check_done(&self) -> Result<(), HostError> {
-        Ok(self.completion.check()?)
+    /// Work that the last recording of `sampler` could not finish, over `tiles` tiles.
+    fn shortfall(&self, sampler: &Sampler, tiles: u32) -> Result<Shortfall, HostError> {
+        self.completion.check()?;
+        let mut shortfall = Shortfall::default();
+        sampler.add_shortfall([tiles], &mut shortfall)?;
+        Ok(shortfall)
+    }
+
+    /// Capacity with more of what the last recording of `sampler` lacked, over `tiles` tiles.
+    ///
+    /// # Errors
+    /// If the commands are not done, or counters can't be read.
+    pub fn more(&self, sampler: &Sampler, tiles: u32) -> Result<Capacity, HostError> {
+        Ok(sampler.capacity().more(self.shortfall(sampler, tiles)?))
     }
 
     /// Records positions in clip space and triangles.
@@ -168,16 +177,16 @@ impl Lending {
         }
     }
 
-    /// Statistics of the last recording of `sampler`, whose memory has `sizes`.
+    /// Result of the last recording of `sampler`, whose memory has `sizes`.
     ///
     /// # Errors
     /// If the commands are not done, timestamps can't be read, or the driver ran kernels in subgroups of another size.
-    pub fn statistics(
+    pub fn outcome(
         &self,
         (sampler, sizes): (&Sampler, &ResourceSizes),
         (timings, memory_bytes): (&Timings, u64),
-        shortfall: &Shortfall,
-    ) -> Result<Statistics, HostError> {
+    ) -> Result<Outcome, HostError> {
+        let shortfall = self.shortfall(sampler, sizes.tiles())?;
         let mut statistics = Statistics {
             regions: 1,
             memory_bytes,
@@ -191,6 +200,9 @@ impl Lending {
         shortfall
             .check_subgroups(sizes.lanes)
             .map_err(EngineError::from)?;
-        Ok(statistics)
+        Ok(Outcome {
+            statistics,
+            left_over: shortfall.left(),
+        })
     }
 }

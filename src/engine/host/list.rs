@@ -5,16 +5,15 @@ use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
-use super::{Draw, Geometry, HostError, Options, Shared};
+use super::{Draw, Geometry, HostError, ListOptions, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
-use crate::engine::sampler::footprint::Footprints;
-use crate::engine::sampler::plan::Capacity;
-use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::Capacity;
+use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
-use crate::engine::sampler::{Settings, Statistics};
+use crate::engine::sampler::{SamplerSettings, Statistics, check_image_size};
 use crate::vulkan::{DescriptorSets, Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -42,7 +41,7 @@ pub struct LocationList {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Location {
     /// Column and row of the pixel that contains the location, from the upper left corner of the image of size
-    /// [`Options::size`].
+    /// [`ListOptions::size`].
     pub pixel: [i32; 2],
     /// Position in that pixel: x to the right and y down, from 0 to 1.
     pub within: [f32; 2],
@@ -67,8 +66,8 @@ pub struct ListOutcome {
 pub struct List {
     lending: Lending,
     list: LocationList,
-    options: Options,
-    settings: Settings,
+    options: ListOptions,
+    settings: SamplerSettings,
     resources: Resources,
     targets: RasterTargets,
     sampler: Sampler,
@@ -134,7 +133,7 @@ impl List {
         shared: &Arc<Shared>,
         geometry: &Geometry,
         list: &LocationList,
-        options: &Options,
+        options: &ListOptions,
     ) -> Result<Self, HostError> {
         let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
         // SAFETY: passed on to the caller.
@@ -145,25 +144,26 @@ impl List {
         shared: &Arc<Shared>,
         geometry: &Geometry,
         list: &LocationList,
-        options: &Options,
+        options: &ListOptions,
         capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
         let limits = gpu.limits();
         let layout = &shared.frame;
-        let settings = options.settings();
-        settings.check(limits)?;
+        let settings = options.sampler();
+        settings.check()?;
+        check_image_size(options.size)?;
         geometry.check(gpu)?;
-        check_size(settings.size)?;
+        check_size(options.size)?;
         let texels = limits.max_texel_elements / 2;
         let most = texels.min(limits.max_storage_bytes / LocationList::LOCATION_BYTES);
         list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
-        let memory = Memory::new(gpu.clone(), settings.max_memory);
+        let memory = Memory::new(gpu.clone(), options.max_memory);
         // SAFETY: passed on to the caller.
         let lending = unsafe { Lending::new(shared, memory.clone(), geometry) }?;
         let content = &lending.content;
         let cells = ListCells {
-            cells: if settings.method.samples() == 1 {
+            cells: if options.samples == 1 {
                 Cells::Points
             } else {
                 Cells::Superpixels
@@ -172,10 +172,10 @@ impl List {
             shadow_words: 0,
             lent: true,
         };
-        let room = (list.capacity, padded(settings.size));
-        let sizes = cells.sizes(layout, content, &settings, room, capacity);
+        let room = (list.capacity, padded(options.size));
+        let sizes = cells.sizes(layout, content, &settings.cells, room, capacity);
         sizes.check("the largest list of a recording", limits)?;
-        let (offsets, count) = cells.offsets(layout, &settings)?;
+        let (offsets, count) = cells.offsets(layout, &settings.cells)?;
         let single = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -236,7 +236,7 @@ impl List {
 
     /// Options with which the list was prepared.
     #[must_use]
-    pub fn options(&self) -> &Options {
+    pub fn options(&self) -> &ListOptions {
         &self.options
     }
 
@@ -247,7 +247,7 @@ impl List {
     }
 
     /// Makes a list for the same buffers, with more of the memory that the last recording lacked. If it lacked none,
-    /// the new list has as much memory as this one. [`Options::max_rounds`] stays the same.
+    /// the new list has as much memory as this one. [`ListOptions::max_rounds`] stays the same.
     ///
     /// # Errors
     /// If memory runs out, or in the cases of [`Self::outcome`] if the last recording is not done.
@@ -255,7 +255,8 @@ impl List {
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.sampler.capacity().more(self.shortfall()?);
+        let tiles = self.resources.sizes().tiles();
+        let capacity = self.lending.more(&self.sampler, tiles)?;
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
@@ -317,7 +318,7 @@ impl List {
         );
         let lending = &self.lending;
         lending.record_triangles(recorder, &placed);
-        let boxes = self.settings.filters_boxes();
+        let boxes = self.settings.filter == TextureFilter::Boxes;
         let visible = VisibilityUniform {
             list: 1,
             ..Lending::visible(&plane, footprints.place, boxes)
@@ -353,33 +354,26 @@ impl List {
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
     /// or timestamps can't be read, or the driver ran kernels in subgroups of another size.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let shortfall = self.shortfall()?;
-        let statistics = self.lending.statistics(
+        let Outcome {
+            statistics,
+            left_over,
+        } = self.lending.outcome(
             (&self.sampler, self.resources.sizes()),
             (&self.timings, self.memory.used()),
-            &shortfall,
         )?;
         Ok(ListOutcome {
             statistics,
-            left_over: shortfall.left(),
+            left_over,
             left_out: self.sampler.left_out()?,
         })
     }
 
-    fn shortfall(&self) -> Result<Shortfall, HostError> {
-        self.lending.check_done()?;
-        let mut shortfall = Shortfall::default();
-        let tiles = self.resources.sizes().tiles();
-        self.sampler.add_shortfall([tiles], &mut shortfall)?;
-        Ok(shortfall)
-    }
-
     fn footprints(&self) -> Footprints {
-        Footprints::new(&self.settings, self.settings.method.samples())
+        Footprints::new(self.settings.filter, self.settings.cells.samples)
     }
 
     fn plane(&self) -> ClipPlane {
-        ClipPlane::of_size(&self.lending.geometry.clip, self.settings.size)
+        ClipPlane::of_size(&self.lending.geometry.clip, self.options.size)
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
@@ -388,7 +382,7 @@ impl List {
         let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border, also outside of the image.
             size: sizes.region,
-            ..plane_block(&geometry.clip, &self.plane(), settings.size)
+            ..plane_block(&geometry.clip, &self.plane(), self.options.size)
         };
         let samples = self.sampler.samples();
         frame_uniform(

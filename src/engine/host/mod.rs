@@ -44,7 +44,7 @@ pub use geometry::{ClipSpace, Geometry, PositionSpace};
 pub use images::{ImageKinds, Images, LentImage};
 pub use list::{List, ListOutcome, Location, LocationList};
 pub use mesh::{Coordinates, Indices, Mesh};
-pub use options::Options;
+pub use options::{ListOptions, Options};
 pub use shader::{ShaderError, check_shader};
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 pub use topology::Topology;
@@ -134,9 +134,7 @@ impl Antialiaser {
     }
 
     /// Makes the pipelines and memory to sample a list of locations, for one frame in flight. With one sample, each
-    /// location is sampled at its own position; with more, as a superpixel around it. The options `detection`,
-    /// `contrast`, `thin` and `shade_all` are ignored; `size` is the size of the image in whose pixels locations are
-    /// given.
+    /// location is sampled at its own position; with more, as a superpixel around it.
     ///
     /// # Errors
     /// [`HostError`] names the invalid argument or the missing resource. No object is left behind.
@@ -148,7 +146,7 @@ impl Antialiaser {
         &self,
         geometry: &Geometry,
         list: &LocationList,
-        options: &Options,
+        options: &ListOptions,
     ) -> Result<List, HostError> {
         // SAFETY: passed on to the caller.
         unsafe { List::new(&self.shared, geometry, list, options) }

@@ -1,7 +1,9 @@
-//! Options of antialiasing a host's frames.
+//! Options of antialiasing a host's frames, and of sampling its lists.
 
+use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{
-    Coverage, Detection, Footprint, Reference, Settings, Shading, SuperpixelOptions,
+    CellOptions, Coverage, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings,
+    Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -64,7 +66,7 @@ impl Options {
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             size: [width, height],
-            samples: Settings::DEFAULT_SAMPLES,
+            samples: CellOptions::DEFAULT_SAMPLES,
             pattern: Pattern::Lines,
             shading: Shading::Part,
             detection: Detection::Contrast,
@@ -86,30 +88,121 @@ impl Options {
         !self.flat_background && !self.shade_all
     }
 
-    pub(super) fn settings(&self) -> Settings {
-        let superpixels = SuperpixelOptions {
-            samples: self.samples,
-            pattern: self.pattern.clone(),
-            coverage: Coverage::Area,
-            shading: self.shading,
+    /// Options of superpixels.
+    pub(super) fn superpixels(&self) -> SuperpixelOptions {
+        SuperpixelOptions {
+            cells: ListOptions::from(self).cells(),
             detection: self.detection,
             contrast: self.contrast,
             growths: self.growths,
             thin: self.thin,
-        };
-        Settings {
-            method: superpixels.into(),
-            background: self.background,
-            reference: Reference::Scene,
-            tonemapped_detection: self.high_dynamic_range,
-            footprint: if self.sharp {
-                Footprint::Sample
-            } else {
-                Footprint::Pixel
-            },
-            max_memory: self.max_memory,
-            ..Settings::new(self.size[0], self.size[1])
         }
+    }
+
+    /// The image to antialias, by a method with [these options](Self::superpixels).
+    pub(super) fn image<'a>(&self, method: &'a Method) -> ImageRequest<'a> {
+        ImageRequest {
+            size: self.size,
+            region: None,
+            method,
+            attributes: false,
+            max_memory: self.max_memory,
+        }
+    }
+
+    /// Settings of the sampler.
+    pub(super) fn sampler(&self) -> SamplerSettings {
+        SamplerSettings {
+            tonemapped_detection: self.high_dynamic_range,
+            ..ListOptions::from(self).sampler()
+        }
+    }
+}
+
+/// Options of sampling a host's lists of locations.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ListOptions {
+    /// Width and height of the image in whose pixels locations are given.
+    pub size: [u32; 2],
+    /// Number of samples of a location, 1 to 1,024. With one sample, a location is sampled at its own position; with
+    /// more, as a superpixel around it.
+    pub samples: u32,
+    /// Pattern of the sample locations in a superpixel.
+    pub pattern: Pattern,
+    /// Rate of shading within a superpixel.
+    pub shading: Shading,
+    /// Background as linear light; `None` is transparent.
+    pub background: Option<[f32; 3]>,
+    /// Whether textures are filtered over the area that each sample represents; otherwise over the whole location.
+    pub sharp: bool,
+    /// Largest number of bytes of device memory for a list; `None` for no limit.
+    pub max_memory: Option<u64>,
+    /// Largest number of rounds; this bounds the time of a recording. Locations that these rounds leave show the
+    /// background and are counted as left over. `None` is as in [`Options::max_rounds`].
+    pub max_rounds: Option<u32>,
+}
+
+impl ListOptions {
+    /// Default options for locations in an image of a size: 64 samples, shading in parts.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        Self::from(&Options::new(width, height))
+    }
+
+    /// Options of sampling a location.
+    pub(super) fn cells(&self) -> CellOptions {
+        CellOptions {
+            samples: self.samples,
+            pattern: self.pattern.clone(),
+            coverage: Coverage::Area,
+            shading: self.shading,
+        }
+    }
+
+    /// Settings of the sampler.
+    pub(super) fn sampler(&self) -> SamplerSettings {
+        let footprint = if self.sharp {
+            Footprint::Sample
+        } else {
+            Footprint::Pixel
+        };
+        SamplerSettings {
+            cells: self.cells(),
+            filter: TextureFilter::of_cells(footprint, self.shading),
+            background: self.background,
+            exposure: 0.0,
+            reference: Reference::Scene,
+            tonemapped_detection: false,
+        }
+    }
+}
+
+impl From<&Options> for ListOptions {
+    /// The options of frames that lists have as well.
+    fn from(options: &Options) -> Self {
+        Self {
+            size: options.size,
+            samples: options.samples,
+            pattern: options.pattern.clone(),
+            shading: options.shading,
+            background: options.background,
+            sharp: options.sharp,
+            max_memory: options.max_memory,
+            max_rounds: options.max_rounds,
+        }
+    }
+}
+
+setters! {
+    ListOptions {
+        samples: u32 = "the number of samples of a location",
+        pattern: Pattern = "the pattern of the sample locations in a superpixel",
+        shading: Shading = "the rate of shading within a superpixel",
+        background: Option<[f32; 3]> = "the background as linear light; `None` for transparent",
+        sharp: bool = "whether textures are filtered over the area that each sample represents",
+        max_memory: Option<u64> = "the largest number of bytes of device memory for a list",
+        max_rounds: Option<u32> = "the largest number of rounds",
     }
 }
 

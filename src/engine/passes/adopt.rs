@@ -3,7 +3,7 @@
 use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::{FrameLayout, Kernel};
-use crate::vulkan::{Buffer, DescriptorSets, Shown, Specialized, VulkanError};
+use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 
 /// Push constants of a dispatch: ranges of triangles and indices, the number of draws, the topology and the front face.
@@ -43,7 +43,7 @@ pub(crate) unsafe fn set(
         (adopt_set::DRAWS, (&draws.table).into()),
         (
             adopt_set::INDICES,
-            indices.map_or_else(|| (&draws.table).into(), Shown::from),
+            indices.map_or_else(|| (&draws.table).into(), Descriptor::from),
         ),
         (adopt_set::TRIANGLES_OUT, triangles.into()),
         (adopt_set::DRAW_OF_OUT, draw_of.into()),

@@ -2,7 +2,7 @@
 
 use super::spirv::{self, alpha_map_set};
 use crate::engine::pipelines::{FrameLayout, Kernel};
-use crate::vulkan::{Buffer, DescriptorSets, Shown, Specialized, VulkanError, read_image};
+use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Specialized, VulkanError, read_image};
 use ash::vk;
 
 /// Level of an alpha map: its size in texels, and its first word in the atlas. Bits 0 and 1 of `repeats` say whether
@@ -39,7 +39,7 @@ pub(crate) unsafe fn set(
     atlas: &Buffer,
 ) -> Result<DescriptorSets, VulkanError> {
     let shown = [
-        (alpha_map_set::MAP, Shown::Image(read_image(view))),
+        (alpha_map_set::MAP, Descriptor::Image(read_image(view))),
         (alpha_map_set::ATLAS, atlas.into()),
     ];
     // SAFETY: the caller guarantees the view, and the atlas lives as long as the frame.

@@ -7,7 +7,7 @@ use crate::vulkan::VulkanError;
 /// Pass whose counts are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
-pub(crate) enum After {
+pub(crate) enum CountedBy {
     Detect = spirv::AFTER_DETECT,
     Cull = spirv::AFTER_CULL,
     Sample = spirv::AFTER_SAMPLE,
@@ -25,8 +25,11 @@ pub(crate) enum After {
 ///
 /// # Errors
 /// If the driver refuses the pipeline.
-pub(crate) fn dispatch(layout: &FrameLayout, after: After) -> Result<Dispatch, VulkanError> {
-    of_samples(layout, after, [1; 3])
+pub(crate) fn dispatch(
+    layout: &FrameLayout,
+    counted_by: CountedBy,
+) -> Result<Dispatch, VulkanError> {
+    of_samples(layout, counted_by, [1; 3])
 }
 
 /// [`dispatch`] for the entries of lists. An entry takes `first` subgroups of [`sample`](super::sample) in the first run,
@@ -36,11 +39,11 @@ pub(crate) fn dispatch(layout: &FrameLayout, after: After) -> Result<Dispatch, V
 /// As [`dispatch`].
 pub(crate) fn of_samples(
     layout: &FrameLayout,
-    after: After,
+    counted_by: CountedBy,
     [first, all, unlisted]: [u32; 3],
 ) -> Result<Dispatch, VulkanError> {
     let pushed = spirv::ArgumentsPush {
-        after: after as u32,
+        after: counted_by as u32,
         subgroups_first: first,
         subgroups: all,
         subgroups_unlisted: unlisted,

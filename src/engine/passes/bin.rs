@@ -1,6 +1,6 @@
 //! bin: makes pairs of triangles and the tiles that they touch.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -14,7 +14,7 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, Vu
     let instanced = scene.is_instanced();
     let bin = layout.kernel(&spirv::Bin { instanced })?;
     Ok(Pass::named(spirv::Bin::INTERFACE)
-        .dispatch(arguments::dispatch(layout, After::Cull)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Cull)?)
         .unordered([
             bin.dispatch(spirv::BinPush { large: 0 }, Argument::BinSmall),
             bin.dispatch(spirv::BinPush { large: 1 }, Argument::BinLarge),

@@ -1,4 +1,5 @@
-//! centres: turns the centres of pixels into visibility samples.
+//! centres: turns the centres of pixels into visibility samples. It is no [`Pass`](crate::engine::pipelines::Pass), because
+//! its client sorts and shades a band of pixels between the two dispatches for it.
 
 use super::spirv;
 use crate::engine::data::{ColorConstants, Resources};

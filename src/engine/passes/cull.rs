@@ -1,6 +1,6 @@
 //! cull: finds the triangles that can touch a superpixel.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -29,6 +29,6 @@ pub(crate) fn pass(
         instanced: scene.is_instanced(),
     };
     Ok(Pass::named(spirv::Cull::INTERFACE)
-        .dispatch(arguments::dispatch(layout, After::Detect)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Detect)?)
         .dispatch(layout.kernel(&shader)?.dispatch((), Argument::Cull)))
 }

@@ -1,4 +1,5 @@
-//! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells.
+//! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells. It is no
+//! [`Pass`](crate::engine::pipelines::Pass), because the length and region of a list are known only when it is recorded.
 
 use super::spirv;
 use crate::engine::data::CellSizes;

@@ -1,6 +1,6 @@
 //! groups: lists the groups of cells of a round, for cells that are locations.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::{SampleBlocks, spirv};
 use crate::engine::data::Argument;
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -19,7 +19,7 @@ pub(crate) fn pass(layout: &FrameLayout, blocks: &SampleBlocks) -> Result<Pass, 
         points: cells.are_points(),
         occluders: cells.are_occluders(),
     })?;
-    let sizes = arguments::of_samples(layout, After::Groups, blocks.subgroups)?;
+    let sizes = arguments::of_samples(layout, CountedBy::Groups, blocks.subgroups)?;
     Ok(Pass::named(spirv::Groups::INTERFACE)
         .dispatch(groups.dispatch((), Argument::Groups))
         .dispatch(sizes))

@@ -10,7 +10,7 @@
 //! - For each light that may be hidden, `receivers` runs before `shade` and lists the locations that the light may illuminate. `shadow`
 //!   runs after the `sample` pass of that list.
 //!
-//! The file of a pass declares it as a [`Pass`](super::pipelines::Pass), or has a type for what must be known while a frame is recorded.
+//! The file of a pass declares it as a [`Pass`](super::pipelines::Pass), or has a type and says why it can't be declared.
 //! A pass reads the results of the passes before it from device memory, which is in [`super::data`].
 
 pub(crate) mod adopt;

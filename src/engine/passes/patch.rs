@@ -1,4 +1,5 @@
-//! patch: draws the colours of superpixels, or of all pixels, into a host's image.
+//! patch: draws the colours of superpixels, or of all pixels, into a host's image. It is no
+//! [`Pass`](crate::engine::pipelines::Pass), which declares dispatches, because it draws.
 
 use super::spirv;
 use crate::engine::pipelines::FrameLayout;

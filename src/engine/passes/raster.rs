@@ -1,4 +1,5 @@
-//! raster: draws depth and triangle ID of every pixel with the device's rasterizer.
+//! raster: draws depth and triangle ID of every pixel with the device's rasterizer. It is no
+//! [`Pass`](crate::engine::pipelines::Pass), which declares dispatches, because it draws.
 
 use super::filter::{self, Filter, FilteredDraws};
 use super::spirv::{self, frame_set};

@@ -35,9 +35,6 @@ pub(crate) fn pass(
 ) -> Result<Pass, VulkanError> {
     let (options, cells) = (&blocks.options, blocks.options.cells);
     let mut pass = Pass::named(spirv::Resolve::INTERFACE);
-    if let Some(image) = behind {
-        pass = pass.show(&image.sets);
-    }
     for list in blocks.lists() {
         let shader = spirv::Resolve {
             layered: options.has_blend && matches!(list, TileList::Blended | TileList::Unlisted),
@@ -51,7 +48,11 @@ pub(crate) fn pass(
             None => spirv::RESOLVE,
         };
         let resolve = layout.kernel_variant(code, &shader)?;
-        pass = pass.dispatch(resolve.dispatch((), list));
+        let dispatch = resolve.dispatch((), list);
+        pass = pass.dispatch(match behind {
+            Some(image) => dispatch.with(&image.sets),
+            None => dispatch,
+        });
     }
     Ok(pass)
 }

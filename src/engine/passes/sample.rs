@@ -1,6 +1,6 @@
 //! sample: finds the nearest triangle of every sample.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::{sample_lines, sample_masks, scatter, spirv};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
@@ -57,7 +57,7 @@ pub struct SampleOptions {
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
     /// Whether tiles without a list are sampled, with `scatter`. Otherwise they are skipped and counted.
-    pub unlisted: bool,
+    pub samples_unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
@@ -72,9 +72,9 @@ pub struct SampleOptions {
 pub enum LongLists {
     /// Like other cells: a subgroup samples blocks of several cells.
     #[default]
-    Together,
+    SeveralCells,
     /// A subgroup samples a block of a single cell.
-    Apart,
+    OneCell,
     /// A subgroup samples a block of a single cell, and tiles have no list if loops over it might exceed the
     /// number of iterations.
     Scattered,
@@ -84,20 +84,20 @@ impl LongLists {
     /// Next option to try if loops over lists exceeded the number of iterations.
     pub(crate) fn shorter(self) -> Self {
         match self {
-            Self::Together => Self::Apart,
-            Self::Apart | Self::Scattered => Self::Scattered,
+            Self::SeveralCells => Self::OneCell,
+            Self::OneCell | Self::Scattered => Self::Scattered,
         }
     }
 
-    pub(super) fn is_apart(self) -> bool {
-        self != Self::Together
+    pub(super) fn takes_one_cell(self) -> bool {
+        self != Self::SeveralCells
     }
 
     /// Largest numbers of candidates in the list of a tile: of a tile without BLEND triangles, and of one with them.
     /// Tiles with more candidates have no list.
     pub(crate) fn longest(self) -> [u32; 2] {
         match self {
-            Self::Together | Self::Apart => [spirv::LONGEST_LIST; 2],
+            Self::SeveralCells | Self::OneCell => [spirv::LONGEST_LIST; 2],
             Self::Scattered => [spirv::SHORT_LIST, spirv::SHORT_LAYERED],
         }
     }
@@ -129,7 +129,6 @@ enum Run {
 struct ListRun {
     list: TileList,
     run: Run,
-    kernels: &'static Kernels,
     /// Whether the list's tiles have MASK triangles.
     masked: bool,
 }
@@ -146,50 +145,58 @@ pub struct SampleBlocks {
     pub subgroups: [u32; 3],
 }
 
-/// Variants of a kernel by their number of register rows, the smallest first.
-type Kernels = [(u32, &'static [u8]); 5];
+/// Variant of the general kernel.
+#[derive(Clone, Copy)]
+struct Variant {
+    /// Whether cells may have BLEND layers.
+    layered: bool,
+    /// Whether tiles have no list of candidates.
+    unlisted: bool,
+    /// Number of register rows: samples of an invocation.
+    rows: u32,
+    code: &'static [u8],
+}
 
-const KERNELS: Kernels = [
-    (1, spirv::SAMPLE_1),
-    (2, spirv::SAMPLE_2),
-    (4, spirv::SAMPLE_4),
-    (8, spirv::SAMPLE_8),
-    (16, spirv::SAMPLE_16),
+/// Variants of the general kernel. Of those that differ in the number of rows alone, the smallest comes first.
+#[rustfmt::skip]
+const VARIANTS: [Variant; 20] = [
+    Variant { layered: false, unlisted: false, rows: 1, code: spirv::SAMPLE_1 },
+    Variant { layered: false, unlisted: false, rows: 2, code: spirv::SAMPLE_2 },
+    Variant { layered: false, unlisted: false, rows: 4, code: spirv::SAMPLE_4 },
+    Variant { layered: false, unlisted: false, rows: 8, code: spirv::SAMPLE_8 },
+    Variant { layered: false, unlisted: false, rows: 16, code: spirv::SAMPLE_16 },
+    Variant { layered: false, unlisted: true, rows: 1, code: spirv::SAMPLE_UNLISTED_1 },
+    Variant { layered: false, unlisted: true, rows: 2, code: spirv::SAMPLE_UNLISTED_2 },
+    Variant { layered: false, unlisted: true, rows: 4, code: spirv::SAMPLE_UNLISTED_4 },
+    Variant { layered: false, unlisted: true, rows: 8, code: spirv::SAMPLE_UNLISTED_8 },
+    Variant { layered: false, unlisted: true, rows: 16, code: spirv::SAMPLE_UNLISTED_16 },
+    Variant { layered: true, unlisted: false, rows: 1, code: spirv::SAMPLE_LAYERED_1 },
+    Variant { layered: true, unlisted: false, rows: 2, code: spirv::SAMPLE_LAYERED_2 },
+    Variant { layered: true, unlisted: false, rows: 4, code: spirv::SAMPLE_LAYERED_4 },
+    Variant { layered: true, unlisted: false, rows: 8, code: spirv::SAMPLE_LAYERED_8 },
+    Variant { layered: true, unlisted: false, rows: 16, code: spirv::SAMPLE_LAYERED_16 },
+    Variant { layered: true, unlisted: true, rows: 1, code: spirv::SAMPLE_LAYERED_UNLISTED_1 },
+    Variant { layered: true, unlisted: true, rows: 2, code: spirv::SAMPLE_LAYERED_UNLISTED_2 },
+    Variant { layered: true, unlisted: true, rows: 4, code: spirv::SAMPLE_LAYERED_UNLISTED_4 },
+    Variant { layered: true, unlisted: true, rows: 8, code: spirv::SAMPLE_LAYERED_UNLISTED_8 },
+    Variant { layered: true, unlisted: true, rows: 16, code: spirv::SAMPLE_LAYERED_UNLISTED_16 },
 ];
-const UNLISTED: Kernels = [
-    (1, spirv::SAMPLE_UNLISTED_1),
-    (2, spirv::SAMPLE_UNLISTED_2),
-    (4, spirv::SAMPLE_UNLISTED_4),
-    (8, spirv::SAMPLE_UNLISTED_8),
-    (16, spirv::SAMPLE_UNLISTED_16),
-];
-const LAYERED: Kernels = [
-    (1, spirv::SAMPLE_LAYERED_1),
-    (2, spirv::SAMPLE_LAYERED_2),
-    (4, spirv::SAMPLE_LAYERED_4),
-    (8, spirv::SAMPLE_LAYERED_8),
-    (16, spirv::SAMPLE_LAYERED_16),
-];
-const LAYERED_UNLISTED: Kernels = [
-    (1, spirv::SAMPLE_LAYERED_UNLISTED_1),
-    (2, spirv::SAMPLE_LAYERED_UNLISTED_2),
-    (4, spirv::SAMPLE_LAYERED_UNLISTED_4),
-    (8, spirv::SAMPLE_LAYERED_UNLISTED_8),
-    (16, spirv::SAMPLE_LAYERED_UNLISTED_16),
-];
+
+impl Variant {
+    /// The smallest variant for a list of tiles with at least `rows` rows, or otherwise the largest.
+    fn of(list: TileList, has_blend: bool, rows: u32) -> Self {
+        let unlisted = list == TileList::Unlisted;
+        let layered = list == TileList::Blended || (unlisted && has_blend);
+        let mut fits = VARIANTS
+            .iter()
+            .filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
+        let found = fits.clone().find(|variant| variant.rows >= rows);
+        *found.or_else(|| fits.next_back()).unwrap_or(&VARIANTS[0])
+    }
+}
 
 /// Number of blocks of several cells that a subgroup processes, as in `shaders/sample.comp`.
 const BLOCKS_AT_ONCE: u32 = 4;
-
-/// The smallest kernel with at least `rows` rows, or otherwise the largest.
-fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
-    let largest = kernels[kernels.len() - 1];
-    kernels
-        .iter()
-        .copied()
-        .find(|(has, _)| *has >= rows)
-        .unwrap_or(largest)
-}
 
 /// Number of samples of the first of two runs; their offsets follow those of the cell.
 pub const PROBES: u32 = spirv::PROBE_SAMPLES;
@@ -201,25 +208,25 @@ impl SampleBlocks {
     /// Blocks of kernels that use `lanes` invocations of a subgroup.
     #[must_use]
     pub fn new(lanes: u32, options: SampleOptions) -> Self {
-        let (rows, _) = kernel(&KERNELS, options.samples.min(BLOCK).div_ceil(lanes));
-        let block = rows * lanes;
-        let apart = options.long_lists.is_apart();
-        let taking = |samples: u32, apart: bool| {
+        let rows = options.samples.min(BLOCK).div_ceil(lanes);
+        let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
+        let one_cell = options.long_lists.takes_one_cell();
+        let taking = |samples: u32, one_cell: bool| {
             let blocks = samples.div_ceil(block);
-            if apart {
+            if one_cell {
                 lanes * blocks
             } else {
                 blocks.div_ceil(BLOCKS_AT_ONCE)
             }
         };
         let first = if options.probes() {
-            taking(PROBES, apart)
+            taking(PROBES, one_cell)
         } else if options.by_lines() {
             1
         } else {
-            taking(options.samples, apart)
+            taking(options.samples, one_cell)
         };
-        let [all, unlisted] = [apart, true].map(|apart| taking(options.samples, apart));
+        let [all, unlisted] = [one_cell, true].map(|one_cell| taking(options.samples, one_cell));
         Self {
             options,
             block,
@@ -248,12 +255,7 @@ impl SampleBlocks {
         scene: &dyn Content,
         run: &ListRun,
     ) -> Result<Dispatch, VulkanError> {
-        let ListRun {
-            list,
-            run,
-            kernels,
-            masked,
-        } = *run;
+        let ListRun { list, run, masked } = *run;
         let (options, block) = (&self.options, self.block);
         let lanes = layout.gpu.limits().lanes;
         let is_rest = run == Run::Rest;
@@ -267,7 +269,7 @@ impl SampleBlocks {
             by_part: options.by_part(run, block),
             exact_areas: options.measures(list, run),
             part: options.part_samples(),
-            apart: options.long_lists.is_apart() || list == TileList::Unlisted,
+            apart: options.long_lists.takes_one_cell() || list == TileList::Unlisted,
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
             occluders: options.cells.are_occluders(),
@@ -283,8 +285,8 @@ impl SampleBlocks {
             let kernel = sample_masks::kernel(layout, &shader, options.samples)?;
             Ok(kernel.dispatch((), size))
         } else {
-            let (_, code) = kernel(kernels, block / lanes);
-            let kernel = layout.kernel_variant(code, &shader)?;
+            let variant = Variant::of(list, options.has_blend, block / lanes);
+            let kernel = layout.kernel_variant(variant.code, &shader)?;
             Ok(kernel.dispatch((), size))
         }
     }
@@ -319,13 +321,13 @@ pub(crate) fn pass(
     });
     let mut kernels = made?;
     let rest = kernels.split_off(first.len());
-    let unlisted = options.unlisted.then(|| kernels.pop()).flatten();
+    let unlisted = options.samples_unlisted.then(|| kernels.pop()).flatten();
     let mut pass = Pass::named(spirv::Sample::INTERFACE);
     for kernel in kernels {
         pass = pass.dispatch(kernel);
     }
     if !rest.is_empty() {
-        let sizes = arguments::of_samples(layout, After::Probe, blocks.subgroups)?;
+        let sizes = arguments::of_samples(layout, CountedBy::Probe, blocks.subgroups)?;
         pass = pass.dispatch(sizes);
     }
     for kernel in rest {
@@ -343,12 +345,7 @@ pub(crate) fn pass(
 impl SampleOptions {
     /// Runs over tiles of opaque and alpha-tested triangles.
     fn listed(&self, run: Run) -> impl Iterator<Item = ListRun> {
-        let run_of = |list, masked| ListRun {
-            list,
-            run,
-            kernels: &KERNELS,
-            masked,
-        };
+        let run_of = |list, masked| ListRun { list, run, masked };
         let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
         let has_masked = self.has_mask && !self.always_blends;
         let masked = has_masked.then(|| run_of(TileList::Masked, true));
@@ -357,24 +354,18 @@ impl SampleOptions {
 
     /// First runs, one for each list of tiles; that of tiles without a list is the last.
     fn first_runs(&self) -> Vec<ListRun> {
-        let whole = |list, kernels| ListRun {
+        let whole = |list| ListRun {
             list,
             run: Run::Whole,
-            kernels,
             masked: self.has_mask,
-        };
-        let blended = whole(TileList::Blended, &LAYERED);
-        let unlisted = match self.has_blend {
-            true => whole(TileList::Unlisted, &LAYERED_UNLISTED),
-            false => whole(TileList::Unlisted, &UNLISTED),
         };
         self.listed(if self.probes() {
             Run::Probe
         } else {
             Run::Whole
         })
-        .chain(self.has_blend.then_some(blended))
-        .chain(self.unlisted.then_some(unlisted))
+        .chain(self.has_blend.then(|| whole(TileList::Blended)))
+        .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
         .collect()
     }
 
@@ -453,8 +444,8 @@ mod tests {
                 records: RecordRate::Part,
                 exact_areas: true,
                 can_settle: true,
-                long_lists: LongLists::Together,
-                unlisted: false,
+                long_lists: LongLists::SeveralCells,
+                samples_unlisted: false,
                 has_mask: false,
                 has_blend: false,
                 always_blends: false,

@@ -42,7 +42,7 @@ impl SampleOptions {
     /// Whether the special kernels store the samples of a pixel as a mask.
     pub(super) fn by_masks(&self) -> bool {
         let few = (2..=64).contains(&self.samples);
-        let apart = self.long_lists.is_apart();
-        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !apart && few
+        let one_cell = self.long_lists.takes_one_cell();
+        self.cells == Cells::Pixels && self.by_cell() && !self.by_lines() && !one_cell && few
     }
 }

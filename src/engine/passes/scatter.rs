@@ -1,6 +1,6 @@
 //! scatter: finds the visible triangles of samples in tiles without a list of candidates.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::{SampleOptions, spirv};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -45,6 +45,6 @@ pub(crate) fn pass(
         .unordered(of_triangles(spirv::SCATTER_COUNT))
         .dispatch(of_owners(spirv::SCATTER_PLACE))
         .unordered(of_triangles(spirv::SCATTER_LAYERS))
-        .dispatch(arguments::dispatch(layout, After::Scatter)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Scatter)?)
         .dispatch(step(spirv::SCATTER_ORDER, 0, Argument::Layers)))
 }

@@ -1,6 +1,6 @@
 //! sort: sorts visibility samples by material bin.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::spirv::{self, frame_set};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -18,7 +18,7 @@ pub(crate) fn pass(
 ) -> Result<Pass, VulkanError> {
     let pass = Pass::named(spirv::Sort::INTERFACE)
         .clear(frame_set::BINS)
-        .dispatch(arguments::dispatch(layout, After::Sample)?);
+        .dispatch(arguments::dispatch(layout, CountedBy::Sample)?);
     if one_bin {
         return Ok(pass);
     }
@@ -31,6 +31,6 @@ pub(crate) fn pass(
     })?;
     Ok(pass
         .dispatch(sort.dispatch(spirv::SortPush { scatter: 0 }, Argument::Sort))
-        .dispatch(arguments::dispatch(layout, After::Records)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Records)?)
         .dispatch(sort.dispatch(spirv::SortPush { scatter: 1 }, Argument::Sort)))
 }

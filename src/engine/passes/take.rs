@@ -21,6 +21,5 @@ pub(crate) fn pass(
         tonemap_codes: output.tonemap_codes,
     })?;
     Ok(Pass::named(spirv::Take::INTERFACE)
-        .show(&image.sets)
-        .dispatch(take.dispatch((), Size::Items(1))))
+        .dispatch(take.dispatch((), Size::Items(1)).with(&image.sets)))
 }

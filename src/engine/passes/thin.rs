@@ -1,6 +1,6 @@
 //! thin: finds pixels that a thin triangle crosses without covering the centre.
 
-use super::arguments::{self, After};
+use super::arguments::{self, CountedBy};
 use super::spirv::{self, frame_set};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
@@ -38,7 +38,7 @@ pub(crate) fn pass(
     Ok(Pass::named(spirv::Thin::INTERFACE)
         .clear(frame_set::MARKS)
         .dispatch(select.dispatch(pushed(0), of_slots))
-        .dispatch(arguments::dispatch(layout, After::Thin)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Thin)?)
         .unordered([
             walk.dispatch(pushed(0), Argument::Thin),
             walk.dispatch(pushed(1), Argument::ThinLong),

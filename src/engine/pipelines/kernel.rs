@@ -2,7 +2,7 @@
 
 use crate::engine::data::Argument;
 use crate::engine::passes::spirv::frame_set;
-use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized};
+use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -35,6 +35,8 @@ pub(crate) struct Dispatch {
     pipeline: Arc<Pipeline>,
     pushed: Vec<u8>,
     size: Size,
+    /// Sets of the kernel's pass besides the frame's, if it has any.
+    own: Option<Arc<DescriptorSets>>,
 }
 
 impl<S: Specialized> Kernel<S> {
@@ -52,6 +54,7 @@ impl<S: Specialized> Kernel<S> {
             pipeline: self.pipeline.clone(),
             pushed: bytemuck::bytes_of(&pushed).to_vec(),
             size: size.into(),
+            own: None,
         }
     }
 
@@ -87,9 +90,18 @@ impl<S: Specialized> Kernel<S> {
 }
 
 impl Dispatch {
+    /// The dispatch, of a kernel that uses these sets besides the frame's.
+    pub fn with(mut self, own: &Arc<DescriptorSets>) -> Self {
+        self.own = Some(own.clone());
+        self
+    }
+
     /// Records the dispatch for `items` items.
     pub fn record(&self, recorder: &Recorder<'_>, items: u32) {
         let pipeline = &*self.pipeline;
+        if let Some(own) = &self.own {
+            recorder.show(own);
+        }
         recorder.push(pipeline, &self.pushed);
         match self.size {
             Size::Indirect(index) => {

@@ -4,8 +4,8 @@ use super::Kernel;
 use super::cache::Pipelines;
 use crate::engine::passes::spirv::INTERFACES;
 use crate::vulkan::{
-    Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline, SetLayout,
-    SharedLayout, ShownBinding, Specialized, VulkanError, compute_pipeline,
+    BoundDescriptor, Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline,
+    SetLayout, SharedLayout, Specialized, VulkanError, compute_pipeline,
 };
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -88,7 +88,7 @@ impl FrameLayout {
     pub(crate) unsafe fn own_set(
         &self,
         shader: &Interface,
-        shown: &[ShownBinding],
+        shown: &[BoundDescriptor],
     ) -> Result<DescriptorSets, VulkanError> {
         let mut own = self.own_sets(&[shader], 1)?.remove(0);
         // SAFETY: the set is new; the caller guarantees the buffers.

@@ -1,14 +1,13 @@
 //! Declaration of a pass.
 
 use super::Dispatch;
-use crate::vulkan::{Binding, DescriptorSets, Interface, Recorder};
-use std::sync::Arc;
+use crate::vulkan::{Binding, Interface, Recorder};
 
 /// Declaration of a pass: its name, and the commands that it records, in their order. The interfaces of the shaders that it
 /// dispatches say what it reads and writes.
 ///
 /// A pass needs nothing but a declaration if its push constants are known when it is made. Passes whose push constants
-/// are known only when a frame is recorded have a `Kernel` instead.
+/// are known only when a frame is recorded have a type of their own, with a `Kernel`.
 pub struct Pass {
     interface: &'static Interface,
     steps: Vec<Step>,
@@ -18,8 +17,6 @@ pub struct Pass {
 enum Step {
     /// Fills what the frame's sets show at a binding with zeros.
     Clear(Binding),
-    /// Has the next dispatches use these sets besides the frame's.
-    Show(Arc<DescriptorSets>),
     /// Dispatches that do not depend on each other.
     Dispatch(Vec<Dispatch>),
 }
@@ -36,11 +33,6 @@ impl Pass {
     /// The pass, which then fills what the frame's sets show at a binding with zeros.
     pub(crate) fn clear(self, binding: Binding) -> Self {
         self.step(Step::Clear(binding))
-    }
-
-    /// The pass, which then uses these sets besides the frame's.
-    pub(crate) fn show(self, own: &Arc<DescriptorSets>) -> Self {
-        self.step(Step::Show(own.clone()))
     }
 
     /// The pass, which then dispatches a kernel.
@@ -76,7 +68,6 @@ impl Pass {
             for step in &self.steps {
                 match step {
                     Step::Clear(binding) => recorder.clear_shown(*binding),
-                    Step::Show(own) => recorder.show(own),
                     Step::Dispatch(dispatches) => {
                         let record = |dispatch: &Dispatch| dispatch.record(recorder, items);
                         if let [dispatch] = &dispatches[..] {

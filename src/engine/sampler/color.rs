@@ -1,10 +1,11 @@
 //! Colours and colour transforms in the form that shaders take.
 
-use super::{Reference, Settings};
+use super::footprint::TextureFilter;
+use super::{Reference, SamplerSettings};
 use crate::color::{srgb, tonemap};
 use crate::engine::data::{ColorConstants, Content};
 
-impl Settings {
+impl SamplerSettings {
     /// Background as linear, premultiplied RGBA.
     pub(crate) fn background_rgba(&self) -> [f32; 4] {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
@@ -20,7 +21,7 @@ impl Settings {
         ColorConstants {
             tonemap: self.tonemaps(),
             tonemap_codes: self.tonemapped_detection,
-            box_filter: self.filters_boxes(),
+            box_filter: self.filter == TextureFilter::Boxes,
             tinted: scene.is_tinted(),
         }
     }
@@ -34,7 +35,7 @@ pub(crate) fn display_code(color: [f32; 4]) -> u32 {
     u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha])
 }
 
-impl Settings {
+impl SamplerSettings {
     /// Display code of an output colour, which detection compares; equal to `display_code` of the shaders.
     /// Scene-referred colours are tone-mapped first.
     pub(crate) fn output_code(&self, color: [f32; 4]) -> u32 {

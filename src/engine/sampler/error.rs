@@ -49,12 +49,6 @@ pub enum EngineError {
     /// Footprint with a side that is not above 0 and at most 1.
     #[error("texture levels for a square of {0} pixels: its side must be above 0 and at most 1")]
     Footprint(f32),
-    /// Width of lines, or size of points, that is not above 0 and at most the limit.
-    #[error(
-        "lines or points of {0} pixels: their width or size must be above 0 and at most {limit}",
-        limit = super::Settings::LARGEST_STROKE
-    )]
-    Stroke(f32),
     /// Background with a component that is not finite.
     #[error("a background of {0:?}: its light must be finite")]
     Background([f32; 3]),
@@ -100,7 +94,6 @@ impl EngineError {
                 | Self::Region { .. }
                 | Self::Attributes
                 | Self::Footprint(_)
-                | Self::Stroke(_)
                 | Self::Background(_)
                 | Self::Size { .. }
         )

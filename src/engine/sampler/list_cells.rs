@@ -6,9 +6,9 @@ use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
-    Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
+    MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
 };
-use crate::engine::sampler::{EngineError, Settings};
+use crate::engine::sampler::{Capacity, CellOptions, EngineError};
 use crate::vulkan::Texels;
 
 /// Kind of the cells of a list, and the results that are computed for them.
@@ -31,24 +31,19 @@ impl ListCells {
     pub fn offsets(
         &self,
         layout: &FrameLayout,
-        settings: &Settings,
+        options: &CellOptions,
     ) -> Result<(Vec<[f32; 2]>, u32), EngineError> {
         let (own, count) = if self.cells.are_points() {
-            (vec![[0.0; 2]], self.cell_sizes(layout, settings).in_cell)
+            (vec![[0.0; 2]], self.cell_sizes(layout, options).in_cell)
         } else {
-            let options = settings.superpixels();
             let own = options.pattern.offsets(options.samples)?;
             (own, options.samples)
         };
         Ok((with_probes(own)?, count))
     }
 
-    fn cell_sizes(&self, layout: &FrameLayout, settings: &Settings) -> CellSizes {
-        CellSizes::new(
-            layout.gpu.limits().lanes,
-            self.cells,
-            settings.method.samples(),
-        )
+    fn cell_sizes(&self, layout: &FrameLayout, options: &CellOptions) -> CellSizes {
+        CellSizes::new(layout.gpu.limits().lanes, self.cells, options.samples)
     }
 
     /// Sizes of the memory for `locations` locations in a region of `region` pixels, whose sides are whole tiles.
@@ -56,7 +51,7 @@ impl ListCells {
         &self,
         layout: &FrameLayout,
         scene: &dyn Content,
-        settings: &Settings,
+        options: &CellOptions,
         (locations, region): (u32, [u32; 2]),
         capacity: Capacity,
     ) -> ResourceSizes {
@@ -68,12 +63,12 @@ impl ListCells {
                 u64::from(Capacity::LAYERS) * most
             }
             Cells::Points | Cells::Occluders => most,
-            Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
+            Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(options, scene),
         };
         let triangles = u64::from(scene.triangle_slots());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
-        let cell_sizes = self.cell_sizes(layout, settings);
+        let cell_sizes = self.cell_sizes(layout, options);
         let locations = LocationSizes {
             lent: self.lent,
             ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
@@ -95,7 +90,7 @@ impl ListCells {
         let of_location = match self.cells {
             Cells::Points => 1,
             Cells::Occluders => most.div_ceil(16),
-            Cells::Superpixels | Cells::Pixels => u64::from(settings.method.samples()),
+            Cells::Superpixels | Cells::Pixels => u64::from(options.samples),
         };
         let layered = if scene.has_blend() {
             capacity.layered(of_location).min(most_records(limits))
@@ -137,11 +132,11 @@ impl ListCells {
             output,
             ..
         } = *context;
-        let sizes = self.cell_sizes(layout, settings);
+        let sizes = self.cell_sizes(layout, &settings.cells);
         let samples = if self.cells.are_points() {
             sizes.in_cell
         } else {
-            settings.method.samples()
+            settings.cells.samples
         };
         let options = context.sample_options(self.cells, samples);
         let source = || {

@@ -125,7 +125,7 @@ impl Load {
         triangles: u32,
         (cells, cells_of_tile): (u64, u64),
     ) -> Vec<(u64, u64, u64)> {
-        if !self.blocks.options.unlisted {
+        if !self.blocks.options.samples_unlisted {
             return Vec::new();
         }
         let [tiles, pairs, candidates] =

@@ -106,18 +106,64 @@ pub enum Shading {
     Sample,
 }
 
+/// Options of sampling a cell: a superpixel, or the surroundings of a sample location.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CellOptions {
+    /// Number of samples of the cell, 1 to 1,024.
+    pub samples: u32,
+    /// Pattern of the sample locations in the cell.
+    pub pattern: Pattern,
+    /// Measure of a triangle's coverage of the cell.
+    pub coverage: Coverage,
+    /// Rate of shading within the cell.
+    pub shading: Shading,
+}
+
+impl CellOptions {
+    /// Default number of samples of a superpixel.
+    pub const DEFAULT_SAMPLES: u32 = 64;
+
+    /// Default options with `samples` samples of a cell.
+    #[must_use]
+    pub fn new(samples: u32) -> Self {
+        Self {
+            samples,
+            pattern: Pattern::Lines,
+            coverage: Coverage::Area,
+            shading: Shading::Part,
+        }
+    }
+
+    /// Checks the number of samples, and that the pattern can have it.
+    pub(crate) fn check(&self) -> Result<(), EngineError> {
+        if !(1..=1024).contains(&self.samples) {
+            return Err(EngineError::Samples {
+                method: "superpixel",
+                asked: self.samples,
+                possible: "1 to 1024".to_owned(),
+            });
+        }
+        self.pattern.offsets(self.samples)?;
+        Ok(())
+    }
+}
+
+setters! {
+    CellOptions in SuperpixelOptions.cells {
+        samples: u32 = "the number of samples of the cell",
+        pattern: Pattern = "the pattern of the sample locations in the cell",
+        coverage: Coverage = "the measure of a triangle's coverage of the cell",
+        shading: Shading = "the rate of shading within the cell",
+    }
+}
+
 /// Options of detecting and sampling superpixels.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SuperpixelOptions {
-    /// Number of samples of a superpixel, 1 to 1,024.
-    pub samples: u32,
-    /// Pattern of the sample locations in a superpixel.
-    pub pattern: Pattern,
-    /// Measure of a triangle's coverage of a superpixel.
-    pub coverage: Coverage,
-    /// Rate of shading within a superpixel.
-    pub shading: Shading,
+    /// Options of sampling a superpixel.
+    pub cells: CellOptions,
     /// Rule by which a pixel becomes a superpixel.
     pub detection: Detection,
     /// Contrast threshold in 8-bit sRGB code values: two colours contrast if any channel differs by more. `None` is
@@ -142,10 +188,7 @@ impl SuperpixelOptions {
     #[must_use]
     pub fn new(samples: u32) -> Self {
         Self {
-            samples,
-            pattern: Pattern::Lines,
-            coverage: Coverage::Area,
-            shading: Shading::Part,
+            cells: CellOptions::new(samples),
             detection: Detection::Contrast,
             contrast: None,
             growths: None,
@@ -171,7 +214,7 @@ impl SuperpixelOptions {
     pub fn growth_count(&self) -> u32 {
         match self.detection {
             Detection::Contrast => {
-                let default = || Self::default_growths(self.samples);
+                let default = || Self::default_growths(self.cells.samples);
                 u32::from(self.growths.unwrap_or_else(default))
             }
             _ => 0,
@@ -182,16 +225,24 @@ impl SuperpixelOptions {
     #[must_use]
     pub fn threshold(&self) -> u8 {
         self.contrast
-            .unwrap_or_else(|| Self::default_contrast(self.samples))
+            .unwrap_or_else(|| Self::default_contrast(self.cells.samples))
+    }
+
+    /// Checks the numbers of samples and growths.
+    pub(crate) fn check(&self) -> Result<(), EngineError> {
+        match self.growths {
+            Some(asked) if asked > Self::MOST_GROWTHS => Err(EngineError::Growths {
+                asked,
+                most: Self::MOST_GROWTHS,
+            }),
+            _ => self.cells.check(),
+        }
     }
 }
 
 setters! {
     SuperpixelOptions {
-        samples: u32 = "the number of samples of a superpixel",
-        pattern: Pattern = "the pattern of the sample locations in a superpixel",
-        coverage: Coverage = "the measure of a triangle's coverage of a superpixel",
-        shading: Shading = "the rate of shading within a superpixel",
+        cells: CellOptions = "the options of sampling a superpixel",
         detection: Detection = "the rule by which a pixel becomes a superpixel",
         contrast: Option<u8> = "the contrast threshold in 8-bit sRGB code values; `None` for the default",
         growths: Option<u8> = "the number of growths; `None` for the default",
@@ -217,12 +268,20 @@ impl Method {
         }
     }
 
+    /// Side of a pixel's grid under supersampling, otherwise 1.
+    pub(crate) fn side(&self) -> u32 {
+        match self {
+            Self::Ssaa { samples } => samples.isqrt(),
+            _ => 1,
+        }
+    }
+
     /// Number of samples of a pixel that is sampled more than once; 1 if the method has no such pixels.
     #[must_use]
     pub fn samples(&self) -> u32 {
         match self {
             Self::None => 1,
-            Self::Superpixel(options) => options.samples,
+            Self::Superpixel(options) => options.cells.samples,
             Self::Ssaa { samples } | Self::Msaa { samples } => *samples,
         }
     }
@@ -231,7 +290,9 @@ impl Method {
     pub(crate) fn offsets(&self) -> Result<Vec<[f32; 2]>, EngineError> {
         match self {
             Self::None | Self::Ssaa { .. } => Ok(vec![[0.0, 0.0]]),
-            Self::Superpixel(options) => Ok(options.pattern.offsets(options.samples)?),
+            Self::Superpixel(options) => {
+                Ok(options.cells.pattern.offsets(options.cells.samples)?)
+            }
             Self::Msaa { samples } => Ok(Pattern::Rotated.offsets(*samples)?),
         }
     }
@@ -247,19 +308,7 @@ impl Method {
         };
         match self {
             Self::None => Ok(()),
-            Self::Superpixel(SuperpixelOptions { samples, .. })
-                if !(1..=1024).contains(samples) =>
-            {
-                refuse("superpixel", "1 to 1024".to_owned())
-            }
-            Self::Superpixel(SuperpixelOptions {
-                growths: Some(asked),
-                ..
-            }) if *asked > SuperpixelOptions::MOST_GROWTHS => Err(EngineError::Growths {
-                asked: *asked,
-                most: SuperpixelOptions::MOST_GROWTHS,
-            }),
-            Self::Superpixel(_) => self.offsets().map(|_| ()),
+            Self::Superpixel(options) => options.check(),
             Self::Ssaa { samples } => {
                 let side = samples.isqrt();
                 if side == 0 || side > 32 || side * side != *samples {

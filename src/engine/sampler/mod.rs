@@ -7,6 +7,7 @@
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 
+mod capacity;
 pub(crate) mod color;
 mod counter_log;
 mod error;
@@ -19,18 +20,22 @@ mod pixel_cells;
 pub(crate) mod plan;
 mod rounds;
 mod settings;
-pub(crate) mod statistics;
+mod statistics;
 pub(crate) mod uniform;
 
+pub(crate) use capacity::{Capacity, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
 pub use load::Load;
-pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions};
+pub use method::{
+    CellOptions, Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions,
+};
 pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
-pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
+pub use settings::{Footprint, PixelRect, Reference};
+pub(crate) use settings::{ImageRequest, SamplerSettings, check_image_size};
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
 use crate::engine::data::{
@@ -46,8 +51,6 @@ use crate::engine::passes::{
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
 use crate::vulkan::{Memory, Recorder, VulkanError};
-use plan::Capacity;
-use statistics::Shortfall;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 
@@ -71,7 +74,7 @@ pub(crate) struct SamplerContext<'a> {
     pub layout: &'a Arc<FrameLayout>,
     pub memory: &'a Memory,
     pub scene: &'a dyn Content,
-    pub settings: &'a Settings,
+    pub settings: &'a SamplerSettings,
     /// Colour constants of `shaders/include/color.glsl`.
     pub output: &'a ColorConstants,
     /// Sizes of the memory in which the sampler works.
@@ -86,22 +89,22 @@ impl SamplerContext<'_> {
     /// largest number of locations in a cell.
     fn sample_options(&self, cells: Cells, samples: u32) -> SampleOptions {
         let (settings, scene, points) = (self.settings, self.scene, cells.are_points());
-        let superpixels = settings.superpixels();
+        let options = &settings.cells;
         SampleOptions {
             cells,
             samples,
-            lines: superpixels.pattern == Pattern::Lines,
+            lines: options.pattern == Pattern::Lines,
             records: if points {
                 RecordRate::Sample
             } else {
-                record_rate(settings, scene)
+                record_rate(options.shading, scene)
             },
-            exact_areas: superpixels.coverage == Coverage::Area && samples > 1 && !points,
+            exact_areas: options.coverage == Coverage::Area && samples > 1 && !points,
             // High-frequency triangles are shaded in many places, so the few samples of a first run would never
             // suffice.
-            can_settle: superpixels.shading != Shading::Part || !scene.is_mostly_high_frequency(),
+            can_settle: options.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             long_lists: self.capacity.long_lists,
-            unlisted: self.capacity.unlisted,
+            samples_unlisted: self.capacity.samples_unlisted,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
             always_blends: false,
@@ -323,7 +326,7 @@ impl Sampler {
             for counters in counted {
                 let [triangles, pairs] = self.capacities;
                 let room = (tiles, triangles, pairs);
-                shortfall.add(counters, room, self.capacity.unlisted);
+                shortfall.add(counters, room, self.capacity.samples_unlisted);
                 shortfall.add_subgroups(counters);
             }
         }
@@ -398,9 +401,9 @@ fn averaging(
     })
 }
 
-/// Rate of visibility samples for the settings' shading.
-pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRate {
-    match settings.superpixels().shading {
+/// Rate of visibility samples for a rate of shading.
+pub(crate) fn record_rate(shading: Shading, scene: &dyn Content) -> RecordRate {
+    match shading {
         Shading::Part if scene.has_high_frequency() => RecordRate::Part,
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,

@@ -5,7 +5,7 @@ use crate::engine::data::{Cells, HostImage};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{SampleOptions, grow, thin};
-use crate::engine::sampler::{Detection, EngineError, Settings, SuperpixelOptions};
+use crate::engine::sampler::{Detection, EngineError, SuperpixelOptions};
 use std::sync::Arc;
 
 /// The pixels of an image that become cells.
@@ -45,18 +45,17 @@ impl DetectMode {
 }
 
 impl PixelCells {
-    /// Superpixels according to the settings.
-    pub fn superpixels(settings: &Settings) -> Self {
-        let options = settings.superpixels();
+    /// Superpixels with these options.
+    pub fn superpixels(options: &SuperpixelOptions) -> Self {
         Self {
             mode: DetectMode::of(options.detection),
             thin: options.thin && options.detection != Detection::Every,
-            folds: options.samples >= SuperpixelOptions::MANY_SAMPLES,
+            folds: options.cells.samples >= SuperpixelOptions::MANY_SAMPLES,
             depth_of_image: [1.0, 0.0],
             blend_ids: true,
             multisampled: false,
-            samples: options.samples,
-            growths: settings.growths(),
+            samples: options.cells.samples,
+            growths: options.growth_count(),
             detected: false,
             behind: None,
         }

@@ -1,9 +1,8 @@
 //! Plan of an image: its regions, each within the device's limits and the allowed memory.
 
-use super::statistics::Shortfall;
-use super::{EngineError, Method, RoundPolicy, Settings, Shading};
+use super::capacity::Capacity;
+use super::{CellOptions, EngineError, ImageRequest, Method, RoundPolicy, Shading};
 use crate::engine::data::{Content, ResourceSizes};
-use crate::engine::passes::LongLists;
 use crate::engine::passes::spirv::FILTER_TRIANGLES;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
@@ -78,107 +77,6 @@ pub(crate) struct Plan {
     pub lists_can_grow: bool,
 }
 
-/// Capacity of a frame. It is raised if a frame turns out to need more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Capacity {
-    /// Number of BLEND layers of a list for which tiles are admitted; half of the number of lists in a block.
-    pub layers: u32,
-    /// Factor for the room for candidates and pairs.
-    pub lists: u32,
-    /// Factor on the number of recorded rounds that images usually need; `None` to record all rounds that any image may
-    /// need.
-    pub rounds: Option<u32>,
-    /// How cells with long lists of candidates are sampled.
-    pub long_lists: LongLists,
-    /// Whether tiles without a list of candidates are sampled.
-    pub unlisted: bool,
-}
-
-impl Capacity {
-    /// Number of BLEND layers of a list for which a frame is first planned.
-    pub const LAYERS: u32 = 4;
-
-    /// This capacity with `factor` times the room for candidates.
-    pub fn with_lists(self, factor: u32) -> Self {
-        Self {
-            lists: self.lists.saturating_mul(factor.next_power_of_two()),
-            ..self
-        }
-    }
-
-    /// Capacity for the first frame on a device.
-    pub fn first(policy: RoundPolicy) -> Self {
-        Self {
-            rounds: match policy {
-                RoundPolicy::Small => None,
-                RoundPolicy::Large { .. } => Some(1),
-            },
-            ..Self::default()
-        }
-    }
-
-    /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may
-    /// take longer than a frame.
-    pub fn without_unlisted(self) -> Self {
-        Self {
-            unlisted: false,
-            ..self
-        }
-    }
-
-    /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
-    /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
-    /// because testing every triangle takes long.
-    pub fn more(self, shortfall: Shortfall) -> Self {
-        let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
-        let unshadowed = shortfall.unshadowed > 0;
-        // The counters don't say what passes of lights lacked. Rounds are raised first, as long as there are few.
-        let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
-        let crowded = shortfall.crowded > 0;
-        // Lists are lengthened next, and layers are raised last.
-        let deeper = of_lights && self.long_lists == LongLists::Scattered;
-        let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
-        let rounds = factor(shortfall.waiting > 0, 2)
-            .max(factor(unshadowed, 4))
-            .max(shortfall.rounds.next_power_of_two());
-        Self {
-            layers: self
-                .layers
-                .saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
-            rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
-            long_lists: if of_lights || shortfall.stalled > 0 {
-                self.long_lists.shorter()
-            } else {
-                self.long_lists
-            },
-            unlisted: self.unlisted
-                || (shortfall.unlisted > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
-            ..self.with_lists(lists.max(shortfall.rooms))
-        }
-    }
-
-    /// Number of visibility samples for `samples` samples with all layers; 0 if the frame is not known to need more
-    /// layers than usual.
-    pub fn layered(&self, samples: u64) -> u64 {
-        match self.layers {
-            Self::LAYERS => 0,
-            layers => samples * (2 + u64::from(layers)),
-        }
-    }
-}
-
-impl Default for Capacity {
-    fn default() -> Self {
-        Self {
-            layers: Self::LAYERS,
-            lists: 1,
-            rounds: None,
-            long_lists: LongLists::default(),
-            unlisted: true,
-        }
-    }
-}
-
 /// Distance in pixels within which pixels affect each other: a pixel is compared with its neighbours, which may have
 /// become superpixels because of their own neighbours, and so on.
 const NEIGHBOURS: u32 = 3;
@@ -187,8 +85,6 @@ const NEIGHBOURS: u32 = 3;
 const REGION_PIXELS: u64 = 4 << 20;
 /// Number of pixels below which a region is not divided to make it faster.
 const SMALL_REGION_PIXELS: u64 = 1 << 12;
-/// Factor for the number of rounds from which on more rounds no longer help.
-const MANY_ROUNDS: u32 = 8;
 /// Number of point samples that take as long as the lines of a superpixel.
 const LINES_AS_POINTS: u32 = 64;
 /// Factor for the cost of a sample with shadows: the sample is projected once for each light, on up to six planes.
@@ -215,8 +111,7 @@ pub(crate) fn most_records(limits: &Limits) -> u64 {
 }
 
 /// Average number of visibility samples for which a superpixel has room.
-pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
-    let options = settings.superpixels();
+pub(crate) fn records_of_superpixel(options: &CellOptions, scene: &dyn Content) -> u64 {
     let samples = u64::from(options.samples);
     let usual = if options.shading == Shading::Sample || scene.has_blend() {
         samples.min(64)
@@ -229,26 +124,26 @@ pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) ->
 impl Plan {
     /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer for a host's image (0 without one), and
     /// its places have `shadow_words` shadow words. `taken` returns, for memory of some sizes, the bytes that others
-    /// use of the memory that the settings allow.
+    /// use of the memory that the request allows.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if not even a region of 8 x 8 pixels fits.
     pub fn new(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         (encoded_bytes, shadow_words): (u64, u32),
         capacity: Capacity,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> Result<Self, EngineError> {
-        let side = settings.side();
-        let [width, height] = settings.size;
-        let samples_a_pixel = match settings.method {
+        let side = image.method.side();
+        let [width, height] = image.size;
+        let samples_a_pixel = match image.method {
             // A line of 64 samples takes as long as a few points.
-            Method::Superpixel(ref options) if options.pattern == Pattern::Lines => {
-                u64::from(options.samples.min(LINES_AS_POINTS))
+            Method::Superpixel(options) if options.cells.pattern == Pattern::Lines => {
+                u64::from(options.cells.samples.min(LINES_AS_POINTS))
             }
-            Method::Superpixel(_) | Method::Msaa { .. } => u64::from(settings.method.samples()),
+            Method::Superpixel(_) | Method::Msaa { .. } => u64::from(image.method.samples()),
             Method::None | Method::Ssaa { .. } => 1,
         };
         let lights = if shadow_words > 0 { SHADOWED } else { 1 };
@@ -257,13 +152,13 @@ impl Plan {
             .max(SMALL_REGION_PIXELS);
         let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
-        let allowed = settings.max_memory;
+        let allowed = image.max_memory;
         loop {
             let mut plan =
-                Self::with_region(settings, scene, limits, encoded_bytes, capacity, region)?;
+                Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
-            let needed = plan.shrink(scene, settings, taken);
+            let needed = plan.shrink(scene, image, taken);
             let fits = pixels <= most
                 && plan.sizes.largest_storage() <= limits.max_storage_bytes
                 && plan.sizes.largest_texels() <= limits.max_texel_elements;
@@ -287,16 +182,16 @@ impl Plan {
     /// # Errors
     /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
     pub fn whole(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         capacity: Capacity,
         taken: u64,
     ) -> Result<Self, EngineError> {
-        let mut plan = Self::with_region(settings, scene, limits, 0, capacity, settings.size)?;
-        let needed = plan.shrink(scene, settings, &|_| taken);
+        let mut plan = Self::with_region(image, scene, limits, 0, capacity, image.size)?;
+        let needed = plan.shrink(scene, image, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
-        match settings.max_memory {
+        match image.max_memory {
             Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
             _ => Ok(plan),
         }
@@ -307,13 +202,13 @@ impl Plan {
     fn shrink(
         &mut self,
         scene: &dyn Content,
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> u64 {
-        let all = |plan: &Self| plan.bytes(scene, settings) + taken(&plan.sizes);
+        let all = |plan: &Self| plan.bytes(scene, image) + taken(&plan.sizes);
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
-        while settings.max_memory.is_some_and(|allowed| needed > allowed)
+        while image.max_memory.is_some_and(|allowed| needed > allowed)
             && self.sizes.record_capacity > 1 << 16
         {
             self.sizes.record_capacity /= 2;
@@ -324,16 +219,16 @@ impl Plan {
     }
 
     fn with_region(
-        settings: &Settings,
+        image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
         encoded_bytes: u64,
         capacity: Capacity,
         region: [u32; 2],
     ) -> Result<Self, EngineError> {
-        let [width, height] = settings.size;
-        let side = settings.side();
-        let detects = matches!(settings.method, Method::Superpixel(_));
+        let [width, height] = image.size;
+        let side = image.method.side();
+        let detects = matches!(image.method, Method::Superpixel(_));
         let mut regions = Vec::new();
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
@@ -357,18 +252,18 @@ impl Plan {
             let [w, h] = r.outer();
             [most[0].max(w * side), most[1].max(h * side)]
         });
-        if let Some(wanted) = settings.region {
-            let end = wanted.end(settings.size)?;
+        if let Some(wanted) = image.region {
+            let end = wanted.end(image.size)?;
             regions.retain_mut(|region| region.keep(wanted.corner, end));
         }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
-        let samples = u64::from(settings.method.samples());
+        let samples = u64::from(image.method.samples());
         let policy = RoundPolicy::of(limits);
-        let records = match settings.method {
-            Method::Superpixel(_) => {
+        let records = match image.method {
+            Method::Superpixel(options) => {
                 let most = policy.most_records(limits);
-                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, most)
+                (pixels * records_of_superpixel(&options.cells, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
@@ -406,7 +301,7 @@ impl Plan {
         };
         let filters = limits.device_type == vk::PhysicalDeviceType::CPU
             && limits.has_subgroups_of(limits.lanes)
-            && !matches!(settings.method, Method::Msaa { .. })
+            && !matches!(image.method, Method::Msaa { .. })
             && scene.triangle_slots() >= FILTER_TRIANGLES
             && triangles * 12 <= limits.max_storage_bytes;
         let sizes = ResourceSizes {
@@ -422,7 +317,7 @@ impl Plan {
             record_capacity: records as u32,
             filtered: filtered as u32,
             shadow_words: 0,
-            attributes: settings.attributes,
+            attributes: image.attributes,
             encoded: encoded_bytes * pixels,
         };
         Ok(Self {
@@ -433,84 +328,13 @@ impl Plan {
         })
     }
 
-    fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {
-        let samples = match settings.method {
-            Method::Msaa { samples } => u64::from(samples),
+    fn bytes(&self, scene: &dyn Content, image: &ImageRequest<'_>) -> u64 {
+        let samples = match image.method {
+            Method::Msaa { samples } => u64::from(*samples),
             _ => 1,
         };
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
         self.sizes.bytes() + images
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::data::Counter;
-
-    /// A frame that dropped triangles reports how many. The next frame then has lists that are long enough, instead of
-    /// repeatedly too short ones.
-    #[test]
-    fn lists_grow_to_what_they_are_known_to_need() {
-        const ROOM: u32 = 1 << 14;
-        let mut counters = [0; Counter::COUNT];
-        counters[Counter::Survivors as usize] = 70 * ROOM + 1;
-        let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, ROOM, 1), false);
-        assert_eq!(Capacity::default().more(shortfall).lists, 128);
-        counters = [0; Counter::COUNT];
-        counters[Counter::Pairs as usize] = 5 * ROOM;
-        let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, 1, ROOM), false);
-        assert_eq!(Capacity::default().more(shortfall).lists, 8);
-        // A shortage of unknown size multiplies only the capacity that was short.
-        let crowded = Shortfall {
-            crowded: 1,
-            ..Shortfall::default()
-        };
-        let more = Capacity::default().without_unlisted().more(crowded);
-        assert_eq!((more.layers, more.lists, more.unlisted), (16, 4, false));
-        let unlisted = Shortfall {
-            unlisted: 1,
-            ..Shortfall::default()
-        };
-        assert_eq!(
-            Capacity::default().without_unlisted().more(unlisted),
-            Capacity::default()
-        );
-        // If pairs lacked room, tiles without a list may get one once there is room.
-        let outgrown = Shortfall {
-            unlisted: 1,
-            rooms: 2,
-            ..Shortfall::default()
-        };
-        let more = Capacity::default().without_unlisted().more(outgrown);
-        assert_eq!((more.lists, more.unlisted), (2, false));
-        assert!(more.more(outgrown).unlisted);
-        // Lights may lack rounds.
-        let unshadowed = Shortfall {
-            unshadowed: 1,
-            ..Shortfall::default()
-        };
-        let few = Capacity {
-            rounds: Some(2),
-            ..Capacity::default()
-        };
-        let more = few.more(unshadowed);
-        let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
-        assert_eq!(unlike(&more), (Some(8), 1, LongLists::Together));
-        let longer = more.more(unshadowed);
-        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::Apart));
-        let late = Shortfall {
-            waiting: 5,
-            rounds: 3,
-            ..Shortfall::default()
-        };
-        assert_eq!(few.more(late).rounds, Some(8));
-        assert_eq!(
-            Capacity::default().more(Shortfall::default()),
-            Capacity::default()
-        );
     }
 }

@@ -1,8 +1,6 @@
-//! Statistics of a frame, and the work that it left unfinished.
+//! Statistics of a frame.
 
-use super::EngineError;
 use crate::engine::data::Counter;
-use crate::vulkan::VulkanError;
 
 /// Time of a pass on the device.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,89 +118,5 @@ impl Statistics {
         self.triangles.backfacing += get(Counter::Backfacing);
         self.triangles.degenerate += get(Counter::Degenerate);
         self.triangles.untouching += get(Counter::Untouching);
-    }
-}
-
-/// Work that the sampling passes could not finish, by the lacking resource.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Shortfall {
-    /// Number of tiles that no round processed.
-    pub waiting: u64,
-    /// Factor by which the number of rounds would have to grow for the waiting tiles, if these need as much as others.
-    pub rounds: u32,
-    /// Number of cells whose visibility samples did not fit into their round.
-    pub crowded: u64,
-    /// Number of cells with more candidates than a loop may process.
-    pub stalled: u64,
-    /// Number of tiles without a list that were skipped, because the frame has no kernel for them.
-    pub unlisted: u64,
-    /// Number of triangles that did not fit into the list of triangles that may touch a cell, or into the list of thin
-    /// triangles.
-    pub dropped: u64,
-    /// Number of tiles, triangles and cells of lights' views that were not processed.
-    pub unshadowed: u64,
-    /// Factor by which the room would have to grow to hold the dropped triangles and all pairs of a triangle and a
-    /// tile.
-    pub rooms: u32,
-    /// Whether the device ran kernels with another subgroup size than they were made for; more capacity does not help
-    /// then.
-    pub other_subgroups: bool,
-}
-
-impl Shortfall {
-    /// Adds a run of the sampling passes over `tiles` tiles, with room for `triangles` triangles and `pairs` pairs.
-    /// `samples_unlisted` says whether tiles without a list were sampled or skipped.
-    pub fn add(
-        &mut self,
-        counters: &[u32],
-        (tiles, triangles, pairs): (u32, u32, u32),
-        samples_unlisted: bool,
-    ) {
-        let get = |counter: Counter| counter.of(counters);
-        if get(Counter::Tiles) != 0 {
-            let done = get(Counter::NextTile);
-            self.waiting += u64::from(tiles.saturating_sub(done));
-            self.rounds = self.rounds.max(tiles.div_ceil(done.max(1)));
-        }
-        self.crowded += u64::from(get(Counter::Unfinished));
-        self.stalled += u64::from(get(Counter::Stalled));
-        if !samples_unlisted {
-            self.unlisted += u64::from(get(Counter::UnlistedTotal));
-        }
-        let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
-        let thin = get(Counter::Thin).saturating_add(get(Counter::ThinLong));
-        let listed = survivors.max(thin);
-        self.dropped += u64::from(listed.saturating_sub(triangles));
-        let needed = [(listed, triangles), (get(Counter::Pairs), pairs)];
-        let rooms = needed.map(|(needed, room)| needed.div_ceil(room.max(1)));
-        self.rooms = self.rooms.max(rooms[0]).max(rooms[1]);
-    }
-
-    /// Adds the counter of wrong subgroup sizes, which may be read at any later time.
-    pub fn add_subgroups(&mut self, counters: &[u32]) {
-        self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
-    }
-
-    /// Number of cells and tiles that were not finished.
-    pub fn left(&self) -> u64 {
-        let of_lights = self.unshadowed;
-        self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped + of_lights
-    }
-
-    /// Returns an error if kernels that need subgroups of `lanes` invocations ran in others.
-    pub fn check_subgroups(&self, lanes: u32) -> Result<(), VulkanError> {
-        if self.other_subgroups {
-            return Err(VulkanError::Subgroups { lanes });
-        }
-        Ok(())
-    }
-
-    /// Returns an error if any work was not finished.
-    pub fn check(&self, lanes: u32) -> Result<(), EngineError> {
-        self.check_subgroups(lanes)?;
-        match self.left() {
-            0 => Ok(()),
-            cells => Err(EngineError::Unfinished { cells }),
-        }
     }
 }

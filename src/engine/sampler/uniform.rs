@@ -1,6 +1,6 @@
 //! Uniform block of the sampling passes, which all of their clients make here.
 
-use super::Settings;
+use super::SamplerSettings;
 use super::footprint::Footprints;
 use crate::engine::data::{FrameUniform, ResourceSizes};
 
@@ -44,6 +44,8 @@ pub(crate) struct PlaneBlock {
     /// Depth difference of two surfaces that are a pixel's width apart along the line of sight: a factor on the depth,
     /// and a constant.
     pub gap: [f32; 2],
+    /// Contrast threshold of detection in code values; 0 for a plane without detection.
+    pub contrast: u32,
     /// Largest difference, in code values, of colours around a pixel for which a triangle is still shaded once.
     pub alike: u32,
     /// Number of pixels of the plane along a side of an output pixel.
@@ -62,6 +64,7 @@ impl Default for PlaneBlock {
             size: [1; 2],
             interior: [[0; 2]; 2],
             gap: [0.0; 2],
+            contrast: 0,
             alike: 0,
             side: 1,
             seen_corner: [0; 2],
@@ -74,7 +77,7 @@ impl Default for PlaneBlock {
 pub(crate) fn frame_uniform(
     scene: &SceneBlock,
     plane: &PlaneBlock,
-    settings: &Settings,
+    settings: &SamplerSettings,
     (samples, footprints): (u32, &Footprints),
     sizes: &ResourceSizes,
 ) -> FrameUniform {
@@ -106,7 +109,7 @@ pub(crate) fn frame_uniform(
         bin_count: scene.bin_count,
         light_count: scene.light_count,
         material_vectors: scene.material_vectors,
-        contrast: u32::from(settings.superpixels().threshold()),
+        contrast: plane.contrast,
         alike: plane.alike,
         exposure: settings.exposure.exp2(),
         footprint: footprints.centre,

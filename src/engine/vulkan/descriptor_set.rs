@@ -13,13 +13,13 @@ pub struct Texels {
 
 /// A buffer, the texels of one, or an image, for a descriptor.
 #[derive(Clone, Copy, Debug)]
-pub enum Shown {
+pub enum Descriptor {
     Buffer(vk::DescriptorBufferInfo),
     Texels(Texels),
     Image(vk::DescriptorImageInfo),
 }
 
-impl Shown {
+impl Descriptor {
     /// The buffer; null for an image.
     fn buffer(&self) -> vk::Buffer {
         match self {
@@ -30,19 +30,19 @@ impl Shown {
     }
 }
 
-impl From<Texels> for Shown {
+impl From<Texels> for Descriptor {
     fn from(texels: Texels) -> Self {
         Self::Texels(texels)
     }
 }
 
-impl From<vk::DescriptorBufferInfo> for Shown {
+impl From<vk::DescriptorBufferInfo> for Descriptor {
     fn from(info: vk::DescriptorBufferInfo) -> Self {
         Self::Buffer(info)
     }
 }
 
-impl From<&Buffer> for Shown {
+impl From<&Buffer> for Descriptor {
     /// The whole buffer.
     fn from(buffer: &Buffer) -> Self {
         Self::Buffer(
@@ -54,7 +54,7 @@ impl From<&Buffer> for Shown {
 }
 
 /// Binding with what it shows.
-pub type ShownBinding = (Binding, Shown);
+pub type BoundDescriptor = (Binding, Descriptor);
 
 /// Descriptor sets that show the same data to several passes: a set for each layout, with the bindings that passes of
 /// this layout use.
@@ -145,14 +145,14 @@ impl DescriptorSets {
     /// # Safety
     /// No pending commands use the sets, the descriptor types of the bindings match, and buffers and images outlive the
     /// use of the sets. The caller is responsible for the images' layouts and barriers.
-    pub unsafe fn write(&mut self, shown: &[ShownBinding]) {
+    pub unsafe fn write(&mut self, shown: &[BoundDescriptor]) {
         let writes = shown.iter().flat_map(|(binding, shown)| {
             self.at(*binding).map(move |write| match shown {
-                Shown::Buffer(info) => write.buffer_info(std::slice::from_ref(info)),
-                Shown::Texels(texels) => {
+                Descriptor::Buffer(info) => write.buffer_info(std::slice::from_ref(info)),
+                Descriptor::Texels(texels) => {
                     write.texel_buffer_view(std::slice::from_ref(&texels.view))
                 }
-                Shown::Image(info) => write.image_info(std::slice::from_ref(info)),
+                Descriptor::Image(info) => write.image_info(std::slice::from_ref(info)),
             })
         });
         // SAFETY: guaranteed by the caller.

@@ -203,7 +203,7 @@ impl Memory {
         format: vk::Format,
         usage: vk::BufferUsageFlags,
         location: MemoryUse,
-    ) -> Result<BufferView, VulkanError> {
+    ) -> Result<TexelBuffer, VulkanError> {
         let limit = self.gpu.limits().max_texel_elements;
         VulkanError::check_limit(name, elements, "elements", limit)?;
         let bytes = match format {
@@ -219,7 +219,7 @@ impl Memory {
         // SAFETY: the buffer is bound to memory and was created for texel access.
         let view = unsafe { self.gpu.device.create_buffer_view(&info, None) }
             .map_err(VulkanError::of("vkCreateBufferView"))?;
-        Ok(BufferView { buffer, view })
+        Ok(TexelBuffer { buffer, view })
     }
 
     /// Makes an image with a view of all its levels and layers; the view is a cube if the image is cube-compatible.
@@ -345,13 +345,13 @@ impl Drop for Buffer {
 }
 
 /// A buffer with a view of its texels.
-pub struct BufferView {
+pub struct TexelBuffer {
     /// The viewed buffer.
     pub buffer: Buffer,
     pub(crate) view: vk::BufferView,
 }
 
-impl BufferView {
+impl TexelBuffer {
     /// The view, for a descriptor.
     pub(crate) fn texels(&self) -> Texels {
         Texels {
@@ -361,7 +361,7 @@ impl BufferView {
     }
 }
 
-impl Drop for BufferView {
+impl Drop for TexelBuffer {
     fn drop(&mut self) {
         // SAFETY: as for the buffer, which outlives its view here.
         unsafe { self.buffer.gpu.device.destroy_buffer_view(self.view, None) };

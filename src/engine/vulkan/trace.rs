@@ -17,7 +17,7 @@ pub(crate) enum Dispatched {
 
 /// A dispatch, or consecutive draws of the same pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Dispatch {
+pub(crate) struct TracedDispatch {
     pub interface: &'static Interface,
     pub size: Dispatched,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Dispatch {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Traced {
     /// Dispatches and draws; of consecutive rounds, only those of the first.
-    pub dispatches: Vec<Dispatch>,
+    pub dispatches: Vec<TracedDispatch>,
     /// Number of all dispatches.
     pub dispatch_count: u64,
     /// Number of all barriers.
@@ -66,7 +66,7 @@ impl Gpu {
         let is_drawn = size == Dispatched::Drawn;
         traced.dispatch_count += u64::from(!is_drawn);
         let interface = pipeline.interface();
-        let dispatch = Dispatch { interface, size };
+        let dispatch = TracedDispatch { interface, size };
         let continues = is_drawn && traced.dispatches.last() == Some(&dispatch);
         if is_listed && !continues {
             traced.dispatches.push(dispatch);

@@ -6,4 +6,5 @@ mod scene;
 
 pub use geometry::FrameGeometry;
 pub use output_cells::{OutputCells, OutputPlane};
-pub use scene::{FrameLook, GpuScene, SceneUploads, ShadeFeatures};
+pub(in crate::render) use scene::MaterialBin;
+pub use scene::{FrameLook, GpuScene, SceneUploads};

@@ -15,8 +15,8 @@ use crate::camera::Camera;
 use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::{Capacity, Plan};
-use crate::engine::sampler::{CounterLog, with_probes};
+use crate::engine::sampler::plan::Plan;
+use crate::engine::sampler::{Capacity, CounterLog, SamplerSettings, with_probes};
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::Encoding;
 use crate::scene::Moment;
@@ -38,6 +38,7 @@ pub struct Frame {
     encoding: Option<Encoding>,
     reserved: u64,
     settings: Settings,
+    sampler: SamplerSettings,
     plan: Plan,
     passes: Passes,
     targets: RasterTargets,
@@ -55,7 +56,8 @@ pub struct Frame {
 
 /// Number of pixels of the whole image at the resolution that is rasterized.
 fn drawn_pixels(settings: &Settings) -> u64 {
-    let drawn = settings.size.map(|side| u64::from(side * settings.side()));
+    let side = settings.method.side();
+    let drawn = settings.size.map(|pixels| u64::from(pixels * side));
     drawn.into_iter().product()
 }
 
@@ -69,8 +71,9 @@ impl Frame {
         capacity: Capacity,
         reserved: u64,
     ) -> Result<Self, RenderError> {
-        let settings = &settings.with_shadowed_samples();
-        let casters = match settings.shadows {
+        let settings = &settings.clone().with_shadowed_samples();
+        let sampler = settings.sampler();
+        let casters = match settings.scene.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
         };
@@ -80,11 +83,11 @@ impl Frame {
         let pixels = drawn_pixels(settings);
         let of_others = |sizes: &ResourceSizes| {
             let bytes =
-                |casters| ShadowFinder::bytes(layout, casters, settings, capacity, (pixels, sizes));
+                |casters| ShadowFinder::bytes(layout, casters, &sampler, capacity, (pixels, sizes));
             beside_regions + casters.map_or(0, |casters| bytes(casters))
         };
         let plan = Plan::new(
-            settings,
+            &settings.image(),
             &**scene,
             gpu.limits(),
             (
@@ -96,7 +99,10 @@ impl Frame {
         )?;
         let memory = Memory::new(
             gpu.clone(),
-            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
+            settings
+                .scene
+                .max_memory
+                .map(|limit| limit.saturating_sub(taken)),
         );
         let [width, height] = plan.sizes.region;
         let targets = RasterTargets::new(
@@ -130,11 +136,18 @@ impl Frame {
             plan.sizes,
             &[centre, offsets],
         )?;
-        let passes = Passes::new(layout, &memory, scene, settings, &plan, encoding)?;
+        let passes = Passes::new(
+            layout,
+            &memory,
+            scene,
+            (settings, &sampler),
+            &plan,
+            encoding,
+        )?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
             ShadowFinder::new(
-                layout, &memory, casters, settings, capacity, shading, pixels,
+                layout, &memory, casters, &sampler, capacity, shading, pixels,
             )
         };
         let shadows = casters.map(shadows).transpose()?;
@@ -151,8 +164,9 @@ impl Frame {
             look,
             resources,
             counters: CounterLog::new(&memory, 1)?,
-            timings: Timings::new(&gpu).with_repetitions(settings.time_rounds),
+            timings: Timings::new(&gpu).with_repetitions(settings.scene.time_rounds),
             settings: settings.clone(),
+            sampler,
             plan,
             completion: Completion::new(&gpu)?,
             memory,
@@ -212,7 +226,7 @@ impl Frame {
 
     /// Whether [`Capacity::with_lists`] makes a difference.
     pub(super) fn lists_can_grow(&self) -> bool {
-        self.plan.lists_can_grow && self.settings.max_memory.is_none()
+        self.plan.lists_can_grow && self.settings.scene.max_memory.is_none()
     }
 
     /// Bytes of device memory of the frame, without its scene.
@@ -279,11 +293,12 @@ impl Frame {
             self.look.record(&recorder);
         }
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
-        let side = self.settings.side();
+        let side = self.settings.method.side();
         let image = self.settings.size.map(|pixels| pixels * side);
         self.geometry.place(&self.scene, &to_clip, Some(image));
         let recording = Recording {
             settings: &self.settings,
+            sampler: &self.sampler,
             plan: &self.plan,
             passes: &self.passes,
             targets: &self.targets,

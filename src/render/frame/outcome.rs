@@ -1,7 +1,7 @@
 //! Counters of a frame, read once its commands have run.
 
 use super::Frame;
-use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 
 impl Frame {
@@ -24,7 +24,7 @@ impl Frame {
 
     /// Number of tiles of each region.
     fn tiles(&self) -> impl Iterator<Item = u32> {
-        let side = self.settings.side();
+        let side = self.settings.method.side();
         self.plan.regions.iter().map(move |region| {
             let [width, height] = region.outer().map(|pixels| pixels * side);
             width.div_ceil(8) * height.div_ceil(4)

@@ -5,10 +5,10 @@ use crate::engine::passes::detect::DetectMode;
 use crate::engine::passes::{Raster, RecordRate, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::Plan;
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerSettings, record_rate};
 use crate::render::data::GpuScene;
-use crate::render::passes::{Encoding, Pose, Shade, ShadeSource, Stroke};
-use crate::render::passes::{attributes, box_filter, encode, multisample, spans};
+use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
+use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
 use crate::vulkan::Memory;
 use ash::vk;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Passes that shade the centres of pixels.
 pub(super) struct PixelShading {
     pub spans: Pass,
-    pub shade: Shade,
+    pub shade: Pass,
 }
 
 /// Passes that turn the device's multisampling into colours.
@@ -29,13 +29,13 @@ pub(super) struct Multisampling {
 
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
-    pub pose: Option<Pose>,
-    pub stroke: Option<Stroke>,
+    pub pose: Option<PosePass>,
+    pub stroke: Option<StrokePass>,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
     /// Shading of visibility samples, shared by samplers and multisampling.
-    pub shade: Option<Arc<Shade>>,
+    pub shade: Option<Arc<Pass>>,
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
     pub attributes: Option<Pass>,
@@ -60,29 +60,32 @@ impl Passes {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &GpuScene,
-        settings: &Settings,
+        (settings, sampler): (&Settings, &SamplerSettings),
         plan: &Plan,
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
-        let output = settings.color_constants(scene);
+        let output = sampler.color_constants(scene);
         let multisampled = matches!(settings.method, Method::Msaa { .. });
         let antialiased = matches!(settings.method, Method::Superpixel(_));
-        let detection = settings.superpixels().detection;
+        let superpixels = settings.superpixels();
+        let detection = superpixels.detection;
+        let grows = antialiased && superpixels.growth_count() > 0;
+        let side = settings.method.side();
         let compares = !matches!(detection, Detection::Exact | Detection::Every);
-        let by_part = record_rate(settings, scene) == RecordRate::Part;
+        let by_part = record_rate(sampler.cells.shading, scene) == RecordRate::Part;
         let words = plan.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
                 spans: spans::pass(layout, scene)?,
-                shade: Shade::new(layout, scene, (source, words), &output)?,
+                shade: shade::pass(layout, scene, (source, words), &output)?,
             })
         };
         const SUPERPIXELS: ShadeSource = ShadeSource::Records {
             cells: Cells::Pixels,
         };
-        let shading = || Shade::new(layout, scene, (SUPERPIXELS, words), &output);
+        let shading = || shade::pass(layout, scene, (SUPERPIXELS, words), &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) = rayon::join(
             || (!multisampled).then(pixels).transpose(),
@@ -93,7 +96,7 @@ impl Passes {
             layout,
             memory,
             scene,
-            settings,
+            settings: sampler,
             output: &output,
             sizes: &plan.sizes,
             capacity: plan.capacity,
@@ -110,10 +113,10 @@ impl Passes {
             },
             growths: 0,
             detected: display_codes,
-            ..PixelCells::superpixels(settings)
+            ..PixelCells::superpixels(&superpixels)
         };
         let blended = || blended.sampler(&context);
-        let superpixels = || PixelCells::superpixels(settings).sampler(&context);
+        let antialiasing = || PixelCells::superpixels(&superpixels).sampler(&context);
         let multisampling = || -> Result<_, RenderError> {
             Ok(Multisampling {
                 multisample: multisample::pass(layout)?,
@@ -122,10 +125,10 @@ impl Passes {
             })
         };
         Ok(Self {
-            pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
+            pose: scene.moves().then(|| PosePass::new(layout)).transpose()?,
             stroke: scene
                 .has_strokes()
-                .then(|| Stroke::new(layout))
+                .then(|| StrokePass::new(layout))
                 .transpose()?,
             raster: Raster::new(
                 layout,
@@ -137,13 +140,13 @@ impl Passes {
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
             blended: scene.has_blend().then(blended).transpose()?,
-            superpixels: antialiased.then(superpixels).transpose()?,
+            superpixels: antialiased.then(antialiasing).transpose()?,
             attributes: settings
                 .attributes
-                .then(|| attributes::pass(layout, scene, antialiased, settings.growths() > 0))
+                .then(|| attributes::pass(layout, scene, antialiased, grows))
                 .transpose()?,
-            box_filter: (settings.side() > 1)
-                .then(|| box_filter::pass(layout, settings.side()))
+            box_filter: (side > 1)
+                .then(|| box_filter::pass(layout, side))
                 .transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)

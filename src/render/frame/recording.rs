@@ -6,12 +6,13 @@ use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
 use crate::engine::data::Resources;
 use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::pipelines::Pass;
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
-use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun};
+use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
-use crate::render::passes::{Receiving, Shade, StrokeSizes};
+use crate::render::passes::{Receiving, StrokeSizes};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::Recorder;
@@ -26,6 +27,7 @@ const OFFSETS: usize = 1;
 /// A recording of a frame: the frame's parts, borrowed without its timings, with the camera and the target.
 pub(super) struct Recording<'a> {
     pub settings: &'a Settings,
+    pub sampler: &'a SamplerSettings,
     pub plan: &'a Plan,
     pub passes: &'a Passes,
     pub targets: &'a RasterTargets,
@@ -41,8 +43,7 @@ pub(super) struct Recording<'a> {
 
 /// Shading of a scene's materials, as the engine calls it.
 pub(in crate::render) struct SceneShading<'a> {
-    pub scene: &'a GpuScene,
-    pub shade: Option<&'a Shade>,
+    pub shade: Option<&'a Pass>,
     /// Passes that find which lights reach a place; `None` without shadows.
     pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
 }
@@ -53,7 +54,7 @@ impl RecordShading for SceneShading<'_> {
             shadows.record(recorder, shadowed, Receiving::Records);
         }
         if let Some(shade) = self.shade {
-            shade.record(recorder, self.scene);
+            shade.record(recorder);
         }
     }
 
@@ -115,7 +116,7 @@ impl Recording<'_> {
         let whole = self.uniform(region, main.count(), false);
         let [width, height] = whole.size;
         let pixels = width * height;
-        let side = self.settings.side();
+        let side = self.settings.method.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
         let views = self.light_views(region).unwrap_or_default();
@@ -126,7 +127,6 @@ impl Recording<'_> {
             views: &views,
         };
         let shading_of = |set| SceneShading {
-            scene,
             shade: passes.shade.as_deref(),
             shadows: self.shadows.map(|shadows| (shadows, shadowed(set))),
         };
@@ -138,12 +138,7 @@ impl Recording<'_> {
         }
         if let (0, Some(stroke)) = (index, &passes.stroke) {
             let to_clip = to_clip(scene, self.camera, self.settings);
-            let sizes = StrokeSizes {
-                line_width: self.settings.line_width,
-                point_size: self.settings.point_size,
-                edge_width: self.settings.edge_width,
-                side,
-            };
+            let sizes = StrokeSizes::new(&self.settings.scene, side);
             stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
         }
         passes.raster.record(
@@ -165,7 +160,7 @@ impl Recording<'_> {
             if let Some(shadows) = self.shadows {
                 shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
             }
-            shade.record(recorder, scene);
+            shade.record(recorder);
         }
         if let Some(Multisampling {
             multisample,

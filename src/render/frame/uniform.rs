@@ -15,12 +15,13 @@ impl Recording<'_> {
     /// region can become superpixels; the pixels of its halo can't.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
-        let side = self.settings.side();
+        let side = self.settings.method.side();
         let image = self.settings.size.map(|pixels| f64::from(pixels * side));
         let corner = region.corner().map(|pixel| f64::from(pixel * side));
         let size = region.outer().map(|pixels| pixels * side);
         let low = region.first_wanted().map(|place| place * side);
         let wanted = region.size().map(|pixels| pixels * side);
+        let threshold = u32::from(self.settings.superpixels().threshold());
         let plane = PlaneBlock {
             transform: to_clip(scene, camera, self.settings)
                 .as_mat4()
@@ -33,15 +34,16 @@ impl Recording<'_> {
                 [[0, 0], size]
             },
             gap: gap(camera, image[1]),
-            alike: u32::from(self.settings.superpixels().threshold()),
+            contrast: threshold,
+            alike: threshold,
             side,
             ..PlaneBlock::default()
         };
-        let footprints = Footprints::new(self.settings, samples);
+        let footprints = Footprints::new(self.sampler.filter, samples);
         frame_uniform(
             &SceneBlock::of(scene, &camera.into()),
             &plane,
-            self.settings,
+            self.sampler,
             (samples, &footprints),
             &self.plan.sizes,
         )
@@ -50,7 +52,8 @@ impl Recording<'_> {
 
 /// Matrix from a scene's coordinates to the image's clip space, with x and y in pixels.
 pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) -> DMat4 {
-    let [width, height] = settings.size.map(|side| f64::from(side * settings.side()));
+    let side = settings.method.side();
+    let [width, height] = settings.size.map(|pixels| f64::from(pixels * side));
     camera.pixel_matrix(scene.origin(), width, height)
 }
 

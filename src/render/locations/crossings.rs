@@ -1,5 +1,6 @@
 //! Search for thin triangles that cross the cells of locations without covering any location, run by run.
 
+use super::ListSettings;
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
@@ -7,11 +8,10 @@ use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
 use crate::engine::passes::cull::{self, CullFilter};
 use crate::engine::passes::{Distribute, ListLength, bin};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{CounterLog, SamplerRun};
-use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
+use crate::engine::sampler::{CounterLog, SamplerRun, Shortfall};
+use crate::render::passes::{MarkedOutput, SeenLocation, crossings};
 use crate::render::plane::PlaneWindow;
-use crate::render::{PreparedScene, RenderError, Settings, Statistics};
+use crate::render::{PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -21,23 +21,23 @@ pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Pass,
     bin: Pass,
-    crossings: Crossings,
+    crossings: Pass,
     seen: Buffer,
     counters: CounterLog,
     run: RunMemory,
 }
 
 impl CrossingFinder {
-    /// Makes the pipelines, and memory for the runs of a plan. Cells that are crossed are marked in `marks`.
+    /// Makes the pipelines, and memory for the runs of a plan. Cells of `output` that are crossed are marked in `marks`.
     ///
     /// # Safety
     /// `marks` outlives the execution of what is recorded, and has two words for each tile of the output.
     pub unsafe fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         plan: &LocationPlan,
-        marks: &Buffer,
+        (output, marks): (MarkedOutput, &Buffer),
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let offsets = Offsets {
@@ -62,7 +62,9 @@ impl CrossingFinder {
             bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
-            crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,
+            crossings: unsafe {
+                crossings::pass(layout, scene, resources, (&seen, marks), output)
+            }?,
             seen,
             counters: CounterLog::new(&run.memory, 1)?,
             run,
@@ -89,7 +91,7 @@ impl CrossingFinder {
         &mut self,
         scene: &PreparedScene,
         (pinhole, window): (&Pinhole, &PlaneWindow),
-        (output, count): (&MarkedOutput, usize),
+        count: usize,
         commands: vk::CommandBuffer,
     ) {
         let Self {
@@ -107,7 +109,7 @@ impl CrossingFinder {
             resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
             cull.record(recorder);
             bin.record(recorder);
-            crossings.record(recorder, output);
+            crossings.record(recorder);
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));
@@ -115,22 +117,24 @@ impl CrossingFinder {
         unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
-    /// Checks that the pairs of triangles and tiles of the last run fitted into memory.
+    /// Triangles, and pairs of triangles and tiles, for which the last run had no room.
     ///
     /// # Errors
-    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if they did not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
-    pub fn check(&self) -> Result<(), RenderError> {
+    /// If the counters can't be read.
+    pub fn shortfall(&self) -> Result<Shortfall, VulkanError> {
         let sizes = self.run.resources.sizes();
         let mut shortfall = Shortfall::default();
         for counters in self.counters.read(1)?.flatten() {
-            let get = |counter: Counter| counter.of(counters);
-            let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
-            let dropped = survivors.saturating_sub(sizes.survivor_capacity);
-            let unpaired = get(Counter::Pairs).saturating_sub(sizes.pair_capacity);
-            shortfall.dropped += u64::from(dropped) + u64::from(unpaired);
+            let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
+            shortfall.add(counters, room, true);
             shortfall.add_subgroups(counters);
+            // No other pass looks at the pairs that were left out.
+            let unpaired = Counter::Pairs
+                .of(counters)
+                .saturating_sub(sizes.pair_capacity);
+            shortfall.dropped += u64::from(unpaired);
         }
-        Ok(shortfall.check(sizes.lanes)?)
+        Ok(shortfall)
     }
 
     /// Adds the times of the last run's passes to `statistics`.

@@ -6,19 +6,18 @@ use super::crossings::CrossingFinder;
 use super::image::{OutputImage, chosen};
 use super::partition::Partition;
 use super::plan::LocationPlan;
-use super::{PinholeLists, PointSample};
+use super::{ListSettings, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::grow;
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
-use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
 use crate::render::{
-    EngineError, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
+    CellOptions, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -71,7 +70,8 @@ impl Headless {
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics::default();
-        let looks_for_shadows = settings.superpixels().thin && settings.shadows == Shadows::Exact;
+        let looks_for_shadows =
+            settings.superpixels().thin && settings.scene.shadows == Shadows::Exact;
         let mut shadowed = vec![false; if looks_for_shadows { image.len() } else { 0 }];
         if looks_for_shadows {
             statistics.append(self.mark_shadows(scene, rig, settings, image, &mut shadowed)?);
@@ -132,7 +132,7 @@ impl Headless {
     }
 
     /// Marks the cells in which a probe sees the location's triangle but is reached by other lights: the shadow of
-    /// something narrower than a cell falls there.
+    /// something narrower than a cell falls there. `docs/decisions.md` says why the passes of frames can't find these cells.
     fn mark_shadows(
         &mut self,
         scene: &PreparedScene,
@@ -141,6 +141,7 @@ impl Headless {
         image: &OutputImage,
         shadowed: &mut [bool],
     ) -> Result<Statistics, RenderError> {
+        let points = (&settings.scene, settings.filter());
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
             for probe in LightPlane::PROBES {
@@ -148,7 +149,7 @@ impl Headless {
                     .iter()
                     .map(|location| location.at(probe))
                     .collect();
-                let seen = self.sample_points(scene, pinhole, &probes, settings)?;
+                let seen = self.sample_filtered_points(scene, pinhole, &probes, points)?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
                     let PointSample { id, shadows, .. } = *seen;
@@ -170,53 +171,48 @@ impl Headless {
         image: &OutputImage,
     ) -> Result<Statistics, RenderError> {
         let layout = self.renderer.layout.clone();
-        let settings = detector
-            .settings_beside()
-            .shadows(Shadows::None)
-            .map_superpixels(|options| options.samples(1));
+        let settings = detector.settings_beside();
+        let scene_settings = settings.scene.clone().shadows(Shadows::None);
+        let settings = ListSettings {
+            sampler: scene_settings.sampler(CellOptions::new(1), settings.filter()),
+            scene: scene_settings,
+        };
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let plan = LocationPlan::new(
-            &layout,
-            scene,
-            &settings,
-            &partition,
-            false,
-            Capacity::default(),
-        )?;
-        let marks = &detector.resources.marks;
-        // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-        let mut crossings =
-            unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
-        let width = settings.size[0];
+        let width = detector.settings.size[0];
         let output = MarkedOutput {
             tiles: band.tiles(width),
             width,
             pixel: pixel_width(pinhole) as f32,
         };
+        let marks = &detector.resources.marks;
+        let make = |capacity| {
+            let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
+            // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
+            let finder =
+                unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks)) }?;
+            Ok((plan, finder))
+        };
         let first = band.seen.start * width;
         let mut statistics = Statistics::default();
-        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
-        while let Some(run) = waiting.pop() {
-            let window = partition.window(&run);
-            let (listed, seen) = crossings.listed_mut(run.len())?;
-            partition.list((&run, &window), listed);
-            for (seen, place) in seen.iter_mut().zip(run.clone()) {
-                *seen = image.seen_at(partition.location(place).output, first);
-            }
-            // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
-            // cells are those of the band.
-            self.submit(|commands| unsafe {
-                crossings.record(scene, (pinhole, &window), (&output, run.len()), commands);
-            })?;
-            match crossings.check() {
-                Ok(()) => crossings.add_statistics(scene, &mut statistics)?,
-                // Half of the locations have fewer pairs; cells that were marked before stay marked.
-                Err(RenderError::Engine(EngineError::Unfinished { .. })) if run.len() > 1 => {
-                    waiting.extend(LocationPlan::halves(&run));
+        // Cells that a run marked stay marked if it is repeated.
+        self.each_run(
+            make,
+            |headless, finder, run| {
+                let window = partition.window(run);
+                let (listed, seen) = finder.listed_mut(run.len())?;
+                partition.list((run, &window), listed);
+                for (seen, place) in seen.iter_mut().zip(run.clone()) {
+                    *seen = image.seen_at(partition.location(place).output, first);
                 }
-                Err(error) => return Err(error),
-            }
-        }
+                // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
+                // cells are those of the band.
+                headless.submit(|commands| unsafe {
+                    finder.record(scene, (pinhole, &window), run.len(), commands);
+                })?;
+                Ok(finder.shortfall()?)
+            },
+            |finder, _| Ok(finder.add_statistics(scene, &mut statistics)?),
+        )?;
         Ok(statistics)
     }
 }
@@ -283,7 +279,10 @@ impl BandDetector {
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let taken = prepared.memory_bytes();
-        let left = settings.max_memory.map(|limit| limit.saturating_sub(taken));
+        let left = settings
+            .scene
+            .max_memory
+            .map(|limit| limit.saturating_sub(taken));
         let memory = Memory::new(layout.gpu.clone(), left);
         let sizes = band_sizes(layout.gpu.limits(), settings, left);
         sizes.check("a band of the output", layout.gpu.limits())?;
@@ -301,8 +300,8 @@ impl BandDetector {
             sizes,
             &[no_offsets],
         )?;
-        let growths = settings.growths();
         let superpixels = settings.superpixels();
+        let growths = superpixels.growth_count();
         let options = DetectOptions {
             mode: DetectMode::of(superpixels.detection),
             blend_ids: scene.has_blend(),
@@ -316,7 +315,7 @@ impl BandDetector {
         Ok(Self {
             settings: settings.clone(),
             detect: detect::pass(layout, &options)?,
-            neighbours: neighbours::pass(layout, &settings.color_constants(scene))?,
+            neighbours: neighbours::pass(layout, &settings.sampler().color_constants(scene))?,
             growths: (0..growths).rev().map(grow).collect::<Result<_, _>>()?,
             masks: memory.buffer(
                 "mask read-back",
@@ -333,11 +332,9 @@ impl BandDetector {
 
     /// The settings, with the memory limit reduced by the memory of this detector.
     fn settings_beside(&self) -> Settings {
-        let allowed = self.settings.max_memory;
-        Settings {
-            max_memory: allowed.map(|limit| limit.saturating_sub(self.memory.used())),
-            ..self.settings.clone()
-        }
+        let allowed = self.settings.scene.max_memory;
+        let left = allowed.map(|limit| limit.saturating_sub(self.memory.used()));
+        self.settings.clone().max_memory(left)
     }
 
     /// The bands of the output.
@@ -427,13 +424,14 @@ impl BandDetector {
         let plane = PlaneBlock {
             size: [width, band.height()],
             interior: [[0, row(band.rows.start)], [width, row(band.rows.end)]],
+            contrast: u32::from(settings.superpixels().threshold()),
             ..PlaneBlock::default()
         };
         let uniform = frame_uniform(
             &SceneBlock::default(),
             &plane,
-            settings,
-            (1, &Footprints::new(settings, 1)),
+            &settings.sampler(),
+            (1, &Footprints::new(settings.filter(), 1)),
             resources.sizes(),
         );
         let [columns, rows] = uniform.tiles;
@@ -474,7 +472,7 @@ impl BandDetector {
 /// bytes.
 fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> ResourceSizes {
     let [width, height] = settings.size;
-    let halo = 2 * (settings.growths() + 1);
+    let halo = 2 * (settings.superpixels().growth_count() + 1);
     let sizes_of = |rows: u32| ResourceSizes {
         region: [width, rows],
         lanes: limits.lanes,
@@ -485,7 +483,7 @@ fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> Resour
         list_capacity: 0,
         record_capacity: 0,
         filtered: 0,
-        shadow_words: match settings.shadows {
+        shadow_words: match settings.scene.shadows {
             Shadows::None => 0,
             Shadows::Exact => 1,
         },

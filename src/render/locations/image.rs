@@ -22,8 +22,8 @@ pub(super) struct OutputImage {
 }
 
 impl Headless {
-    /// Renders an image of `size` = [width, height] in which the pixel `row * width + column` is sampled at the
-    /// location with this output index, on the plane of the location's pinhole. The pinholes of a rig usually share a
+    /// Renders an image in which the pixel `row * width + column` is sampled at the location with this output index, on
+    /// the plane of the location's pinhole. The pinholes of a rig usually share a
     /// centre of projection, and together see more than one plane can.
     ///
     /// Every location is sampled once. Locations are then sampled as superpixels if neighbours in the *output* alias,
@@ -39,19 +39,14 @@ impl Headless {
         &mut self,
         scene: &PreparedScene,
         rig: &[(Pinhole, Vec<SampleLocation>)],
-        size: [u32; 2],
         settings: &Settings,
     ) -> Result<Rendered, RenderError> {
-        let mut settings = Settings {
-            size,
-            ..settings.clone()
-        };
+        let (size, mut settings) = (settings.size, settings.clone());
         settings.check(self.gpu().limits())?;
         match settings.method {
             Method::Msaa { .. } => {
                 return Err(RenderError::LocationMethod {
                     method: MethodKind::Msaa,
-                    superpixels: false,
                 });
             }
             // Superpixels with every sample shaded equal supersampling, and read textures as it does.
@@ -81,11 +76,12 @@ impl Headless {
         }
         let samples_cells = settings.method != Method::None;
         let every = samples_cells && settings.superpixels().detection == Detection::Every;
+        let points = (&settings.scene, settings.filter());
         let mut statistics = Statistics::default();
         let mut image = OutputImage::new(count as usize, &settings);
         if !every || settings.attributes {
             for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-                let seen = self.sample_points(scene, pinhole, locations, &settings)?;
+                let seen = self.sample_filtered_points(scene, pinhole, locations, points)?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
                     image.put(location.output as usize, seen);
@@ -117,12 +113,14 @@ impl Headless {
         settings: &Settings,
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
+        let cells = settings.superpixels().cells;
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            let resolved = self.sample_superpixels(scene, pinhole, locations, settings)?;
+            let resolved =
+                self.sample_superpixels(scene, pinhole, locations, &cells, &settings.scene)?;
             statistics.append(resolved.statistics);
             for (location, color) in locations.iter().zip(&resolved.values) {
-                image.resolve(location.output as usize, *color, settings.method.samples());
+                image.resolve(location.output as usize, *color, cells.samples);
             }
         }
         Ok(statistics)
@@ -145,7 +143,7 @@ pub(super) fn chosen(
 
 impl OutputImage {
     fn new(count: usize, settings: &Settings) -> Self {
-        let background = settings.background_rgba();
+        let background = settings.sampler().background_rgba();
         let unseen = PixelAttributes {
             samples: 1,
             ..PixelAttributes::default()

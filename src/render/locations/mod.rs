@@ -10,16 +10,20 @@ mod error;
 mod image;
 mod partition;
 mod plan;
+mod retry;
 mod run;
 mod sampler;
 
 pub use error::LocationError;
 
 use super::shadows::Sight;
-use super::{EngineError, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
+use super::{
+    CellOptions, Headless, PreparedScene, RenderError, SceneSettings, Shading, Statistics,
+};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::Cells;
-use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::footprint::TextureFilter;
+use crate::engine::sampler::{Capacity, SamplerSettings};
 use partition::Partition;
 use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
@@ -46,12 +50,15 @@ pub struct PointSample {
     pub shadows: u32,
 }
 
-/// Factor on the memory for lists of candidates. Once the memory has grown this much, it is not raised any more for a
-/// single location that does not fit.
-const MOST_LISTS: u32 = 1 << 16;
-
 /// Pinholes, each with the locations on its plane.
 type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
+
+/// Settings of sampling a list of locations.
+#[derive(Clone)]
+struct ListSettings {
+    scene: SceneSettings,
+    sampler: SamplerSettings,
+}
 
 /// Values at the locations of a run.
 struct RunValues<'a> {
@@ -71,8 +78,9 @@ pub struct Sampled<T> {
 }
 
 impl Headless {
-    /// Samples a scene once at each location. The settings' size is ignored, and their method affects only how textures
-    /// are filtered.
+    /// Samples a scene once at each location. With [`Footprint::Sample`](super::Footprint::Sample), textures are filtered as
+    /// at the centres of pixels that may become superpixels; with [`Footprint::Pixel`](super::Footprint::Pixel), as in images
+    /// with one sample a pixel.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled; with
@@ -83,8 +91,24 @@ impl Headless {
         scene: &PreparedScene,
         pinhole: &Pinhole,
         locations: &[SampleLocation],
-        settings: &Settings,
+        settings: &SceneSettings,
     ) -> Result<Sampled<PointSample>, RenderError> {
+        let filter = TextureFilter::of_cells(settings.footprint, Shading::Part);
+        self.sample_filtered_points(scene, pinhole, locations, (settings, filter))
+    }
+
+    /// Samples a scene once at each location, with this filter of textures.
+    fn sample_filtered_points(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        locations: &[SampleLocation],
+        (settings, filter): (&SceneSettings, TextureFilter),
+    ) -> Result<Sampled<PointSample>, RenderError> {
+        let settings = &ListSettings {
+            scene: settings.clone(),
+            sampler: settings.sampler(CellOptions::new(1), filter),
+        };
         let partition = Partition::new(locations, Cells::Points)?;
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
@@ -107,9 +131,8 @@ impl Headless {
     }
 
     /// Samples each location as a superpixel: its samples lie at the location plus its Jacobian times the offsets of
-    /// the settings' pattern. The values are resolved colours in linear light with premultiplied alpha. The settings'
-    /// size and detection are ignored. With [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded
-    /// separately, whatever the settings say.
+    /// the pattern. The values are resolved colours in linear light with premultiplied alpha. With
+    /// [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded separately, whatever [`CellOptions::shading`] says.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled, [`EngineError::Pattern`](crate::render::EngineError::Pattern) lists the
@@ -119,15 +142,15 @@ impl Headless {
         scene: &PreparedScene,
         pinhole: &Pinhole,
         locations: &[SampleLocation],
-        settings: &Settings,
+        cells: &CellOptions,
+        settings: &SceneSettings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
-        if let Method::None | Method::Msaa { .. } = settings.method {
-            return Err(RenderError::LocationMethod {
-                method: settings.method.kind(),
-                superpixels: true,
-            });
-        }
-        let settings = &settings.with_shadowed_samples();
+        let cells = settings.shadowed(cells.clone());
+        let filter = TextureFilter::of_cells(settings.footprint, cells.shading);
+        let settings = &ListSettings {
+            scene: settings.clone(),
+            sampler: settings.sampler(cells, filter),
+        };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
@@ -141,13 +164,12 @@ impl Headless {
         &mut self,
         partition: &Partition<'_>,
         (scene, pinhole): (&PreparedScene, &Pinhole),
-        settings: &Settings,
+        settings: &ListSettings,
         mut take: impl FnMut(&RunValues<'_>),
     ) -> Result<Statistics, RenderError> {
         self.check(&scene.gpu_scene)?;
-        if settings.region.is_some() {
-            return Err(RenderError::LocationRegion);
-        }
+        settings.scene.check()?;
+        settings.sampler.check()?;
         let layout = self.renderer.layout.clone();
         let may_stop = self.may_stop();
         let make = |capacity: Capacity| {
@@ -155,57 +177,35 @@ impl Headless {
             let sampler = LocationSampler::new(&layout, scene, settings, &plan)?;
             Ok::<_, RenderError>((plan, sampler))
         };
-        let (plan, mut sampler) = make(Capacity::default())?;
-        let mut capacity = plan.capacity;
         let mut statistics = Statistics::default();
         let ([low, high], beyond) = partition.reach();
-        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
-        while let Some(run) = waiting.pop() {
-            let window = partition.window(&run);
-            partition.list((&run, &window), sampler.listed_mut(run.len())?);
-            let sight = Sight {
-                pinhole: *pinhole,
-                whole: [low - beyond, high + beyond],
-                part: window.rectangle(beyond),
-                places: partition.places(),
-                origin: scene.gpu_scene.origin(),
-            };
-            // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
-            self.submit(|commands| unsafe {
-                sampler.record(scene, &sight, &window, run.len(), commands);
-            })?;
-            match sampler.check(&window) {
-                Ok(()) => {}
-                // Half of the locations have about half of the visibility samples.
-                Err(RenderError::Engine(EngineError::Unfinished { cells })) => {
-                    let (count, shortfall) = (run.len(), sampler.shortfall(&window)?);
-                    log::debug!(
-                        "{cells} cells or tiles of {count} locations are left: {shortfall:?}"
-                    );
-                    let more = capacity.more(shortfall);
-                    if count > 1 && more.long_lists == capacity.long_lists {
-                        waiting.extend(LocationPlan::halves(&run));
-                    } else if capacity.lists < MOST_LISTS {
-                        capacity = more;
-                        let (plan, larger) = make(capacity)?;
-                        sampler = larger;
-                        let left = plan.runs.iter().rev().filter(|other| other.end > run.start);
-                        waiting = left
-                            .map(|other| other.start.max(run.start)..other.end)
-                            .collect();
-                    } else {
-                        return Err(EngineError::Unfinished { cells }.into());
-                    }
-                    continue;
-                }
-                Err(error) => return Err(error),
-            }
-            sampler.add_statistics(scene, &window, &mut statistics)?;
-            take(&RunValues {
-                seen: sampler.values(run.len())?,
-                places: run,
-            });
-        }
+        self.each_run(
+            make,
+            |headless, sampler, run| {
+                let window = partition.window(run);
+                partition.list((run, &window), sampler.listed_mut(run.len())?);
+                let sight = Sight {
+                    pinhole: *pinhole,
+                    whole: [low - beyond, high + beyond],
+                    part: window.rectangle(beyond),
+                    places: partition.places(),
+                    origin: scene.gpu_scene.origin(),
+                };
+                // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
+                headless.submit(|commands| unsafe {
+                    sampler.record(scene, &sight, &window, run.len(), commands);
+                })?;
+                Ok(sampler.shortfall(&window)?)
+            },
+            |sampler, run| {
+                sampler.add_statistics(scene, &partition.window(&run), &mut statistics)?;
+                take(&RunValues {
+                    seen: sampler.values(run.len())?,
+                    places: run,
+                });
+                Ok(())
+            },
+        )?;
         Ok(statistics)
     }
 }

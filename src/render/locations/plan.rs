@@ -1,14 +1,15 @@
 //! Number of locations that are sampled at once, by memory and the device's limits.
 
+use super::ListSettings;
 use super::partition::Partition;
 use super::sampler::list_cells;
 use crate::engine::data::{Cells, ResourceSizes};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::Capacity;
 use crate::render::data::FrameGeometry;
 use crate::render::plane::PlaneWindow;
 use crate::render::shadows::{Casters, ShadowFinder};
-use crate::render::{EngineError, PreparedScene, RenderError, Settings, Shadows};
+use crate::render::{EngineError, PreparedScene, RenderError, Shadows};
 use crate::vulkan::VulkanError;
 use std::ops::Range;
 
@@ -40,20 +41,20 @@ impl LocationPlan {
     pub fn new(
         layout: &FrameLayout,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         partition: &Partition<'_>,
         may_stop: bool,
         capacity: Capacity,
     ) -> Result<Self, RenderError> {
         let (limits, scene) = (layout.gpu.limits(), &*prepared.gpu_scene);
-        let casters = match settings.shadows {
+        let casters = match settings.scene.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(prepared.casters.as_deref().ok_or(RenderError::NoCasters)?),
         };
         let cells = partition.cells;
         let samples = match cells.are_points() {
             true => 1,
-            false => settings.method.samples().max(1) as usize,
+            false => settings.sampler.cells.samples as usize,
         };
         let places = partition.places();
         let mut longest = if may_stop && samples > 1 {
@@ -67,15 +68,27 @@ impl LocationPlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
             let words = casters.map_or(0, Casters::shadow_words);
-            let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, capacity);
+            let sizes = list_cells(cells, words).sizes(
+                layout,
+                scene,
+                &settings.sampler.cells,
+                room,
+                capacity,
+            );
             let of_shadows = casters.map_or(0, |casters| {
-                ShadowFinder::bytes(layout, casters, settings, capacity, (places, &sizes))
+                let places = (places, &sizes);
+                ShadowFinder::bytes(layout, casters, &settings.sampler, capacity, places)
             });
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && sizes.largest_texels() <= limits.max_texel_elements;
-            if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
+            if fits
+                && settings
+                    .scene
+                    .max_memory
+                    .is_none_or(|allowed| needed <= allowed)
+            {
                 return Ok(Self {
                     cells,
                     places,
@@ -89,20 +102,14 @@ impl LocationPlan {
                 VulkanError::check_limit("a list of sample locations", elements, "elements", most)?;
                 return Err(RenderError::Engine(EngineError::Memory {
                     needed,
-                    allowed: settings.max_memory.unwrap_or(limits.max_storage_bytes),
+                    allowed: settings
+                        .scene
+                        .max_memory
+                        .unwrap_or(limits.max_storage_bytes),
                 }));
             }
             longest /= 2;
         }
-    }
-}
-
-impl LocationPlan {
-    /// Halves of a run, the first half last. Half of the locations have about half of the visibility samples and
-    /// pairs.
-    pub fn halves(run: &Range<usize>) -> [Range<usize>; 2] {
-        let middle = run.start + run.len() / 2;
-        [middle..run.end, run.start..middle]
     }
 }
 

@@ -1,14 +1,15 @@
 //! What all runs over locations have in common: geometry as the window sees it, memory, counters and times.
 
+use super::ListSettings;
 use crate::camera::Pinhole;
 use crate::engine::data::{Cells, Content, ListedLocation, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::SamplerRun;
 use crate::render::data::{FrameGeometry, FrameLook};
-use crate::render::passes::{Stroke, StrokeSizes};
+use crate::render::passes::{StrokePass, StrokeSizes};
 use crate::render::plane::PlaneWindow;
-use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
+use crate::render::{PassTime, PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -17,8 +18,8 @@ use std::sync::Arc;
 pub(super) struct RunMemory {
     pub resources: Resources,
     pub memory: Memory,
-    settings: Settings,
-    stroke: Option<Stroke>,
+    settings: ListSettings,
+    stroke: Option<StrokePass>,
     geometry: FrameGeometry,
     targets: RasterTargets,
     timings: Timings,
@@ -30,7 +31,7 @@ impl RunMemory {
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         sizes: ResourceSizes,
         offsets: Offsets<'_>,
     ) -> Result<Self, RenderError> {
@@ -39,7 +40,10 @@ impl RunMemory {
         let taken = prepared.memory_bytes();
         let memory = Memory::new(
             gpu.clone(),
-            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
+            settings
+                .scene
+                .max_memory
+                .map(|limit| limit.saturating_sub(taken)),
         );
         let targets = RasterTargets::new(
             &memory,
@@ -66,11 +70,11 @@ impl RunMemory {
             settings: settings.clone(),
             stroke: scene
                 .has_strokes()
-                .then(|| Stroke::new(layout))
+                .then(|| StrokePass::new(layout))
                 .transpose()?,
             geometry,
             targets,
-            timings: Timings::new(&gpu).with_repetitions(settings.time_rounds),
+            timings: Timings::new(&gpu).with_repetitions(settings.scene.time_rounds),
             memory,
             uploaded: false,
         })
@@ -98,7 +102,7 @@ impl RunMemory {
             return;
         };
         let sizes = resources.sizes();
-        let uniform = window.uniform(scene, pinhole, settings, cells, sizes);
+        let uniform = window.uniform(scene, pinhole, &settings.sampler, cells, sizes);
         let to_clip = window.to_clip(scene, pinhole);
         self.geometry.place(scene, &to_clip, None);
         let gpu = self.memory.gpu().clone();
@@ -115,12 +119,7 @@ impl RunMemory {
         recorder.begin();
         resources.record_begin(recorder, set, &uniform);
         if let Some(stroke) = &self.stroke {
-            let sizes = StrokeSizes {
-                line_width: settings.line_width,
-                point_size: settings.point_size,
-                edge_width: settings.edge_width,
-                side: 1,
-            };
+            let sizes = StrokeSizes::new(&settings.scene, 1);
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
         }
         let run = SamplerRun {

@@ -1,17 +1,19 @@
 //! Passes and memory that sample locations: the engine's sampler with the caller's cells instead of pixels.
 
+use super::ListSettings;
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
-use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::sampler::{
+    ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall,
+};
 use crate::render::frame::recording::SceneShading;
-use crate::render::passes::{Shade, ShadeSource};
+use crate::render::passes::{ShadeSource, shade};
 use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
-use crate::render::{RenderError, Settings, Statistics};
+use crate::render::{RenderError, Statistics};
 use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -29,9 +31,9 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
 /// Pipelines and memory for sampling runs of locations of one scene.
 pub(super) struct LocationSampler {
     cells: Cells,
-    settings: Settings,
+    settings: SamplerSettings,
     sampler: Sampler,
-    shade: Shade,
+    shade: Pass,
     shadows: Option<ShadowFinder>,
     run: RunMemory,
 }
@@ -48,7 +50,7 @@ impl LocationSampler {
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
-        settings: &Settings,
+        settings: &ListSettings,
         plan: &LocationPlan,
     ) -> Result<Self, RenderError> {
         let LocationPlan {
@@ -61,20 +63,20 @@ impl LocationSampler {
         let capacity = *capacity;
         let scene = &*prepared.gpu_scene;
         let listed = list_cells(*cells, sizes.shadow_words);
-        let (offsets, count) = listed.offsets(layout, settings)?;
+        let (offsets, count) = listed.offsets(layout, &settings.sampler.cells)?;
         let offsets = Offsets {
             all: &offsets,
             count,
         };
         let run = RunMemory::new(layout, prepared, settings, *sizes, offsets)?;
         let resources = &run.resources;
-        let output = settings.color_constants(scene);
+        let output = settings.sampler.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };
         let context = SamplerContext {
             layout,
             memory: &run.memory,
             scene,
-            settings,
+            settings: &settings.sampler,
             output: &output,
             sizes,
             capacity,
@@ -88,7 +90,7 @@ impl LocationSampler {
                 layout,
                 &run.memory,
                 casters,
-                settings,
+                &settings.sampler,
                 capacity,
                 shading,
                 *places,
@@ -97,8 +99,8 @@ impl LocationSampler {
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
-            settings: settings.clone(),
-            shade: Shade::new(layout, scene, (source, sizes.shadow_words), &output)?,
+            settings: settings.sampler.clone(),
+            shade: shade::pass(layout, scene, (source, sizes.shadow_words), &output)?,
             shadows,
             cells: *cells,
             sampler,
@@ -160,7 +162,6 @@ impl LocationSampler {
                 views: &views,
             };
             let shading = SceneShading {
-                scene: &scene.gpu_scene,
                 shade: Some(shade),
                 shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
             };
@@ -194,16 +195,6 @@ impl LocationSampler {
             shadows.add_shortfall(&mut shortfall)?;
         }
         Ok(shortfall)
-    }
-
-    /// Checks that the last run was finished: its visibility samples fitted into memory, and its lists were not too
-    /// long.
-    ///
-    /// # Errors
-    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if it was not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
-    pub fn check(&self, window: &PlaneWindow) -> Result<(), RenderError> {
-        let shortfall = self.shortfall(window)?;
-        Ok(shortfall.check(self.run.resources.sizes().lanes)?)
     }
 
     /// Adds the last run to `statistics`.

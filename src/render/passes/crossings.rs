@@ -1,10 +1,11 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
 use crate::engine::data::{Argument, Content, Resources};
-use crate::engine::passes::arguments::{self, After};
+use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::passes::spirv::{self, crossings_set};
-use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
-use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::vulkan::{Buffer, Specialized, VulkanError};
+use std::sync::Arc;
 
 /// Surfaces at a location, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
 #[repr(C)]
@@ -24,54 +25,34 @@ pub struct SeenLocation {
 /// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
 pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 
-/// Marks crossed cells for `detect`, which makes them superpixels.
-pub struct Crossings {
-    sizes: Dispatch,
-    kernel: Kernel<spirv::Crossings>,
-    own: DescriptorSets,
-}
-
-impl Crossings {
-    /// Makes the pipelines for lists of locations in a scene. `seen` has a [`SeenLocation`] for each location; cells
-    /// are marked in `marks`, two words for each tile of the output.
-    ///
-    /// # Errors
-    /// If the driver refuses one.
-    ///
-    /// # Safety
-    /// Both buffers outlive the execution of what is recorded, and have room for the locations and tiles that `record`
-    /// is given.
-    pub unsafe fn new(
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        resources: &Resources,
-        (seen, marks): (&Buffer, &Buffer),
-    ) -> Result<Self, VulkanError> {
-        let shown = [
-            (crossings_set::LOADS, (&resources.locations.loads).into()),
-            (crossings_set::SEEN, seen.into()),
-            (crossings_set::CELL_MARKS, marks.into()),
-        ];
-        let shader = spirv::Crossings {
-            blend_ids: scene.has_blend(),
-            occluders: false,
-            instanced: scene.is_instanced(),
-        };
-        Ok(Self {
-            sizes: arguments::dispatch(layout, After::Pairs)?,
-            kernel: layout.kernel(&shader)?,
-            // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
-            own: unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?,
-        })
-    }
-
-    /// Records the pass, after `bin`.
-    pub fn record(&self, recorder: &Recorder<'_>, output: &MarkedOutput) {
-        recorder.pass(spirv::Crossings::INTERFACE, || {
-            self.sizes.record(recorder, 0);
-            recorder.show(&self.own);
-            self.kernel
-                .record_indirect(recorder, output, Argument::Thin);
-        });
-    }
+/// Marks crossed cells for `detect`, which makes them superpixels, after `bin` for lists of locations in a scene. `seen` has a
+/// [`SeenLocation`] for each location; cells of `output` are marked in `marks`, two words for each of its tiles.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+///
+/// # Safety
+/// Both buffers outlive the execution of what is recorded, and have room for the locations and for the tiles of `output`.
+pub(crate) unsafe fn pass(
+    layout: &FrameLayout,
+    scene: &dyn Content,
+    resources: &Resources,
+    (seen, marks): (&Buffer, &Buffer),
+    output: MarkedOutput,
+) -> Result<Pass, VulkanError> {
+    let shown = [
+        (crossings_set::LOADS, (&resources.locations.loads).into()),
+        (crossings_set::SEEN, seen.into()),
+        (crossings_set::CELL_MARKS, marks.into()),
+    ];
+    let crossings = layout.kernel(&spirv::Crossings {
+        blend_ids: scene.has_blend(),
+        occluders: false,
+        instanced: scene.is_instanced(),
+    })?;
+    // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
+    let own = Arc::new(unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?);
+    Ok(Pass::named(spirv::Crossings::INTERFACE)
+        .dispatch(arguments::dispatch(layout, CountedBy::Pairs)?)
+        .dispatch(crossings.dispatch(output, Argument::Thin).with(&own)))
 }

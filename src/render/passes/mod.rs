@@ -3,22 +3,22 @@
 
 pub(crate) mod attributes;
 pub(crate) mod box_filter;
-mod crossings;
+pub(crate) mod crossings;
 pub(crate) mod encode;
 pub(crate) mod multisample;
 pub(crate) mod neighbours;
 mod pose;
 pub mod prefilter;
 mod receivers;
-mod shade;
+pub(crate) mod shade;
 mod shadow;
 pub(crate) mod spans;
 mod stroke;
 
-pub use crossings::{Crossings, MarkedOutput, SeenLocation};
+pub use crossings::{MarkedOutput, SeenLocation};
 pub use encode::Encoding;
-pub use pose::Pose;
+pub use pose::PosePass;
 pub use receivers::{LightPlane, Receivers, Receiving};
-pub use shade::{Shade, ShadeSource};
+pub(crate) use shade::ShadeSource;
 pub use shadow::{Shadow, ShadowTarget};
-pub use stroke::{Stroke, StrokeSizes};
+pub use stroke::{StrokePass, StrokeSizes};

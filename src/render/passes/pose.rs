@@ -1,4 +1,5 @@
-//! pose: computes vertices that move, at a moment.
+//! pose: computes vertices that move, at a moment. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
+//! depend on the moment.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
@@ -7,11 +8,11 @@ use crate::scene::Moment;
 use crate::vulkan::{Recorder, Specialized, VulkanError};
 
 /// Applies morph targets, skins and transforms to meshes.
-pub struct Pose {
+pub struct PosePass {
     kernel: Kernel<spirv::Pose>,
 }
 
-impl Pose {
+impl PosePass {
     /// Makes the pipeline.
     ///
     /// # Errors

@@ -4,6 +4,8 @@
 //! Each texel is a sum over directions of the GGX distribution. Each direction reads the level whose texels are as
 //! large as the solid angle that it stands for, so that small bright lights neither flicker nor sparkle (Křivánek and
 //! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
+//!
+//! It is no [`Pass`](crate::engine::pipelines::Pass), because each of its dispatches has another number of texels.
 
 use crate::engine::passes::spirv::{self, prefilter_set};
 use crate::engine::pipelines::{FrameLayout, Kernel};

@@ -1,4 +1,5 @@
-//! receivers: projects the surfaces that are about to be shaded onto the plane of a light.
+//! receivers: projects the surfaces that are about to be shaded onto the plane of a light. It is no
+//! [`Pass`](crate::engine::pipelines::Pass), because the planes of lights depend on the camera.
 
 use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
 use crate::engine::passes::spirv::{self, receivers_set};

@@ -1,7 +1,8 @@
-//! shadow: finds the receivers of light that another triangle occludes.
+//! shadow: finds the receivers of light that another triangle occludes. It is no [`Pass`](crate::engine::pipelines::Pass),
+//! because the lights, and what is shadowed, are known only when a frame is recorded.
 
 use crate::engine::data::{Argument, Resources};
-use crate::engine::passes::arguments::{self, After};
+use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::passes::spirv::{self, shadow_set};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
 use crate::vulkan::{
@@ -58,7 +59,7 @@ impl Shadow {
         ];
         let shadow_words = receivers.sizes().shadow_words;
         Ok(Self {
-            sizes: arguments::dispatch(layout, After::Sample)?,
+            sizes: arguments::dispatch(layout, CountedBy::Sample)?,
             kernel: layout.kernel(&spirv::Shadow { shadow_words })?,
             // SAFETY: the buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Shadow::INTERFACE, &shown) }?,

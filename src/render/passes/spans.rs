@@ -1,7 +1,7 @@
 //! spans: lists rows of 8 pixels by material bin.
 
 use crate::engine::data::Content;
-use crate::engine::passes::arguments::{self, After};
+use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::passes::spirv::{self, frame_set};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
 use crate::vulkan::{Specialized, VulkanError};
@@ -25,7 +25,7 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, Vu
     })?;
     let count = spans.dispatch(spirv::SpansPush { scatter: 0 }, Size::Items(1));
     let list = spans.dispatch(spirv::SpansPush { scatter: 1 }, Size::Items(1));
-    let sizes = arguments::dispatch(layout, After::Spans)?;
+    let sizes = arguments::dispatch(layout, CountedBy::Spans)?;
     let pass = Pass::named(spirv::Spans::INTERFACE).clear(frame_set::BINS);
     Ok(if one_bin {
         pass.dispatch(list).dispatch(sizes)

@@ -1,7 +1,9 @@
-//! stroke: computes points and lines for a camera.
+//! stroke: computes points and lines for a camera. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
+//! depend on the camera.
 
 use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::render::SceneSettings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Edge;
 use crate::vulkan::{Recorder, VulkanError};
@@ -9,10 +11,10 @@ use glam::{DMat4, DVec3, Vec4Swizzles};
 
 /// Distance, in output pixels, by which edges are moved from their surfaces towards the camera: enough for the search
 /// for triangles thinner than a pixel.
-const APART: f32 = 2.0;
+const EDGE_OFFSET: f32 = 2.0;
 
 /// Gives points and lines their size on the screen.
-pub struct Stroke {
+pub struct StrokePass {
     kernel: Kernel<spirv::Stroke>,
 }
 
@@ -29,7 +31,19 @@ pub struct StrokeSizes {
     pub side: u32,
 }
 
-impl Stroke {
+impl StrokeSizes {
+    /// Sizes of a scene's points and lines, in an image with `side` x `side` rendered pixels for each output pixel.
+    pub(in crate::render) fn new(scene: &SceneSettings, side: u32) -> Self {
+        Self {
+            line_width: scene.line_width,
+            point_size: scene.point_size,
+            edge_width: scene.edge_width,
+            side,
+        }
+    }
+}
+
+impl StrokePass {
     /// Makes the pipeline.
     ///
     /// # Errors
@@ -64,7 +78,7 @@ impl Stroke {
             down: vector(down, sizes.point_size),
             corners: strokes.corner_count,
             half_edge: half(sizes.edge_width),
-            apart: APART * side,
+            apart: EDGE_OFFSET * side,
             edges: strokes.edge_count,
         };
         let corners = u64::from(strokes.corner_count)

@@ -141,7 +141,7 @@ pub struct Primitive {
     pub uvs: Vec<[f32; 4]>,
     /// Vertex colours, if the primitive has any.
     pub colors: Vec<[f32; 4]>,
-    pub targets: Vec<Target>,
+    pub targets: Vec<Displacements>,
     /// Joints and weights of each set `JOINTS_0`, `JOINTS_1`, ...
     pub influences: Vec<Influences>,
     /// Corners of points and lines. The last vertices of the primitive belong to them, in the same order.
@@ -169,7 +169,7 @@ impl Primitive {
 
 /// Displacements of a morph target; a stream that the target does not displace is empty.
 #[derive(Clone, Debug, Default)]
-pub struct Target {
+pub struct Displacements {
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     pub tangents: Vec<[f32; 3]>,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{
     Material, Scene,
-    document::{Influences, Primitive, Target},
+    document::{Displacements, Influences, Primitive},
     stroke::Edge,
     surface::triangles,
 };
@@ -223,9 +223,9 @@ impl<'p> MergedPrimitives<'p> {
                 let own = target.and_then(|target| target.positions.get(v));
                 own.copied().unwrap_or_default()
             };
-            Target {
+            Displacements {
                 positions: sources.iter().map(displacement).collect(),
-                ..Target::default()
+                ..Displacements::default()
             }
         });
         let influences = (0..first.map_or(0, |p| p.influences.len())).map(|set| {

@@ -5,17 +5,18 @@ use super::light::{LightView, Sight, views};
 use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Resources, SampleSet};
 use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
-use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::Capacity;
-use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
+use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::sampler::{
+    Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
+    Shortfall,
+};
+use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource, Shadow, ShadowTarget,
+    LightPlane, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
 };
-use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -25,18 +26,18 @@ pub(in crate::render) struct ShadowFinder {
     lit: Lit,
     /// Moment that is shown instead of the first pose.
     moment: Option<Moment>,
-    settings: Settings,
+    settings: SamplerSettings,
     receivers: Receivers,
     sampler: Sampler,
     /// Shading of casters that let light pass; `None` without such casters.
-    shade: Option<Shade>,
+    shade: Option<Pass>,
     shadow: Shadow,
-    pose: Option<Pose>,
+    pose: Option<PosePass>,
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
     targets: RasterTargets,
-    _locations: BufferView,
+    _locations: TexelBuffer,
 }
 
 /// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
@@ -68,7 +69,7 @@ impl RecordShading for Occlusion<'_> {
     /// Shades casters that let light pass, to get their opacities.
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some(shade) = &self.finder.shade {
-            shade.record(recorder, &self.finder.casters.scene);
+            shade.record(recorder);
         }
     }
 
@@ -89,12 +90,12 @@ const OCCLUDERS: ListCells = ListCells {
 fn sizes(
     layout: &FrameLayout,
     casters: &Casters,
-    settings: &Settings,
+    settings: &SamplerSettings,
     capacity: Capacity,
     (places, shading): (u64, &ResourceSizes),
 ) -> ResourceSizes {
     let room = (shading.receivers(), [LightView::side(places); 2]);
-    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity)
+    OCCLUDERS.sizes(layout, &*casters.scene, &settings.cells, room, capacity)
 }
 
 impl ShadowFinder {
@@ -103,7 +104,7 @@ impl ShadowFinder {
     pub fn bytes(
         layout: &FrameLayout,
         casters: &Casters,
-        settings: &Settings,
+        settings: &SamplerSettings,
         capacity: Capacity,
         (places, shading): (u64, &ResourceSizes),
     ) -> u64 {
@@ -122,7 +123,7 @@ impl ShadowFinder {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         casters: &Arc<Casters>,
-        settings: &Settings,
+        settings: &SamplerSettings,
         capacity: Capacity,
         (scene, cells, shading): (&GpuScene, Cells, &Resources),
         places: u64,
@@ -136,7 +137,7 @@ impl ShadowFinder {
             (places, shading.sizes()),
         );
         sizes.check("the largest list of shadows", layout.gpu.limits())?;
-        let (offsets, count) = OCCLUDERS.offsets(layout, settings)?;
+        let (offsets, count) = OCCLUDERS.offsets(layout, &settings.cells)?;
         let offsets = Offsets {
             all: &offsets,
             count,
@@ -173,7 +174,7 @@ impl ShadowFinder {
             output: &output,
             sizes: &sizes,
             capacity: Capacity {
-                unlisted: true,
+                samples_unlisted: true,
                 ..capacity
             },
             // `shadow` counts on the device, so that no runs are counted here.
@@ -185,13 +186,16 @@ impl ShadowFinder {
             let source = ShadeSource::Records {
                 cells: Cells::Occluders,
             };
-            Shade::new(layout, occluding, (source, 0), &output)
+            shade::pass(layout, occluding, (source, 0), &output)
         };
         Ok(Self {
             shade: occluding.has_blend().then(opacities).transpose()?,
             receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
             shadow: Shadow::new(layout, memory, shading)?,
-            pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
+            pose: occluding
+                .moves()
+                .then(|| PosePass::new(layout))
+                .transpose()?,
             lit: casters.lit.clone(),
             moment: None,
             casters: casters.clone(),

@@ -44,9 +44,17 @@ impl Fingerprint {
         (&limits.device_name, &limits.driver).hash(&mut hasher);
         // The debug format of floats loses no bits.
         let places = &geometry.instances;
-        let sizes = [probe.line_width, probe.point_size, probe.edge_width];
+        let sizes = [
+            probe.scene.line_width,
+            probe.scene.point_size,
+            probe.scene.edge_width,
+        ];
         let strokes = (&geometry.strokes, &geometry.edges, sizes);
-        format!("{camera:?} {:?} {places:?} {strokes:?}", probe.footprint).hash(&mut hasher);
+        format!(
+            "{camera:?} {:?} {places:?} {strokes:?}",
+            probe.scene.footprint
+        )
+        .hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));
         hasher.write(bytemuck::cast_slice(&image.colors));

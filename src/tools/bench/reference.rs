@@ -90,7 +90,7 @@ pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
     settings
         .clone()
         .attributes(false)
-        .footprint(match settings.footprint {
+        .footprint(match settings.scene.footprint {
             Footprint::Sample => Footprint::Side(TRUTH_SIDE),
             asked => asked,
         })

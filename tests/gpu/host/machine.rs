@@ -6,8 +6,8 @@ use ash::vk;
 use gpc::host::HostError;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState,
-    Images, Indices, LentImage, ListOutcome, Location, LocationList, Mesh, Options, Outcome,
-    PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
+    Images, Indices, LentImage, ListOptions, ListOutcome, Location, LocationList, Mesh, Options,
+    Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
 };
 use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
@@ -712,7 +712,7 @@ impl<'a> Machine<'a> {
             colors: colors.handle(),
             colors_offset: 0,
         };
-        let options = options.background(Some(SKY));
+        let options = ListOptions::from(&options.background(Some(SKY)));
         let prepared = |geometry: &Geometry| {
             // SAFETY: lent objects have the stated contents, and outlive the list.
             unsafe { self.antialiaser.prepare_list(geometry, &list, &options) }.unwrap()
@@ -847,7 +847,7 @@ impl<'a> Machine<'a> {
         let (list, gate) = unsafe {
             (
                 self.antialiaser
-                    .prepare_list(&lending.geometry, &list, options)
+                    .prepare_list(&lending.geometry, &list, &ListOptions::from(options))
                     .unwrap(),
                 device.create_event(&vk::EventCreateInfo::default(), None),
             )

@@ -6,7 +6,7 @@ use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 use ash::vk;
 use gpc::bench::stress::stage::NEAR;
 use gpc::host::Options;
-use gpc::render::{Settings, SuperpixelOptions};
+use gpc::render::{CellOptions, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler, Wrap};
 
 const SIDE: u32 = 8;
@@ -172,7 +172,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
             },
         ] {
             let settings =
-                once(SIZE).method(SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).thin(true));
+                once(SIZE).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(true));
             let stage = stage(sampler);
             let expected = stage.render(gpu, &settings);
             // A host that discards fragments itself draws these images.

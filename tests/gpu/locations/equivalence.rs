@@ -10,7 +10,7 @@ use crate::blend::panes;
 use crate::mask::checker;
 use crate::meshes::Random;
 use crate::scenes::ball_over_checker;
-use crate::stage::{Stage, centre, everywhere, ids, on_gpu, once};
+use crate::stage::{Stage, cells, centre, everywhere, ids, on_gpu, once, once_each};
 use crate::twin::Twin;
 use crate::visibility::soup;
 
@@ -34,7 +34,7 @@ fn a_planar_set_sees_what_raster_sees() {
         let raster = ids(&stage.render(gpu, &once(SIZE)));
         let prepared = stage.upload(gpu);
         let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &once(SIZE))
+            .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &once_each())
             .unwrap();
         let twin = Twin::new(&stage, SIZE);
         let mut differ = 0;
@@ -61,13 +61,13 @@ fn points_are_superpixels_of_one_sample() {
             let image = stage.render(gpu, &settings);
             let prepared = stage.upload(gpu);
             let points = gpu
-                .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &settings.scene)
                 .unwrap();
             for (pixel, (image, point)) in image.colors.iter().zip(&points.values).enumerate() {
                 assert_eq!(image, &point.color, "{name}, pixel {pixel}");
             }
             // Both also equal the image without antialiasing, except for the rasterizer's rounding.
-            let once = once(SIZE).background(settings.background);
+            let once = once(SIZE).background(settings.scene.background);
             let none = stage.render(gpu, &once);
             let far = |(a, b): &([f32; 4], [f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-4);
             let pairs = none.colors.iter().zip(&points.values);
@@ -113,7 +113,13 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                     .map_superpixels(|options| options.coverage(coverage).shading(shading));
                 let image = stage.render(gpu, &settings);
                 let locations = gpu
-                    .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                    .sample_superpixels(
+                        &prepared,
+                        &pinhole(SIZE),
+                        &planar(SIZE),
+                        &cells(&settings),
+                        &settings.scene,
+                    )
                     .unwrap();
                 let pairs = || image.colors.iter().zip(&locations.values);
                 if shading == S::Part {
@@ -185,19 +191,25 @@ fn the_order_of_locations_does_not_matter() {
                 shuffled.swap(last, random.below(last as u64 + 1) as usize);
             }
             let first = gpu
-                .sample_points(&prepared, &pinhole, &locations, &settings)
+                .sample_points(&prepared, &pinhole, &locations, &settings.scene)
                 .unwrap();
             let again = least(&prepared, &settings, |tight| {
-                gpu.sample_points(&prepared, &pinhole, &shuffled, tight)
+                gpu.sample_points(&prepared, &pinhole, &shuffled, &tight.scene)
             });
             for (location, value) in shuffled.iter().zip(&again.values) {
                 assert_eq!(*value, first.values[location.output as usize], "{name}");
             }
             let first = gpu
-                .sample_superpixels(&prepared, &pinhole, &locations, &settings)
+                .sample_superpixels(
+                    &prepared,
+                    &pinhole,
+                    &locations,
+                    &cells(&settings),
+                    &settings.scene,
+                )
                 .unwrap();
             let again = least(&prepared, &settings, |tight| {
-                gpu.sample_superpixels(&prepared, &pinhole, &shuffled, tight)
+                gpu.sample_superpixels(&prepared, &pinhole, &shuffled, &cells(tight), &tight.scene)
             });
             for (location, value) in shuffled.iter().zip(&again.values) {
                 assert_eq!(*value, first.values[location.output as usize], "{name}");

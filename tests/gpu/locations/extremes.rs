@@ -6,7 +6,7 @@ use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
 use super::{location, pinhole, planar};
-use crate::stage::{Stage, everywhere, flat, on_gpu, once, seen_at};
+use crate::stage::{Stage, cells, everywhere, flat, on_gpu, once_each, seen_at};
 use crate::visibility::soup;
 
 const SIZE: [u32; 2] = [64, 64];
@@ -15,12 +15,14 @@ const SIZE: [u32; 2] = [64, 64];
 fn sets_that_cannot_be_sampled_are_named() {
     on_gpu(|gpu| {
         let prepared = soup(1, 3, true, [-1.0, 5.0]).upload(gpu);
-        let mut error = |locations: &[SampleLocation]| {
-            let settings = once(SIZE);
-            match gpu.sample_points(&prepared, &pinhole(SIZE), locations, &settings) {
-                Err(RenderError::Location(error)) => error,
-                other => panic!("{other:?}"),
-            }
+        let mut error = |locations: &[SampleLocation]| match gpu.sample_points(
+            &prepared,
+            &pinhole(SIZE),
+            locations,
+            &once_each(),
+        ) {
+            Err(RenderError::Location(error)) => error,
+            other => panic!("{other:?}"),
         };
         assert_eq!(error(&[]), LocationError::Empty);
         let good = location([3.0, 4.0], 0);
@@ -48,18 +50,24 @@ fn sets_that_cannot_be_sampled_are_named() {
         }];
         let settings = everywhere(SIZE, Pattern::Sobol, 4);
         assert!(
-            gpu.sample_points(&prepared, &pinhole(SIZE), &wide, &settings)
+            gpu.sample_points(&prepared, &pinhole(SIZE), &wide, &settings.scene)
                 .is_ok()
         );
         assert!(matches!(
-            gpu.sample_superpixels(&prepared, &pinhole(SIZE), &wide, &settings),
+            gpu.sample_superpixels(
+                &prepared,
+                &pinhole(SIZE),
+                &wide,
+                &cells(&settings),
+                &settings.scene
+            ),
             Err(RenderError::Location(LocationError::TooFar {
                 index: 0,
                 ..
             }))
         ));
         let rig = [(pinhole(SIZE), vec![good, location([1.0, 1.0], 4096)])];
-        let rendered = gpu.render_locations(&prepared, &rig, SIZE, &Settings::new(64, 64));
+        let rendered = gpu.render_locations(&prepared, &rig, &Settings::new(64, 64));
         assert!(matches!(
             rendered,
             Err(RenderError::Location(LocationError::Output {
@@ -69,15 +77,10 @@ fn sets_that_cannot_be_sampled_are_named() {
             }))
         ));
         let msaa = Settings::new(64, 64).method(Method::Msaa { samples: 4 });
-        let rendered = gpu.render_locations(&prepared, &rig, SIZE, &msaa);
+        let rendered = gpu.render_locations(&prepared, &rig, &msaa);
         assert_eq!(
             rendered.unwrap_err().to_string(),
             "msaa can't sample locations; none, superpixel and ssaa can"
-        );
-        let sampled = gpu.sample_superpixels(&prepared, &pinhole(SIZE), &[good], &msaa);
-        assert_eq!(
-            sampled.unwrap_err().to_string(),
-            "msaa can't sample locations as superpixels; superpixel and ssaa can"
         );
     });
 }
@@ -96,7 +99,7 @@ fn a_crowd_in_one_pixel_sees_what_each_would_alone() {
         let settings = everywhere(SIZE, Pattern::Sobol, 4);
         let pinhole = pinhole(SIZE);
         let seen = gpu
-            .sample_points(&prepared, &pinhole, &locations, &settings)
+            .sample_points(&prepared, &pinhole, &locations, &settings.scene)
             .unwrap();
         let crowd = &seen.values[4096..];
         for (index, value) in crowd.iter().enumerate() {
@@ -106,12 +109,18 @@ fn a_crowd_in_one_pixel_sees_what_each_would_alone() {
         for chosen in [0, 1234, 4095] {
             let few = [locations[0], locations[4095], locations[4096 + chosen]];
             let alone = gpu
-                .sample_points(&prepared, &pinhole, &few, &settings)
+                .sample_points(&prepared, &pinhole, &few, &settings.scene)
                 .unwrap();
             assert_eq!(alone.values[2], crowd[chosen]);
         }
         let seen = gpu
-            .sample_superpixels(&prepared, &pinhole, &locations, &settings)
+            .sample_superpixels(
+                &prepared,
+                &pinhole,
+                &locations,
+                &cells(&settings),
+                &settings.scene,
+            )
             .unwrap();
         let crowd = &seen.values[4096..];
         for (index, value) in crowd.iter().enumerate() {
@@ -157,14 +166,20 @@ fn locations_a_million_pixels_apart_cost_no_area() {
         ];
         let settings = everywhere(SIZE, Pattern::Sobol, 16);
         let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &settings)
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &settings.scene)
             .unwrap();
         let sides: Vec<bool> = seen.values.iter().map(|v| v.id > 2).collect();
         assert_eq!(sides, [false, false, true, true]);
         assert!(seen.statistics.tiles <= 4, "{}", seen.statistics.tiles);
         assert!(seen.values.iter().all(|v| (v.depth - 1.0).abs() < 1e-4));
         let seen = gpu
-            .sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
+            .sample_superpixels(
+                &prepared,
+                &pinhole(SIZE),
+                &locations,
+                &cells(&settings),
+                &settings.scene,
+            )
             .unwrap();
         let red: Vec<f32> = seen.values.iter().map(|v| v[0]).collect();
         // The line passes through the middle of both cells in the image.

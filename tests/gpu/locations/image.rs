@@ -1,13 +1,13 @@
 //! Images whose pixels are sampled at given locations.
 
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
+use gpc::render::{CellOptions, Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use super::{location, pinhole, planar};
 use crate::scenes::ball_over_checker;
-use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+use crate::stage::{Stage, on_gpu, once_each, seen_at, textured};
 
 const SIZE: [u32; 2] = [96, 64];
 
@@ -73,9 +73,7 @@ fn a_planar_image_is_the_cameras() {
         let prepared = stage.upload(gpu);
         let pinhole = pinhole(SIZE);
         let one = [(pinhole, planar(SIZE))];
-        let whole = gpu
-            .render_locations(&prepared, &one, SIZE, &settings)
-            .unwrap();
+        let whole = gpu.render_locations(&prepared, &one, &settings).unwrap();
         let superpixels = whole.statistics.superpixels;
         assert!(superpixels > 200, "{superpixels}");
         assert!(superpixels.abs_diff(image.statistics.superpixels) <= 12);
@@ -91,19 +89,17 @@ fn a_planar_image_is_the_cameras() {
             .into_iter()
             .partition(|location| location.uv[0] < 41.0);
         let rig: [(Pinhole, Vec<SampleLocation>); 2] = [(pinhole, right), (pinhole, left)];
-        let shared = gpu
-            .render_locations(&prepared, &rig, SIZE, &settings)
-            .unwrap();
+        let shared = gpu.render_locations(&prepared, &rig, &settings).unwrap();
         assert!(shared.statistics.superpixels.abs_diff(superpixels) <= 2);
         // Positions are relative to the middle of each half, so that they are rounded differently.
         assert!(differing(&whole, &shared) <= 6);
 
         // Supersampling uses a grid of samples in every pixel.
         let brute = settings.clone().method(Method::Ssaa {
-            samples: Settings::DEFAULT_SAMPLES,
+            samples: CellOptions::DEFAULT_SAMPLES,
         });
         let reference = stage.render(gpu, &brute.clone().attributes(false));
-        let locations = gpu.render_locations(&prepared, &one, SIZE, &brute).unwrap();
+        let locations = gpu.render_locations(&prepared, &one, &brute).unwrap();
         assert_eq!(locations.statistics.superpixels, 96 * 64);
         let error: f64 = reference
             .colors
@@ -132,7 +128,7 @@ fn the_jacobian_is_the_footprint_of_textures() {
             .flat_map(|side| [at(33.0, side), at(35.0, side)])
             .collect();
         let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &once_each())
             .unwrap();
         let red: Vec<f32> = seen.values.iter().map(|v| v.color[0]).collect();
         for pair in red[..4].chunks(2) {
@@ -154,9 +150,7 @@ fn brute_force_reads_textures_at_its_samples() {
         let image = stage.render(gpu, &settings);
         let prepared = stage.upload(gpu);
         let rig = [(pinhole(SIZE), planar(SIZE))];
-        let locations = gpu
-            .render_locations(&prepared, &rig, SIZE, &settings)
-            .unwrap();
+        let locations = gpu.render_locations(&prepared, &rig, &settings).unwrap();
         // Pixels of the square without its border.
         let inside = (20..44).flat_map(|y| (20..76).map(move |x| y * SIZE[0] as usize + x));
         let reds =

@@ -6,7 +6,7 @@ use gpc::sampling::Pattern;
 
 use super::pinhole;
 use crate::scenes::ball_over_checker;
-use crate::stage::{everywhere, on_gpu, once};
+use crate::stage::{cells, everywhere, on_gpu, once_each};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -14,7 +14,7 @@ const SIZE: [u32; 2] = [48, 32];
 fn sets_that_hold_the_same_locations_see_the_same() {
     on_gpu(|gpu| {
         let prepared = ball_over_checker().upload(gpu);
-        let settings = once(SIZE);
+        let settings = once_each();
         let planar = SamplingSet::planar(SIZE).unwrap();
         let offset = SamplingSet::offset(SIZE, planar.samples().to_vec()).unwrap();
         let mut reversed = planar.samples().to_vec();
@@ -46,13 +46,19 @@ fn a_superpixel_set_of_points_is_the_superpixels() {
         let offsets = Pattern::Sobol.offsets(16).unwrap();
         let set = SamplingSet::superpixel(SIZE, &marks, &offsets).unwrap();
         let points = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings)
+            .sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings.scene)
             .unwrap();
         let colors: Vec<_> = points.values.iter().map(|sample| sample.color).collect();
         let means = set.image(&colors);
         let planar = SamplingSet::planar(SIZE).unwrap().locations();
         let superpixels = gpu
-            .sample_superpixels(&prepared, &pinhole(SIZE), &planar, &settings)
+            .sample_superpixels(
+                &prepared,
+                &pinhole(SIZE),
+                &planar,
+                &cells(&settings),
+                &settings.scene,
+            )
             .unwrap();
         let pixels = marks.iter().zip(means.iter().zip(&superpixels.values));
         for (mean, color) in pixels.filter(|(marked, _)| **marked).map(|(_, pair)| pair) {

@@ -28,7 +28,7 @@ fn seen(
     settings: &Settings,
 ) -> Rendered {
     let rig: [(Pinhole, Vec<SampleLocation>); 1] = [(pinhole(SIZE), locations.to_vec())];
-    gpu.render_locations(scene, &rig, SIZE, settings).unwrap()
+    gpu.render_locations(scene, &rig, settings).unwrap()
 }
 
 fn energy(rendered: &Rendered) -> f64 {
@@ -248,7 +248,7 @@ fn cells_are_marked_as_the_twin_has_it() {
             let settings = settings(Detection::Contrast, true)
                 .map_superpixels(|options| options.contrast(Some(255)));
             let rig = [(pinhole, locations)];
-            let rendered = gpu.render_locations(&scene, &rig, SIZE, &settings).unwrap();
+            let rendered = gpu.render_locations(&scene, &rig, &settings).unwrap();
             let [(_, locations)] = &rig;
             let view = PinholeView::new(&pinhole, DVec3::ZERO);
             let ids: Vec<u32> = rendered.attributes.iter().map(|seen| seen.id).collect();
@@ -319,7 +319,7 @@ fn bands_of_an_output_find_what_the_whole_does() {
         let settings = settings(Detection::Exact, true)
             .size(size)
             .map_superpixels(|options| options.samples(4));
-        let rendered = gpu.render_locations(&scene, &rig, size, &settings).unwrap();
+        let rendered = gpu.render_locations(&scene, &rig, &settings).unwrap();
         let row = |row: u32| {
             let first = (row * width) as usize;
             rendered.attributes[first..first + width as usize].iter()

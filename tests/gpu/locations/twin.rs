@@ -7,7 +7,7 @@ use gpc::sampling::Pattern;
 
 use super::{location, pinhole, planar};
 use crate::meshes::Random;
-use crate::stage::{code, everywhere, on_gpu};
+use crate::stage::{cells, code, everywhere, on_gpu};
 use crate::twin::Twin;
 use crate::visibility::soup;
 
@@ -33,7 +33,7 @@ fn random_points_see_what_the_twin_sees() {
         locations.extend((0..count).map(|index| location([place(), place()], index)));
         let settings = everywhere(SIZE, Pattern::Sobol, 1);
         let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &settings)
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &settings.scene)
             .unwrap();
         let twin = Twin::new(&stage, SIZE);
         let (mut contested, mut excused, mut hits) = (0, 0, 0);
@@ -105,7 +105,13 @@ fn jacobians_place_sub_samples() {
             let settings = everywhere(SIZE, pattern, samples)
                 .map_superpixels(|options| options.shading(Shading::Triangle));
             let seen = gpu
-                .sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
+                .sample_superpixels(
+                    &prepared,
+                    &pinhole(SIZE),
+                    &locations,
+                    &cells(&settings),
+                    &settings.scene,
+                )
                 .unwrap();
             let (mut clear, mut doubtful, mut differ) = (0, 0, 0);
             for (location, found) in locations.iter().zip(&seen.values) {

@@ -70,7 +70,7 @@ fn passes(scene: &Scene, args: &InfoArgs) -> anyhow::Result<RecordedPasses> {
     let mut settings =
         Settings::new(args.size[0], args.size[1]).method(SuperpixelOptions::new(args.samples));
     if !pose.lights.is_empty() {
-        settings.shadows = Shadows::Exact;
+        settings.scene.shadows = Shadows::Exact;
     }
     let aspect = f64::from(args.size[0]) / f64::from(args.size[1]);
     let views = render::choose_views(&render::CameraArgs::default(), &pose, aspect)?;

@@ -61,7 +61,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     stage.finish()?;
     let effort = stage.effort(&shot);
     let rendered = shot.rendered;
-    let background = stage.settings.background;
+    let background = stage.settings.scene.background;
     let empty = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
     let rendered = Rendered {
         size: panorama.size(),

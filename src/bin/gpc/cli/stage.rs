@@ -69,9 +69,10 @@ impl RenderSetup {
         rig: &[(Pinhole, Vec<SampleLocation>)],
     ) -> anyhow::Result<RenderedImage> {
         let start = Instant::now();
+        let settings = self.settings.clone().size(size);
         let rendered = self
             .headless
-            .render_locations(&self.scene, rig, size, &self.settings)?;
+            .render_locations(&self.scene, rig, &settings)?;
         Ok(RenderedImage {
             passes: vec![rendered.statistics.passes.clone()],
             wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],

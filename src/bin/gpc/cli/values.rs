@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use gpc::color::srgb;
-use gpc::render::{PixelRect, Settings};
+use gpc::render::{PixelRect, SceneSettings};
 use std::ops::RangeInclusive;
 
 /// Parses a number that is neither infinite nor NaN.
@@ -31,7 +31,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 
 /// Parses a width of lines or a size of points, in pixels.
 pub fn stroke(text: &str) -> Result<f64, String> {
-    let largest = Settings::LARGEST_STROKE;
+    let largest = SceneSettings::LARGEST_STROKE;
     positive(text)
         .ok()
         .filter(|size| *size <= f64::from(largest))
@@ -188,7 +188,7 @@ pub fn edges(text: &str) -> Result<EdgeLines, String> {
     lines
         .map(|(width, color)| EdgeLines { width, color })
         .ok_or_else(|| {
-            let largest = Settings::LARGEST_STROKE;
+            let largest = SceneSettings::LARGEST_STROKE;
             format!(
                 "expected pixels above 0 and at most {largest}, and an sRGB colour, such as 1.5 or 1.5,#204060"
             )

@@ -146,7 +146,7 @@ fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
     let mut options = Vec::new();
     // Name and value form one word, so that a value with a minus sign is not taken for an option.
     let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
-    if look.settings.background.is_some() {
+    if look.settings.scene.background.is_some() {
         add("--background", &args.background);
     }
     if let Some(file) = &appearance.environment {
@@ -159,7 +159,7 @@ fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
         let [r, g, b] = edges.color;
         add("--edges", &format_args!("{},{r},{g},{b}", edges.width));
     }
-    if look.settings.shadows == Shadows::Exact {
+    if look.settings.scene.shadows == Shadows::Exact {
         add("--shadows", &"exact");
     }
     options

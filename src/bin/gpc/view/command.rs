@@ -119,37 +119,38 @@ impl Arguments {
         if let Method::Superpixel(options) = &settings.method {
             self.superpixels(options);
         }
-        if settings.footprint == Footprint::Pixel {
+        if settings.scene.footprint == Footprint::Pixel {
             self.add("--footprint", "pixel");
         }
-        if settings.exposure != default.exposure {
-            self.0.push(format!("--exposure={}", settings.exposure));
+        if settings.scene.exposure != default.scene.exposure {
+            self.0
+                .push(format!("--exposure={}", settings.scene.exposure));
         }
-        if settings.line_width != default.line_width {
-            self.add("--line-width", settings.line_width);
+        if settings.scene.line_width != default.scene.line_width {
+            self.add("--line-width", settings.scene.line_width);
         }
-        if settings.point_size != default.point_size {
-            self.add("--point-size", settings.point_size);
+        if settings.scene.point_size != default.scene.point_size {
+            self.add("--point-size", settings.scene.point_size);
         }
     }
 
     /// Options of superpixels that differ from the command's defaults.
     fn superpixels(&mut self, options: &SuperpixelOptions) {
-        let default = SuperpixelOptions::new(options.samples);
+        let default = SuperpixelOptions::new(options.cells.samples);
         if let Some(contrast) = options.contrast {
             self.add("--contrast", contrast);
         }
         if options.detection != default.detection {
             self.add("--detect", name(&options.detection));
         }
-        if options.pattern != default.pattern {
-            self.add("--pattern", &options.pattern);
+        if options.cells.pattern != default.cells.pattern {
+            self.add("--pattern", &options.cells.pattern);
         }
-        if options.coverage != default.coverage {
-            self.add("--coverage", name(&options.coverage));
+        if options.cells.coverage != default.cells.coverage {
+            self.add("--coverage", name(&options.cells.coverage));
         }
-        if options.shading != default.shading {
-            self.add("--shading", name(&options.shading));
+        if options.cells.shading != default.cells.shading {
+            self.add("--shading", name(&options.cells.shading));
         }
     }
 

@@ -84,7 +84,7 @@ impl Look {
     pub fn can_have(&self, samples: u32) -> bool {
         match &self.settings.method {
             Method::None => samples == 1,
-            Method::Superpixel(options) => options.pattern.offsets(samples).is_ok(),
+            Method::Superpixel(options) => options.cells.pattern.offsets(samples).is_ok(),
             Method::Ssaa { .. } => samples.isqrt().pow(2) == samples,
             // The number that the device supports is unknown here, so only the number asked for is allowed.
             _ => samples == self.samples(),

@@ -48,7 +48,7 @@ impl Viewer {
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
         let appearance = self.appearance.clone();
-        let max_memory = self.looks[0].settings.max_memory;
+        let max_memory = self.looks[0].settings.scene.max_memory;
         self.loaders.retain(|loader| !loader.is_finished());
         self.loaders.push(std::thread::spawn(move || {
             let opened = source.open(engine, &appearance, max_memory, &progress);

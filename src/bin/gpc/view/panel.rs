@@ -364,9 +364,9 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
             Pattern::Korobov,
             Pattern::Grid,
         ] {
-            if pattern.offsets(superpixels.samples).is_ok() {
+            if pattern.offsets(superpixels.cells.samples).is_ok() {
                 let name = pattern.to_string();
-                ui.selectable_value(&mut superpixels.pattern, pattern, name);
+                ui.selectable_value(&mut superpixels.cells.pattern, pattern, name);
             }
         }
     });

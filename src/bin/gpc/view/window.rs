@@ -128,7 +128,7 @@ impl Viewer {
             // An error means that the window is closed and that the result is no longer needed.
             let _ = deliver.send_event(Event::Made(made));
         });
-        let has_shadows = options.look.settings.shadows == Shadows::Exact;
+        let has_shadows = options.look.settings.scene.shadows == Shadows::Exact;
         let cover = Cover::new(has_shadows, options.shows_environment);
         let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
         let mut source = options.source;

@@ -341,7 +341,7 @@ impl Maker {
         let camera = camera(task, shown)?;
         let set = SamplingSet::mapped(size, map)?;
         let rig = [(Pinhole::from_camera(&camera, size)?, set.locations())];
-        let rendered = headless.render_locations(&shown.prepared, &rig, size, &task.settings)?;
+        let rendered = headless.render_locations(&shown.prepared, &rig, &task.settings)?;
         check(headless)?;
         Ok(rendered)
     }
@@ -499,8 +499,8 @@ impl Maker {
                 ..task.source.request.clone()
             })?;
             let request = SceneRequest::new(&task.scene, &pose)
-                .shadowed(task.settings.shadows)
-                .within(task.settings.max_memory);
+                .shadowed(task.settings.scene.shadows)
+                .within(task.settings.scene.max_memory);
             let prepared = headless.upload(request)?;
             self.shown = Some(OpenScene {
                 scene: task.scene.clone(),

@@ -2,7 +2,7 @@
 
 use super::{Resources, SampleSet};
 use crate::engine::passes::spirv::frame_set;
-use crate::vulkan::{Shown, ShownBinding, read_image};
+use crate::vulkan::{BoundDescriptor, Descriptor, read_image};
 use ash::vk;
 
 /// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
@@ -21,7 +21,7 @@ pub struct IdViews {
 impl Resources {
     /// Writes sets that were just allocated, except the images of triangle IDs and depth; `others` belong to the scene,
     /// or to the frame's view of the scene.
-    pub(super) fn write_set(&self, set: &mut SampleSet, others: &[ShownBinding]) {
+    pub(super) fn write_set(&self, set: &mut SampleSet, others: &[BoundDescriptor]) {
         let own_texels = [
             (frame_set::DISPLAY, &self.display),
             (frame_set::CANDIDATES, &self.candidates),
@@ -39,7 +39,7 @@ impl Resources {
         let listed = self.locations.locations.as_ref();
         let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.texels()));
         let texels = own_texels.into_iter().chain(listed);
-        let texels = texels.map(|(binding, texels)| (binding, Shown::from(texels)));
+        let texels = texels.map(|(binding, texels)| (binding, Descriptor::from(texels)));
         let buffers = [
             (frame_set::FRAME, &set.uniform),
             (frame_set::DISPLAY_OUT, &self.display.buffer),
@@ -65,7 +65,7 @@ impl Resources {
             (frame_set::TILE_LOADS, &self.locations.tile_loads),
             (frame_set::PATTERN, &set.offsets.buffer),
         ]
-        .map(|(binding, buffer)| (binding, Shown::from(buffer)));
+        .map(|(binding, buffer)| (binding, Descriptor::from(buffer)));
         let shown: Vec<_> = others
             .iter()
             .copied()

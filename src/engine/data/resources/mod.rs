@@ -13,7 +13,7 @@ pub use sizes::ResourceSizes;
 
 use super::{Content, Counter};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, Memory, MemoryUse, ShownBinding, VulkanError};
+use crate::vulkan::{BoundDescriptor, Buffer, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &dyn Content,
-        others: &[ShownBinding],
+        others: &[BoundDescriptor],
         ids: &IdViews,
         sizes: ResourceSizes,
         offset_lists: &[Offsets<'_>],
@@ -74,7 +74,7 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scratch: &Arc<Scratch>,
-        others: &[ShownBinding],
+        others: &[BoundDescriptor],
         sizes: ResourceSizes,
         offset_lists: &[Offsets<'_>],
     ) -> Result<Self, VulkanError> {

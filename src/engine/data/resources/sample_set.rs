@@ -2,7 +2,9 @@
 
 use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
-use crate::vulkan::{Buffer, BufferView, DescriptorSets, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{
+    Buffer, DescriptorSets, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError,
+};
 use ash::vk;
 
 /// Sample offsets from the pixel's centre, in pixels.
@@ -17,7 +19,7 @@ pub struct Offsets<'a> {
 /// Sample offsets, and the descriptor sets that contain them.
 pub struct SampleSet {
     pub(crate) uniform: Buffer,
-    pub(crate) offsets: BufferView,
+    pub(crate) offsets: TexelBuffer,
     pub(crate) upload: Upload,
     count: u32,
     /// Descriptor sets of the passes.

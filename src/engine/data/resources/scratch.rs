@@ -4,7 +4,7 @@ use super::{ResourceSizes, STORAGE};
 use crate::engine::data::Argument;
 use crate::engine::data::locations::{LocationBuffers, LocationSizes};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, Memory, MemoryUse, TexelBuffer, VulkanError};
 use ash::vk;
 
 /// Buffers with the results that passes read from earlier passes. Frames whose commands run one after the other may
@@ -12,8 +12,8 @@ use ash::vk;
 pub struct Scratch {
     sizes: ResourceSizes,
     bin_count: u32,
-    pub(crate) display: BufferView,
-    pub(crate) color: BufferView,
+    pub(crate) display: TexelBuffer,
+    pub(crate) color: TexelBuffer,
     /// A word for each tile, a bit for each superpixel.
     pub masks: Buffer,
     pub(crate) marks: Buffer,
@@ -24,19 +24,19 @@ pub struct Scratch {
     pub(super) survivors: Buffer,
     pub(super) corners: Buffer,
     pub(super) indexed_draws: Buffer,
-    pub(super) pairs: BufferView,
-    pub(super) candidates: BufferView,
+    pub(super) pairs: TexelBuffer,
+    pub(super) candidates: TexelBuffer,
     pub(super) headers: Buffer,
-    pub(crate) records: BufferView,
-    pub(crate) shaded: BufferView,
-    pub(crate) shadow_words: BufferView,
+    pub(crate) records: TexelBuffer,
+    pub(crate) shaded: TexelBuffer,
+    pub(crate) shadow_words: TexelBuffer,
     pub(crate) shade_order: Buffer,
     pub(crate) bins: Buffer,
     /// Four words for each [`Argument`].
     pub arguments: Buffer,
     /// Word for conditional rendering: not 0 if another round has work. `None` if the device can't skip commands.
     pub(super) another_round: Option<Buffer>,
-    pub(super) filtered: BufferView,
+    pub(super) filtered: TexelBuffer,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
     /// Buffers of lists of locations.

@@ -5,7 +5,7 @@ use crate::engine::passes::RasterRun;
 use crate::engine::passes::spirv::frame_set;
 use crate::render::data::GpuScene;
 use crate::scene::{DrawClass, Moment};
-use crate::vulkan::{Memory, Recorder, ShownBinding, VulkanError};
+use crate::vulkan::{BoundDescriptor, Memory, Recorder, VulkanError};
 use glam::DMat4;
 
 /// Instances as a frame's camera sees them, and the vertices that move at the frame's moment.
@@ -37,7 +37,7 @@ impl FrameGeometry {
 
     /// Bindings that show the vertices of the scene and of the frame.
     #[must_use]
-    pub fn shown(&self, scene: &GpuScene) -> Vec<ShownBinding> {
+    pub fn shown(&self, scene: &GpuScene) -> Vec<BoundDescriptor> {
         let geometry = &scene.geometry;
         let (positions, normals) = match &self.moving {
             Some(moving) => (&moving.positions, &moving.normals),

@@ -18,7 +18,7 @@ pub(in crate::render) use placed::PlacedInstances;
 use crate::engine::data::upload::Uploader;
 use crate::engine::passes::spirv;
 use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
-use crate::vulkan::{BufferView, VulkanError};
+use crate::vulkan::{TexelBuffer, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
 use std::borrow::Cow;
@@ -66,15 +66,15 @@ impl Place {
 
 /// A scene's triangles on the device.
 pub(in crate::render) struct GpuGeometry {
-    pub(in crate::render) positions: BufferView,
+    pub(in crate::render) positions: TexelBuffer,
     /// For each triangle its corners, and a word with material, bin and flags.
-    pub(in crate::render) triangles: BufferView,
-    pub(in crate::render) normals: BufferView,
-    pub(in crate::render) tangents: BufferView,
-    pub(in crate::render) uvs: BufferView,
-    pub(in crate::render) colors: BufferView,
+    pub(in crate::render) triangles: TexelBuffer,
+    pub(in crate::render) normals: TexelBuffer,
+    pub(in crate::render) tangents: TexelBuffer,
+    pub(in crate::render) uvs: TexelBuffer,
+    pub(in crate::render) colors: TexelBuffer,
     /// Index of the place for each block of indices.
-    pub(in crate::render) blocks: BufferView,
+    pub(in crate::render) blocks: TexelBuffer,
     pub(in crate::render) runs: Vec<Run>,
     places: Vec<Place>,
     /// Moving vertices; `None` for a scene that does not move.

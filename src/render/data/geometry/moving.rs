@@ -5,16 +5,16 @@ use super::GpuGeometry;
 use crate::engine::data::upload::Uploader;
 use crate::engine::passes::spirv;
 use crate::scene::{Edge, Moment, Motion, MotionPart, Stroke};
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Input of `pose` that belongs to the scene.
 pub(in crate::render) struct GpuMotion {
     /// Position, normal and tangent of each vertex at rest.
-    pub(in crate::render) resting: BufferView,
-    pub(in crate::render) influences: BufferView,
-    pub(in crate::render) displacements: BufferView,
+    pub(in crate::render) resting: TexelBuffer,
+    pub(in crate::render) influences: TexelBuffer,
+    pub(in crate::render) displacements: TexelBuffer,
     pub(in crate::render) parts: Vec<MotionPart>,
     vector_count: u64,
     identity: Arc<()>,
@@ -49,7 +49,7 @@ impl GpuMotion {
 /// Input of `stroke` that belongs to the scene.
 pub(in crate::render) struct GpuStrokes {
     /// Records: two vectors for each corner of points and lines, then two for each edge.
-    pub(in crate::render) records: BufferView,
+    pub(in crate::render) records: TexelBuffer,
     /// Number of corners of points and lines.
     pub(in crate::render) corner_count: u32,
     pub(in crate::render) edge_count: u32,
@@ -90,12 +90,12 @@ impl GpuStrokes {
 
 /// A frame's vertices. `pose` and `stroke` overwrite those that move.
 pub(in crate::render) struct MovingVertices {
-    pub(in crate::render) positions: BufferView,
-    pub(in crate::render) normals: BufferView,
+    pub(in crate::render) positions: TexelBuffer,
+    pub(in crate::render) normals: TexelBuffer,
     /// Tangents; `None` unless a motion moves vertices, because they don't depend on the camera.
-    pub(in crate::render) tangents: Option<BufferView>,
+    pub(in crate::render) tangents: Option<TexelBuffer>,
     /// Matrices and weights of the moment, which the host writes before each recording.
-    pub(in crate::render) moment: Option<BufferView>,
+    pub(in crate::render) moment: Option<TexelBuffer>,
 }
 
 impl MovingVertices {
@@ -115,7 +115,7 @@ impl MovingVertices {
             let format = vk::Format::R32G32B32A32_SFLOAT;
             memory.texel_buffer(name, elements, format, usage, place)
         };
-        let like = |name: &str, view: &BufferView| {
+        let like = |name: &str, view: &TexelBuffer| {
             texels(name, view.buffer.size() / 16, usage, MemoryUse::Device)
         };
         let moment = |motion: &GpuMotion| {

@@ -2,7 +2,7 @@
 
 use super::GpuGeometry;
 use crate::engine::passes::RasterPush;
-use crate::vulkan::{BufferView, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Memory, MemoryUse, TexelBuffer, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 
@@ -13,7 +13,7 @@ const VECTORS: usize = 8;
 pub(in crate::render) struct PlacedInstances {
     /// For each instance: its words, the four columns of its matrix to clip space, and three rows of its matrix to the
     /// scene's coordinates. Empty without instances.
-    pub(in crate::render) buffer: BufferView,
+    pub(in crate::render) buffer: TexelBuffer,
     draws: Vec<RasterPush>,
     hidden: Vec<bool>,
 }

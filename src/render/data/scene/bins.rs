@@ -7,10 +7,11 @@ use crate::engine::pipelines::FrameLayout;
 use crate::scene::{Geometry, Material, Scene, TextureRole};
 use crate::vulkan::{DescriptorSets, Specialized, VulkanError};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Features for which a shading pipeline is specialised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct ShadeFeatures {
+pub(in crate::render) struct ShadeFeatures {
     /// Slot from which each texture is read.
     slots: RoleSlots,
     /// Whether vertex colours are multiplied in.
@@ -111,9 +112,9 @@ impl ShadeFeatures {
 pub(in crate::render) struct MaterialBin {
     pub(in crate::render) features: ShadeFeatures,
     /// Textures with the samplers of the scene.
-    pub(in crate::render) textures: DescriptorSets,
+    pub(in crate::render) textures: Arc<DescriptorSets>,
     /// Textures with samplers for means over footprints.
-    pub(in crate::render) averaged_textures: DescriptorSets,
+    pub(in crate::render) averaged_textures: Arc<DescriptorSets>,
 }
 
 /// Key of a material bin.
@@ -187,8 +188,8 @@ impl Bins {
             textures.write(&averaged, &key.textures, true);
             MaterialBin {
                 features: key.features,
-                textures: plain,
-                averaged_textures: averaged,
+                textures: Arc::new(plain),
+                averaged_textures: Arc::new(averaged),
             }
         };
         Ok(self.keys.iter().zip(sets).map(bin).collect())

@@ -6,7 +6,7 @@ use super::{GpuScene, Slots};
 use crate::engine::passes::spirv::frame_set;
 use crate::scene::{Moment, Motion};
 use crate::vulkan::{
-    Buffer, BufferView, Memory, MemoryUse, Recorder, Shown, ShownBinding, VulkanError,
+    BoundDescriptor, Buffer, Descriptor, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError,
 };
 use ash::vk;
 
@@ -34,7 +34,7 @@ impl ChangingLook {
 /// A frame's own copies of the scene's materials and lights, if these change.
 #[derive(Default)]
 pub struct FrameLook {
-    materials: Option<BufferView>,
+    materials: Option<TexelBuffer>,
     lights: Option<Buffer>,
     /// Updates of the materials and lights for the next recording.
     updates: Vec<Update>,
@@ -56,7 +56,7 @@ impl FrameLook {
         let Some(changing) = &scene.changing else {
             return Ok(Self::default());
         };
-        let materials = |view: &BufferView| {
+        let materials = |view: &TexelBuffer| {
             memory.texel_buffer(
                 "materials that change",
                 view.buffer.size() / 16,
@@ -95,10 +95,10 @@ impl FrameLook {
 
     /// Bindings that show the materials and lights of the frame, and the environment.
     #[must_use]
-    pub fn shown(&self, scene: &GpuScene) -> [ShownBinding; 3] {
+    pub fn shown(&self, scene: &GpuScene) -> [BoundDescriptor; 3] {
         let materials = self.materials.as_ref().unwrap_or(&scene.materials);
         let lights = self.lights.as_ref().unwrap_or(&scene.lights);
-        let environment = Shown::Image(scene.environment.descriptor());
+        let environment = Descriptor::Image(scene.environment.descriptor());
         [
             (frame_set::MATERIALS, materials.texels().into()),
             (frame_set::LIGHTS, lights.into()),

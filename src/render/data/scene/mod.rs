@@ -12,7 +12,7 @@ mod texture;
 mod texture_set;
 mod triangles;
 
-pub use bins::ShadeFeatures;
+pub(in crate::render) use bins::MaterialBin;
 pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
 pub use look::FrameLook;
@@ -22,10 +22,10 @@ use crate::engine::data::Content;
 use crate::engine::data::upload::{Upload, Uploader};
 use crate::engine::pipelines::FrameLayout;
 use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
-use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Memory, Recorder, TexelBuffer, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
-use bins::{Bins, MaterialBin};
+use bins::Bins;
 use environment::{EnvironmentUpload, GpuEnvironment};
 use glam::DVec3;
 use light::GpuLight;
@@ -33,19 +33,19 @@ use look::ChangingLook;
 use material::MaterialTable;
 use slots::Slots;
 use std::sync::atomic::{AtomicBool, Ordering};
-use texture::{DeviceSampler, Texture};
+use texture::{DeviceSampler, GpuTexture};
 use texture_set::TextureSet;
 use triangles::Triangles;
 
 /// A posed scene in device memory.
 pub struct GpuScene {
     pub(in crate::render) geometry: GpuGeometry,
-    materials: BufferView,
+    materials: TexelBuffer,
     material_vectors: u32,
     is_tinted: bool,
     lights: Buffer,
     changing: Option<ChangingLook>,
-    pub(in crate::render) alpha_atlas: BufferView,
+    pub(in crate::render) alpha_atlas: TexelBuffer,
     pub(in crate::render) environment: GpuEnvironment,
     has_environment: bool,
     pub(in crate::render) bins: Vec<MaterialBin>,
@@ -53,7 +53,7 @@ pub struct GpuScene {
     first_blend: u32,
     high_frequency_triangles: u64,
     light_features: LightFeatures,
-    textures: Vec<Texture>,
+    textures: Vec<GpuTexture>,
     _samplers: Vec<DeviceSampler>,
     memory: Memory,
     /// Whether the copies that fill the device memory have been executed.

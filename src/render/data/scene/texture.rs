@@ -7,11 +7,11 @@ use ash::vk;
 use std::sync::Arc;
 
 /// An image with its mipmaps.
-pub(super) struct Texture {
+pub(super) struct GpuTexture {
     pub(super) image: Image,
 }
 
-impl Texture {
+impl GpuTexture {
     /// Makes the image, and a buffer with its contents; `srgb` is true for colours.
     pub(super) fn new(
         memory: &Memory,

@@ -1,6 +1,6 @@
 //! Images and samplers of a scene, each created once.
 
-use super::texture::{DeviceSampler, Texture};
+use super::texture::{DeviceSampler, GpuTexture};
 use crate::engine::passes::spirv::shade_set;
 use crate::scene::{Filter, Image as SceneImage, Sampler, Scene};
 use crate::vulkan::{Buffer, DescriptorSets, Memory, VulkanError, read_image};
@@ -13,7 +13,7 @@ pub(super) type TextureIndex = (usize, usize);
 /// Images and samplers that have been created.
 pub(super) struct TextureSet<'a> {
     memory: &'a Memory,
-    pub(super) textures: Vec<Texture>,
+    pub(super) textures: Vec<GpuTexture>,
     /// Contents of the textures.
     pub(super) texture_uploads: Vec<Buffer>,
     known: HashMap<(u32, bool), usize>,
@@ -58,7 +58,7 @@ impl<'a> TextureSet<'a> {
     }
 
     fn add(&mut self, image: &SceneImage, srgb: bool) -> Result<usize, VulkanError> {
-        let (texture, upload) = Texture::new(self.memory, image, srgb)?;
+        let (texture, upload) = GpuTexture::new(self.memory, image, srgb)?;
         self.textures.push(texture);
         self.texture_uploads.push(upload);
         Ok(self.textures.len() - 1)

@@ -7,7 +7,7 @@ use gltf::json::Node;
 
 use super::{copies, hierarchy::NodeStates, motion::Moving, primitives_of};
 use crate::scene::{
-    document::{Document, Primitive, Target},
+    document::{Displacements, Document, Primitive},
     geometry::length_scale,
 };
 
@@ -18,7 +18,7 @@ pub struct Placement<'d> {
     pub node: usize,
     pub primitive: &'d Primitive,
     /// Morph targets that have an effect: weight, index, displacements.
-    pub targets: Arc<[(f64, usize, &'d Target)]>,
+    pub targets: Arc<[(f64, usize, &'d Displacements)]>,
     motion: VertexMotion,
     /// Whether the device moves the vertices.
     pub moves: bool,
@@ -220,7 +220,12 @@ impl<'d> Placement<'d> {
     }
 
     #[inline]
-    fn morph(&self, v: usize, base: [f32; 3], stream: fn(&Target) -> &Vec<[f32; 3]>) -> DVec3 {
+    fn morph(
+        &self,
+        v: usize,
+        base: [f32; 3],
+        stream: fn(&Displacements) -> &Vec<[f32; 3]>,
+    ) -> DVec3 {
         let mut value = Vec3::from_array(base).as_dvec3();
         for (weight, _, target) in self.targets.iter() {
             if let Some(&displacement) = stream(target).get(v) {

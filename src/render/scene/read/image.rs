@@ -26,14 +26,14 @@ const MAX_FILE: u64 = 1 << 30;
 
 /// Images of a document; only those that are needed are decoded.
 #[derive(Default)]
-pub struct Images {
+pub struct DecodedImages {
     /// Index into `decoded` of every image that was tried; `None` for a failure.
     places: BTreeMap<usize, Option<u32>>,
     decoded: Vec<Image>,
     texels: u64,
 }
 
-impl Images {
+impl DecodedImages {
     /// Decodes the images `wanted` that were not tried before; failures become warnings.
     pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
         let wanted: BTreeSet<usize> = wanted

@@ -6,7 +6,7 @@ use glam::DQuat;
 use gltf::json::{self, Index};
 use serde::Deserialize;
 
-use super::{Context, image::Images, model};
+use super::{Context, image::DecodedImages, model};
 use crate::color::srgb;
 use crate::scene::{environment::Environment, error::Fault, material::Image};
 
@@ -88,7 +88,7 @@ fn read(index: usize, from: &str, context: &mut Context<'_>) -> Result<Environme
             context.model.check(image, &place)?;
         }
     }
-    let mut images = Images::default();
+    let mut images = DecodedImages::default();
     let all = item.specular_images.as_flattened();
     images.decode(context, all.iter().map(Index::value));
     let places: Vec<_> = all.iter().map(|i| images.place(i.value())).collect();

@@ -11,9 +11,9 @@ use gltf::json::mesh::Mode;
 use tobj::{LoadError, LoadOptions};
 
 use super::{
-    image::Images,
+    image::DecodedImages,
     obj_fault,
-    shape::{Drawing, Shape, linear, plain},
+    shape::{Drawing, FileObject, linear, plain},
     uri,
 };
 use crate::scene::{
@@ -106,7 +106,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     };
 
     let mut drawing = Drawing::default();
-    let mut images = Images::default();
+    let mut images = DecodedImages::default();
     for material in materials.unwrap_or_default() {
         let read = read_material(
             &material,
@@ -129,7 +129,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         let pairs = corners.iter().map(|&[a, b, _]| [a, b]);
         let (points, lines) = pairs.filter(|_| is_strokes).partition(|[a, b]| a == b);
         let points: Vec<[u32; 2]> = points;
-        drawing.shapes.push(Shape {
+        drawing.shapes.push(FileObject {
             name: Some(name),
             material: mesh.material_id.unwrap_or(grey),
             triangles: triangles.to_vec(),
@@ -282,7 +282,7 @@ fn placed(map: &str) -> (&str, TextureTransform) {
 fn read_material(
     item: &tobj::Material,
     base: Option<&Path>,
-    images: &mut Images,
+    images: &mut DecodedImages,
     textures: &mut Vec<Texture>,
     warnings: &mut Warnings,
 ) -> Material {

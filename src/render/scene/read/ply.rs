@@ -9,7 +9,7 @@ use ply_rs_bw::{
     ply::{ElementDef, Header, Property, PropertyAccess, PropertyAccessResult},
 };
 
-use super::shape::{Drawing, Shape, linear, plain};
+use super::shape::{Drawing, FileObject, linear, plain};
 use crate::scene::{
     Loaded, SceneError,
     error::{Fault, Warnings},
@@ -141,7 +141,7 @@ fn draw(
     if colored {
         material.base_color = [1.0; 4];
     }
-    let shape = Shape {
+    let shape = FileObject {
         triangles,
         lines: edges.iter().map(|edge| edge.ends).collect(),
         points: (0..points).collect(),
@@ -151,7 +151,7 @@ fn draw(
             .collect(),
         normals: stream(has(&["nx", "ny", "nz"])).map(|v| v.normal).collect(),
         colors: stream(colored).map(|v| v.color).collect(),
-        ..Shape::default()
+        ..FileObject::default()
     };
     Drawing {
         shapes: vec![shape],

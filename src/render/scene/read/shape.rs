@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// Object of a file. Streams other than the positions are empty or as long as the positions.
 #[derive(Debug, Default)]
-pub struct Shape {
+pub struct FileObject {
     pub name: Option<String>,
     /// Index into the materials of the [`Drawing`]; an index past the end stands for glTF's default.
     pub material: usize,
@@ -36,7 +36,7 @@ pub struct Shape {
 /// Contents of a file.
 #[derive(Debug, Default)]
 pub struct Drawing {
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<FileObject>,
     /// Origin to which the positions of all shapes are relative.
     pub origin: DVec3,
     pub materials: Vec<Material>,
@@ -157,7 +157,7 @@ impl Drawing {
     }
 }
 
-impl Shape {
+impl FileObject {
     /// Makes a primitive of the parts of a shape that can be drawn, and warns of the others.
     fn into_primitive(
         mut self,

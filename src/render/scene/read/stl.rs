@@ -7,7 +7,7 @@ use crate::scene::{
     error::{Fault, Warnings},
 };
 
-use super::shape::{Drawing, Shape, plain};
+use super::shape::{Drawing, FileObject, plain};
 
 /// Numbers of bytes of the header, the count and one triangle of a binary file.
 const HEADER: usize = 80;
@@ -52,14 +52,14 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
         let reason = format!("the STL file is broken: {error}; export it again");
         Fault::new("triangles", reason).into_error(file)
     })?;
-    let shape = Shape {
+    let shape = FileObject {
         triangles: mesh
             .faces
             .iter()
             .map(|face| face.vertices.map(|v| v as u32))
             .collect(),
         positions: mesh.vertices.iter().map(|vertex| vertex.0).collect(),
-        ..Shape::default()
+        ..FileObject::default()
     };
     let drawing = Drawing {
         shapes: vec![shape],

@@ -10,7 +10,7 @@ use gltf::json::{
 
 use super::{
     Context,
-    image::Images,
+    image::DecodedImages,
     model::{self, Model},
 };
 use crate::scene::{
@@ -33,7 +33,7 @@ pub fn resolve(
     context: &mut Context<'_>,
     materials: &mut [Material],
 ) -> (Vec<Texture>, Vec<Image>) {
-    let mut images = Images::default();
+    let mut images = DecodedImages::default();
     let uses = materials.iter().flat_map(Material::textures);
     let used: BTreeSet<u32> = uses.map(|(_, used)| used.texture).collect();
     let mut wanted = Vec::new();

@@ -12,7 +12,7 @@ use gltf::json::{
 
 use super::{Context, accessor::Accessor, packed::Packed, primitive::gather};
 use crate::scene::{
-    document::{Influences, Target},
+    document::{Displacements, Influences},
     error::Fault,
     material::Material,
 };
@@ -193,7 +193,7 @@ impl<'r> Reader<'r, '_> {
         items: &[MorphTarget],
         sources: &[u32],
         notes: &mut Vec<Fault>,
-    ) -> Vec<Target> {
+    ) -> Vec<Displacements> {
         let targets = items.iter().enumerate();
         targets
             .map(|(i, item)| {
@@ -209,7 +209,7 @@ impl<'r> Reader<'r, '_> {
                     }
                     Some(displacements)
                 };
-                Target {
+                Displacements {
                     positions: stream("POSITION", item.positions, &ANY).unwrap_or_default(),
                     normals: stream("NORMAL", item.normals, &SIGNED).unwrap_or_default(),
                     tangents: stream("TANGENT", item.tangents, &SIGNED).unwrap_or_default(),

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use glam::Vec3;
 
-use crate::scene::document::{Influences, Primitive, Target};
+use crate::scene::document::{Displacements, Influences, Primitive};
 
 /// Generates tangents of `primitive` for a normal texture on UV set `uv_set`. A vertex whose triangles have different
 /// tangents is split.
@@ -113,7 +113,7 @@ fn split(primitive: &mut Primitive, corners: &[Option<[f32; 4]>]) {
     select(&mut primitive.normals, &origins);
     select(&mut primitive.uvs, &origins);
     select(&mut primitive.colors, &origins);
-    for Target {
+    for Displacements {
         positions,
         normals,
         tangents,

@@ -243,7 +243,7 @@ impl Stage {
     ) -> Result<Rendered, RenderError> {
         let (scene, pose) = self.build();
         let prepared =
-            headless.upload(SceneRequest::new(&scene, &pose).within(settings.max_memory))?;
+            headless.upload(SceneRequest::new(&scene, &pose).within(settings.scene.max_memory))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         headless.render(&mut frame, camera)
     }

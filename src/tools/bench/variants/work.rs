@@ -7,7 +7,8 @@ use crate::camera::set::{Sample, SamplingSet, SetError};
 use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
 use crate::camera::{Camera, Pinhole, SampleLocation};
 use crate::render::{
-    Frame, Headless, MethodKind, PreparedScene, RenderError, Settings, Statistics,
+    CellOptions, Footprint, Frame, Headless, MethodKind, PreparedScene, RenderError, SceneSettings,
+    Settings, Statistics,
 };
 
 /// Largest number of samples in a leaf of the quadtree.
@@ -22,7 +23,7 @@ pub(super) enum VariantWork {
     /// Frame of the raster pass.
     Frame(Box<Frame>),
     /// One sample at each location of each pinhole.
-    Points(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
+    Points(Vec<(Pinhole, Vec<SampleLocation>)>, Box<SceneSettings>),
     /// Image at two rates: one sample in each cell, and more in cells that alias.
     TwoRates(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
 }
@@ -52,7 +53,7 @@ impl VariantWork {
                 return Ok(Self::Frame(Box::new(headless.prepare(scene, &once)?)));
             }
             Variant::Superpixel => {
-                let settings = with(MethodKind::Superpixel, Settings::DEFAULT_SAMPLES);
+                let settings = with(MethodKind::Superpixel, CellOptions::DEFAULT_SAMPLES);
                 let locations = SamplingSet::planar(size)?.locations();
                 return Ok(Self::TwoRates(
                     vec![(pinhole, locations)],
@@ -68,7 +69,8 @@ impl VariantWork {
                 panorama.locations(camera)?.rig().to_vec()
             }
         };
-        Ok(Self::Points(rig, Box::new(once)))
+        let settings = once.scene.footprint(Footprint::Pixel);
+        Ok(Self::Points(rig, Box::new(settings)))
     }
 
     pub fn run(
@@ -96,7 +98,7 @@ impl VariantWork {
                 Ok(sum)
             }
             Self::TwoRates(rig, settings) => {
-                let rendered = headless.render_locations(scene, rig, settings.size, settings)?;
+                let rendered = headless.render_locations(scene, rig, settings)?;
                 let pixels = rendered.colors.len() as u64;
                 let more = rendered.statistics.superpixels * u64::from(settings.method.samples());
                 Ok(done(pixels + more, &rendered.statistics))

@@ -103,7 +103,7 @@ fn what_can_not_be_shadowed_is_refused() {
         let (scene, mut pose) = stage.build();
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let locations = [location([1.5, 2.5], 0)];
-        let asked = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact());
+        let asked = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact().scene);
         assert!(matches!(asked, Err(RenderError::NoCasters)), "{asked:?}");
         let frame = gpu.prepare(&prepared, &exact()).map(|_| ());
         assert!(matches!(frame, Err(RenderError::NoCasters)), "{frame:?}");
@@ -118,7 +118,7 @@ fn what_can_not_be_shadowed_is_refused() {
         pose.lights.truncate(32);
         let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
         let prepared = gpu.upload(request).unwrap();
-        let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact());
+        let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact().scene);
         assert_eq!(seen.unwrap().values[0].shadows, 0);
     });
 }

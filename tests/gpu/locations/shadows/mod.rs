@@ -14,7 +14,7 @@ mod wires;
 use glam::{DVec2, DVec3};
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::render::{
-    Headless, PointSample, PreparedScene, Rendered, SceneRequest, Settings, Shadows,
+    Footprint, Headless, PointSample, PreparedScene, Rendered, SceneRequest, Settings, Shadows,
 };
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
@@ -91,7 +91,9 @@ fn render(gpu: &mut Headless, prepared: &PreparedScene, settings: &Settings) -> 
 }
 
 fn exact() -> Settings {
-    once(SIZE).shadows(Shadows::Exact)
+    once(SIZE)
+        .shadows(Shadows::Exact)
+        .footprint(Footprint::Pixel)
 }
 
 fn ask(
@@ -101,7 +103,7 @@ fn ask(
     locations: &[SampleLocation],
 ) -> Vec<PointSample> {
     let prepared = upload(gpu, stage, lights);
-    let seen = gpu.sample_points(&prepared, &pinhole(SIZE), locations, &exact());
+    let seen = gpu.sample_points(&prepared, &pinhole(SIZE), locations, &exact().scene);
     seen.unwrap().values
 }
 

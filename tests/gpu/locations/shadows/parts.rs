@@ -33,7 +33,7 @@ fn parts_of_an_image_have_the_shadows_of_the_whole() {
             .max_memory(Some(prepared.memory_bytes() + (44 << 20)));
         let in_parts = render(gpu, &prepared, &bounded);
         assert!(in_parts.statistics.regions > 1);
-        assert!(in_parts.statistics.memory_bytes <= bounded.max_memory.unwrap());
+        assert!(in_parts.statistics.memory_bytes <= bounded.scene.max_memory.unwrap());
         assert!(in_parts.colors == whole.colors);
 
         let part = settings.region(Some(PixelRect {

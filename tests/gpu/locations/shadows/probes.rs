@@ -64,7 +64,7 @@ fn pixels_are_probed_where_the_twin_has_it() {
             .map_superpixels(|options| options.detection(Detection::Edges));
         let frame = render(gpu, &prepared, &settings);
         let rig = [(pinhole, planar(SIZE))];
-        let list = gpu.render_locations(&prepared, &rig, SIZE, &settings);
+        let list = gpu.render_locations(&prepared, &rig, &settings);
         let is_superpixel = |image: &Rendered, x: u32, y: u32| {
             image.attributes[(y * SIZE[0] + x) as usize].superpixel == 1
         };

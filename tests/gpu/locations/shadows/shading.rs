@@ -6,7 +6,7 @@ use gpc::render::{Headless, PointSample};
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun, upload, within};
-use crate::stage::{Stage, on_gpu, once};
+use crate::stage::{Stage, on_gpu, once_each};
 
 /// Each light has its own shadows, and a point is lit by exactly the lights in whose shadow it does not lie.
 #[test]
@@ -32,7 +32,7 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
             }
             let prepared = upload(gpu, &stage, &shining);
             let open = gpu
-                .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))
+                .sample_points(&prepared, &pinhole(SIZE), &locations, &once_each())
                 .unwrap();
             for (seen, expected) in both.iter().zip(&open.values) {
                 assert_eq!(expected.shadows, 0);
@@ -74,8 +74,7 @@ fn blend_lets_pass_what_its_opacity_leaves() {
         };
         let open = |gpu: &mut Headless, shining: [Light; 2]| {
             let prepared = upload(gpu, &stage, &shining);
-            let settings = once(SIZE);
-            let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &settings);
+            let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &once_each());
             seen.unwrap().values
         };
         let none = open(gpu, [dark(&lights[0]), dark(&lights[1])]);

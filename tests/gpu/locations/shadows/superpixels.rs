@@ -9,7 +9,7 @@ use gpc::scene::{AlphaMode, Light};
 
 use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload, within};
 use crate::scenes::ball_over_checker;
-use crate::stage::{everywhere, on_gpu};
+use crate::stage::{cells, everywhere, on_gpu};
 
 /// Pixels in which the border of a shadow lies between their centre and a neighbour's, or a probe, are superpixels
 /// even on a single triangle, and their brightness is the share of their samples that are lit.
@@ -100,9 +100,15 @@ fn superpixels_without_shadows_stay_as_they_were() {
             .collect();
         let mut values = [Shadows::None, Shadows::Exact].map(|shadows| {
             let settings = settings.clone().shadows(shadows);
-            gpu.sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
-                .unwrap()
-                .values
+            gpu.sample_superpixels(
+                &prepared,
+                &pinhole(SIZE),
+                &locations,
+                &cells(&settings),
+                &settings.scene,
+            )
+            .unwrap()
+            .values
         });
         let [open, shadowed] = &mut values;
         for (a, b) in open.iter().zip(shadowed) {

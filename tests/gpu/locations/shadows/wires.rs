@@ -62,7 +62,7 @@ fn the_shadow_of_a_thin_wire_keeps_its_energy() {
             let settings = Settings::new(SIZE[0], SIZE[1]).shadows(shadows);
             let prepared = upload(gpu, &stage, &[sun]);
             if as_list {
-                let rendered = gpu.render_locations(&prepared, &rig, SIZE, &settings);
+                let rendered = gpu.render_locations(&prepared, &rig, &settings);
                 return rendered.unwrap().colors;
             }
             render(gpu, &prepared, &settings).colors

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use gpc::bench::{self, Contender, Yardstick};
 use gpc::names::name;
 use gpc::output::Picture;
-use gpc::render::{MethodKind, Settings, Shading, SuperpixelOptions};
+use gpc::render::{CellOptions, MethodKind, Shading, SuperpixelOptions};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -17,7 +17,7 @@ const CONTRASTS: [u8; 8] = [0, 1, 2, 4, 6, 12, 16, 32];
 
 /// Options of superpixels, with the name and the value of the one that differs from the default.
 fn choices() -> impl Iterator<Item = (&'static str, String, SuperpixelOptions)> {
-    let default = || SuperpixelOptions::new(Settings::DEFAULT_SAMPLES);
+    let default = || SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES);
     let contrasts = CONTRASTS.map(|contrast| {
         let options = default().contrast(Some(contrast));
         ("contrast", contrast.to_string(), options)
@@ -83,7 +83,7 @@ pub fn print(scene: &SceneChoices) -> anyhow::Result<()> {
     print::line(&format!(
         "\n{}, superpixels of {} samples with one option changed:",
         scene.name,
-        Settings::DEFAULT_SAMPLES
+        CellOptions::DEFAULT_SAMPLES
     ))?;
     print::line("  option    value     superpixels    GPU ms     min      rmse      flip")?;
     for row in &scene.rows {
@@ -121,7 +121,7 @@ pub fn csv(scenes: &[SceneChoices]) -> String {
                 scene.textured,
                 row.option,
                 row.value,
-                Settings::DEFAULT_SAMPLES,
+                CellOptions::DEFAULT_SAMPLES,
                 cost.gpu_ms.count,
                 csv::times(&cost.gpu_ms, &cost.wall_ms),
                 row.superpixel_fraction,

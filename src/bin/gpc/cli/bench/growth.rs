@@ -5,7 +5,7 @@ use super::results::{Point, ScalingCurve, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
 use gpc::bench::{self, Contender, Growth, GrowthStep};
-use gpc::render::{MethodKind, RenderError, SceneRequest, Settings};
+use gpc::render::{CellOptions, MethodKind, RenderError, SceneRequest};
 use std::fmt::Write;
 
 const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
@@ -41,8 +41,8 @@ pub fn csv(curves: &[ScalingCurve]) -> String {
 /// The methods to compare, with their samples a pixel.
 const METHODS: [(MethodKind, u32); 3] = [
     (MethodKind::None, 1),
-    (MethodKind::Superpixel, Settings::DEFAULT_SAMPLES),
-    (MethodKind::Ssaa, Settings::DEFAULT_SAMPLES),
+    (MethodKind::Superpixel, CellOptions::DEFAULT_SAMPLES),
+    (MethodKind::Ssaa, CellOptions::DEFAULT_SAMPLES),
 ];
 
 impl Bench<'_> {

@@ -6,7 +6,7 @@ use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
 use gpc::bench::{self, Accuracy, Contender, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{EngineError, Footprint, MethodKind, RenderError, Settings};
+use gpc::render::{CellOptions, EngineError, Footprint, MethodKind, RenderError, Settings};
 use std::path::Path;
 
 /// A method that takes part, with the figures that are known before it is timed.
@@ -118,7 +118,7 @@ impl Bench<'_> {
             .iter()
             .filter(|(method, _)| *method == MethodKind::Superpixel)
             .map(|(_, samples)| *samples);
-        counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
+        counts.max_by_key(|samples| (*samples == CellOptions::DEFAULT_SAMPLES, *samples))
     }
 
     /// Yardstick of geometry alone, if it is asked for. `one_sample` serves both yardsticks, because one sample a

@@ -4,7 +4,7 @@ use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
 use super::split::shares;
 use gpc::bench::Spread;
-use gpc::render::{MethodKind, Settings};
+use gpc::render::{CellOptions, MethodKind};
 use serde::Serialize;
 
 /// Summary of the scenes with textures, or of those without.
@@ -204,7 +204,7 @@ pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)>
         .rows
         .iter()
         .filter(superpixels)
-        .max_by_key(|row| (row.samples == Settings::DEFAULT_SAMPLES, row.samples))?;
+        .max_by_key(|row| (row.samples == CellOptions::DEFAULT_SAMPLES, row.samples))?;
     let (left, within) = (row.left?, row.left_within?);
     let causes = shares(&left, &within);
     let whole: f64 = causes.iter().map(|(_, share)| share).sum();

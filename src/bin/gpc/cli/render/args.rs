@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
 use gpc::render::{
-    Coverage, Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading,
+    CellOptions, Coverage, Detection, Footprint, Method, MethodKind, PixelRect, Shading,
     SuperpixelOptions,
 };
 use gpc::sampling::Pattern;
@@ -119,7 +119,7 @@ impl SamplingArgs {
         self.samples.unwrap_or(match self.aa {
             MethodKind::None => 1,
             MethodKind::Msaa => 4,
-            _ => Settings::DEFAULT_SAMPLES,
+            _ => CellOptions::DEFAULT_SAMPLES,
         })
     }
 }

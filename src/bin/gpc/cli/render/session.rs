@@ -57,14 +57,14 @@ pub fn upload(
     (pose, motion): (&Pose, Option<&Motion>),
     settings: &Settings,
 ) -> Result<PreparedScene, RenderError> {
-    if settings.shadows == Shadows::Exact && pose.lights.is_empty() {
+    if settings.scene.shadows == Shadows::Exact && pose.lights.is_empty() {
         log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
     }
     headless.upload(
         SceneRequest::new(scene, pose)
             .moving(motion)
-            .shadowed(settings.shadows)
-            .within(settings.max_memory),
+            .shadowed(settings.scene.shadows)
+            .within(settings.scene.max_memory),
     )
 }
 

@@ -14,7 +14,7 @@ use clap::Args;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
 use gpc::output::{self, Format, OutputError, Picture};
-use gpc::render::{MethodKind, PointSample, Sampled};
+use gpc::render::{CellOptions, Footprint, Method, PointSample, Sampled, SceneSettings};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -83,7 +83,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     let Sampled {
         values: samples,
         statistics,
-    } = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
+    } = sample(&mut stage, &pinhole, &set)?;
     let work = RenderWork {
         statistics: &statistics,
         cells: samples.len() as u64,
@@ -135,7 +135,6 @@ fn sample(
     stage: &mut RenderSetup,
     pinhole: &Pinhole,
     set: &SamplingSet,
-    aa: MethodKind,
 ) -> anyhow::Result<Sampled<PointSample>> {
     let locations = set.locations();
     let RenderSetup {
@@ -144,19 +143,37 @@ fn sample(
         settings,
         ..
     } = stage;
-    let mut samples = headless.sample_points(scene, pinhole, &locations, settings)?;
-    match aa {
-        MethodKind::None => {}
-        MethodKind::Superpixel | MethodKind::Ssaa => {
-            let means = headless.sample_superpixels(scene, pinhole, &locations, settings)?;
-            for (sample, color) in samples.values.iter_mut().zip(means.values) {
-                sample.color = color;
-            }
-            samples.statistics.append(means.statistics);
+    // Samples of supersampling read textures over the whole location.
+    let (cells, settings) = match &settings.method {
+        Method::None => (None, over_locations(&settings.scene)),
+        Method::Superpixel(options) => (Some(options.cells.clone()), settings.scene.clone()),
+        Method::Ssaa { samples } => {
+            let cells = CellOptions::new(*samples);
+            (Some(cells), over_locations(&settings.scene))
         }
-        _ => usage!("--aa {aa}: the device's own samples lie in pixels only"),
+        method => usage!(
+            "--aa {}: the device's own samples lie in pixels only",
+            method.kind()
+        ),
+    };
+    let mut samples = headless.sample_points(scene, pinhole, &locations, &settings)?;
+    if let Some(cells) = cells {
+        let means = headless.sample_superpixels(scene, pinhole, &locations, &cells, &settings)?;
+        for (sample, color) in samples.values.iter_mut().zip(means.values) {
+            sample.color = color;
+        }
+        samples.statistics.append(means.statistics);
     }
     Ok(samples)
+}
+
+/// Settings whose textures are read over whole locations, unless over squares of a size that was asked for.
+fn over_locations(settings: &SceneSettings) -> SceneSettings {
+    let settings = settings.clone();
+    match settings.footprint {
+        Footprint::Sample => settings.footprint(Footprint::Pixel),
+        _ => settings,
+    }
 }
 
 /// The sampling set of a file. Samples without rows and columns all go into one cell, so that they have no neighbours.

@@ -18,7 +18,7 @@ use gltf::json::{Node, animation::Property};
 use super::{MovingPlacement, Placement, Pose, PoseContents, PoseRequest, light_of, looks, show};
 use crate::scene::{
     Light, Material, Scene, SceneCamera, SceneError,
-    document::{Animated, Channel, Described, Document, Target},
+    document::{Animated, Channel, Described, Displacements, Document},
     error::Warnings,
 };
 
@@ -196,7 +196,8 @@ impl Motion {
         } else {
             &[]
         };
-        let turns = |target: &Target| !target.normals.is_empty() || !target.tangents.is_empty();
+        let turns =
+            |target: &Displacements| !target.normals.is_empty() || !target.tangents.is_empty();
         let displacement_vectors = if primitive.targets.iter().any(turns) {
             3
         } else {
