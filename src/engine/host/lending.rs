@@ -10,7 +10,7 @@ use super::{Geometry, HostError, Shared};
 use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
 use crate::engine::sampler::Sampler;
 use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{EngineError, PassTime, Statistics};
+use crate::engine::sampler::{EngineError, Statistics};
 use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -185,8 +185,8 @@ impl Lending {
         };
         statistics.triangles.total = u64::from(self.triangles);
         sampler.add_statistics([sizes.tiles()], &mut statistics)?;
-        for (pass, ms) in timings.read()? {
-            statistics.add_time(PassTime { pass, ms });
+        for time in timings.read()? {
+            statistics.add_time(time);
         }
         shortfall
             .check_subgroups(sizes.lanes)

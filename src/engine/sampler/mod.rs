@@ -31,7 +31,8 @@ pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOpt
 pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
-pub use statistics::{PassTime, Statistics, TriangleCounts};
+pub use crate::vulkan::timings::PassTime;
+pub use statistics::{Statistics, TriangleCounts};
 
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,

@@ -15,7 +15,7 @@ use crate::render::passes::{
 };
 use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
-use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{BufferView, Memory, MemoryUse, PassTime, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -247,7 +247,7 @@ impl ShadowFinder {
     /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
     /// descriptor sets before and after.
     pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
-        recorder.section("shadows", || {
+        recorder.section(PassTime::SHADOWS, || {
             if shaded.views.is_empty() {
                 recorder.clear(&shaded.resources.shadow_words.buffer);
                 return;
@@ -267,7 +267,7 @@ impl ShadowFinder {
     /// Records marks for the pixels of a region in which a probe is reached by other lights than the centre. The
     /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
-        recorder.section("shadows", || {
+        recorder.section(PassTime::SHADOWS, || {
             let receiving = Receiving::Pixels(shaded.pixels());
             let target = ShadowTarget::Marks {
                 width: shaded.size[0],
