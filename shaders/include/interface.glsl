@@ -374,12 +374,8 @@
 // The number of the plane of a light that needs only one. Smaller numbers are faces of a cube of planes around a light.
 #define SINGLE_PLANE 6u
 
-// Words that `distribute` has for a tile: a word for each pixel, then the first place, the number of places, the first group; see
-// tile_locations.glsl.
+// Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u
-#define LOAD_FIRST 32u
-#define LOAD_COUNT 33u
-#define LOAD_FIRST_GROUP 34u
 
 // Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u

@@ -1,4 +1,4 @@
-// Materials, as vectors in one buffer. interface.glsl has the vectors' numbers; the host's structure is `GpuMaterial`.
+// Materials, as vectors in one buffer. interface.glsl has the vectors' numbers.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 #include "interface.glsl"
