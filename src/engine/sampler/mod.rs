@@ -22,6 +22,7 @@ mod settings;
 pub(crate) mod statistics;
 pub(crate) mod uniform;
 
+pub use crate::vulkan::timings::PassTime;
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
@@ -31,7 +32,6 @@ pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOpt
 pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
-pub use crate::vulkan::timings::PassTime;
 pub use statistics::{Statistics, TriangleCounts};
 
 use crate::engine::data::{
