@@ -42,6 +42,9 @@ const HOST: &[Variant] = &[
     ("filters", "filters.comp", &[]),
 ];
 
+/// The shader with which a test reads what the host writes.
+const ROWS: &[Variant] = &[("rows", "rows.comp", &[])];
+
 /// Name of a compiled shader, its source file, and its macro definitions.
 type Variant = (
     &'static str,
@@ -204,6 +207,7 @@ fn main() {
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
     println!("cargo:rerun-if-changed=tests/hosts/shaders");
+    println!("cargo:rerun-if-changed=tests/rows/shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=build");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
@@ -219,6 +223,7 @@ fn main() {
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
     spirv(&group("tests/hosts/shaders", SAMPLES), &out);
+    spirv(&group("tests/rows/shaders", ROWS), &out);
     let own = group("shaders", VARIANTS);
     let folder = spirv(&own, &out);
     #[cfg(feature = "compile-shaders")]

@@ -18,6 +18,7 @@ mod scene_files;
 #[allow(dead_code, unused_imports, reason = "only the options are wanted")]
 mod view;
 
+use clap::CommandFactory;
 use clap_complete::Shell;
 use std::fs;
 use std::path::PathBuf;
@@ -28,9 +29,9 @@ fn main() -> std::io::Result<()> {
     let (man, completions) = (folder.join("man1"), folder.join("completions"));
     fs::create_dir_all(&man)?;
     fs::create_dir_all(&completions)?;
-    clap_mangen::generate_to(cli::command(), &man)?;
+    clap_mangen::generate_to(cli::Cli::command(), &man)?;
     for shell in [Shell::Bash, Shell::Fish, Shell::Zsh] {
-        clap_complete::generate_to(shell, &mut cli::command(), "gpc", &completions)?;
+        clap_complete::generate_to(shell, &mut cli::Cli::command(), "gpc", &completions)?;
     }
     Ok(())
 }

@@ -30,7 +30,7 @@ void main() {
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool is_outside = exists && f.outside;
         bool is_degenerate = exists && !is_outside && (k.v0 == k.v1 || k.v1 == k.v2 || k.v2 == k.v0);
-        bool is_backfacing = exists && !is_outside && !is_degenerate && (k.word >> 31) == 0u
+        bool is_backfacing = exists && !is_outside && !is_degenerate && single_sided(k.word)
             && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool wide = THIN_ALONE && exists && !f.unprojected
             && height_of(k.v0.xy / k.v0.w, k.v1.xy / k.v1.w, k.v2.xy / k.v2.w) >= THIN * uintBitsToFloat(counters[COUNTER_WIDEST]);

@@ -80,7 +80,7 @@ void main() {
     vec3 to_light = local ? push.light.xyz - position : push.light.xyz;
     float distance_ = length(to_light);
     bool reached = receives && (!local || (distance_ <= push.range && dot(-to_light, push.cone.xyz) >= push.cone.w * distance_));
-    bool backlit = DIFFUSE_TRANSMISSION && material_vector(k.word & 0xffffu, MATERIAL_DIFFUSE_TRANSMISSION).w > 0.0;
+    bool backlit = DIFFUSE_TRANSMISSION && diffuse_transmission_of(material_of(k.word)).factor > 0.0;
     bool turned = reached && !backlit && dot(normal, to_light) < 0.0;
     if (i < count && probe == 0u) {
         uint place = (PIXELS ? i : place_of_record(i)) * SHADOW_WORDS, light = push.step_ & 31u;

@@ -127,7 +127,7 @@ void show(uint t, uint tile, uint from, uint to) {
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
     Triangle k = triangle_at(t);
-    Setup s = setup_triangle(k.v0, k.v1, k.v2, center, (k.word >> 31) == 0u);
+    Setup s = setup_triangle(k.v0, k.v1, k.v2, center, single_sided(k.word));
     Footprint f = footprint_of(k.v0, k.v1, k.v2);
     if (!k.exists || !s.valid || f.outside) return;
     Candidate c = Candidate(s.a, s.b, s.c, s.depth, s.near, s.far, t + 1u, ~0u);

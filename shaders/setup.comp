@@ -20,7 +20,7 @@ void set_up(uint i) {
     uvec4 tile = tiles[tile_index];
     Triangle k = triangle_at(pair.x);
     ivec2 tile_at = ivec2(split(tile_index, frame.tiles.x));
-    Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);
+    Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), single_sided(k.word));
     // A triangle that can't be seen keeps its place in the list, but touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;

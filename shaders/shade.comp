@@ -84,8 +84,8 @@ void main() {
 
     Triangle k = triangle_at(max(id, 1u) - 1u);
     ivec3 v = k.vertices;
-    uint m = k.word & 0xffffu;
-    mine = mine && id != 0u && (ONE_BIN || (k.word >> 16 & 0x3fffu) == push.bin);
+    uint m = material_of(k.word);
+    mine = mine && id != 0u && (ONE_BIN || bin_of(k.word) == push.bin);
     Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
     if (LOCATIONS) {
         mat2x3 change = mat2x3(w.dx, w.dy) * location_jacobian(location);
@@ -104,12 +104,12 @@ void main() {
         place.second_uv = mat3x2(a.zw, b.zw, c.zw);
     }
 
-    vec4 base = material_vector(m, MATERIAL_BASE_COLOR);
+    vec4 base = base_color_of(m);
     if (VERTEX_COLORS) base *= mat3x4(texelFetch(colors, v.x), texelFetch(colors, v.y), texelFetch(colors, v.z)) * w.at;
     base *= READ(BASE_COLOR_TEXTURE, place);
 
     vec3 radiance, through = vec3(0.0);     // light from the surface; share of the light from behind that passes it
-    vec4 factors = material_vector(m, MATERIAL_FACTORS);
+    Factors factors = factors_of(m);
     if (UNLIT) {
         radiance = base.rgb;
     } else {
@@ -127,26 +127,26 @@ void main() {
         }
         Surface s;
         s.normal = normal;
-        if (NORMAL_TEXTURE != 0u) s.normal = bumped(READ(NORMAL_TEXTURE, place), factors.y, tangent, bitangent, normal);
+        if (NORMAL_TEXTURE != 0u) s.normal = bumped(READ(NORMAL_TEXTURE, place), factors.normal_scale, tangent, bitangent, normal);
         s.normal = facing(s.normal, to_eye);
         float n_v = max(dot(s.normal, to_eye), 1e-4);
 
-        vec4 emissive_metallic = material_vector(m, MATERIAL_EMISSIVE_METALLIC);
+        EmissiveMetallic emissive_metallic = emissive_metallic_of(m);
         vec4 metallic_roughness = READ(METALLIC_ROUGHNESS_TEXTURE, place);
-        float metallic = emissive_metallic.w * metallic_roughness.b;
-        s.roughness = factors.x * metallic_roughness.g;
+        float metallic = emissive_metallic.metallic * metallic_roughness.b;
+        s.roughness = factors.roughness * metallic_roughness.g;
         vec3 dielectric = vec3(0.04);
         float strength = 1.0;
         if (SPECULAR) {
-            vec4 given = material_vector(m, MATERIAL_SPECULAR);
-            strength = given.w * READ(SPECULAR_TEXTURE, place).a;
-            dielectric = min(given.rgb * READ(SPECULAR_COLOR_TEXTURE, place).rgb, vec3(1.0)) * strength;
+            SpecularFactors given = specular_of(m);
+            strength = given.strength * READ(SPECULAR_TEXTURE, place).a;
+            dielectric = min(given.reflectance * READ(SPECULAR_COLOR_TEXTURE, place).rgb, vec3(1.0)) * strength;
         }
         s.diffuse = base.rgb * (1.0 - metallic);
         s.f0 = mix(dielectric, base.rgb, metallic);
         s.f90 = SPECULAR ? mix(strength, 1.0, metallic) : 1.0;
         if (SPECULAR_GLOSSINESS) {
-            vec4 given = material_vector(m, MATERIAL_SPECULAR_GLOSSINESS) * READ(SPECULAR_GLOSSINESS_TEXTURE, place);
+            vec4 given = specular_glossiness_of(m) * READ(SPECULAR_GLOSSINESS_TEXTURE, place);
             s.diffuse = base.rgb * (1.0 - greatest(given.rgb));
             s.f0 = given.rgb;
             s.roughness = 1.0 - given.a;
@@ -165,16 +165,16 @@ void main() {
             s.diffuse *= 1.0 - passes;
         }
         if (DIFFUSE_TRANSMISSION) {
-            vec4 given = material_vector(m, MATERIAL_DIFFUSE_TRANSMISSION);
-            float passes = given.w * READ(DIFFUSE_TRANSMISSION_TEXTURE, place).a;
-            s.through = given.rgb * READ(DIFFUSE_TRANSMISSION_COLOR_TEXTURE, place).rgb * (1.0 - metallic) * passes;
+            DiffuseTransmissionFactors given = diffuse_transmission_of(m);
+            float passes = given.factor * READ(DIFFUSE_TRANSMISSION_TEXTURE, place).a;
+            s.through = given.color * READ(DIFFUSE_TRANSMISSION_COLOR_TEXTURE, place).rgb * (1.0 - metallic) * passes;
             s.diffuse *= 1.0 - passes;
         }
-        s.emissive = emissive_metallic.rgb * READ(EMISSIVE_TEXTURE, place).rgb;
+        s.emissive = emissive_metallic.emissive * READ(EMISSIVE_TEXTURE, place).rgb;
         float occlusion = 1.0;
         if (OCCLUSION_TEXTURE != 0u)
             occlusion = OCCLUSION_TEXTURE == METALLIC_ROUGHNESS_TEXTURE ? metallic_roughness.r : READ(OCCLUSION_TEXTURE, place).r;
-        s.occlusion = 1.0 + factors.z * (occlusion - 1.0);
+        s.occlusion = 1.0 + factors.occlusion_strength * (occlusion - 1.0);
 
         float ambient = s.occlusion * (PUNCTUAL && !ENVIRONMENT ? STUDIO_AMBIENT : 1.0);
         vec3 irradiance = environment_irradiance(s.normal);
@@ -235,7 +235,7 @@ void main() {
         if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
     } else {
         // A negative cutoff stands for BLEND: alpha is the opacity. Otherwise alpha is compared with the cutoff.
-        float opacity = factors.w < 0.0 ? clamp(base.a, 0.0, 1.0) : base.a >= factors.w ? 1.0 : 0.0;
+        float opacity = factors.cutoff < 0.0 ? clamp(base.a, 0.0, 1.0) : base.a >= factors.cutoff ? 1.0 : 0.0;
         opacity = BLENDED && id > frame.first_blend ? opacity : 1.0;
         shaded_out[source] = TINTED ? vec4(radiance * opacity, pack_tint(mix(vec3(1.0), through, opacity))) : vec4(radiance, opacity);
     }

@@ -24,7 +24,7 @@ void main() {
     uint bin[OWN], least = NONE;
     [[unroll]] for (uint r = 0u; r < OWN; r++) {
         uint i = first + r, id = i < count ? texelFetch(records, int(i)).y : 0u;
-        bin[r] = id == 0u ? NONE : triangle_word(id - 1u) >> 16 & 0x3fffu;
+        bin[r] = id == 0u ? NONE : bin_of(triangle_word(id - 1u));
         least = min(least, bin[r]);
     }
     uint current = lanes_min(least);

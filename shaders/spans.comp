@@ -40,7 +40,7 @@ void main() {
         bool inside = span < span_count && pixel.x < frame.size.x;
         uint id = id_at(ivec2(inside ? pixel : uvec2(0u)));
         id = inside ? id : 0u;
-        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
+        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : bin_of(triangle_word(id - 1u));
     }
 
     // The pixels of this invocation's span were looked up in STEPS_A_SPAN steps from `my_step` on, by the invocations from

@@ -45,7 +45,7 @@ void select_thin() {
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         vec2 q0 = k.v0.xy / k.v0.w, q1 = k.v1.xy / k.v1.w, q2 = k.v2.xy / k.v2.w;
         float height = height_of(q0, q1, q2);
-        bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
+        bool hidden = single_sided(k.word) && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool thin = exists && !f.outside && !f.unprojected && height < THIN && height > 0.0 && !hidden;
         vec2 extent = max(q0, max(q1, q2)) - min(q0, min(q1, q2));
         bool is_long = max(extent.x, extent.y) > LONG;

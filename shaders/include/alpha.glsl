@@ -29,39 +29,37 @@ struct AlphaTest {
 AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
     Triangle k = triangle_at(t);
     ivec3 v = k.vertices;
-    uint m = k.word & 0xffffu;
+    uint m = material_of(k.word);
     vec4 c0 = k.v0, c1 = k.v1, c2 = k.v2;
     vec3 p0 = vec3(c0.xy - center * c0.w, c0.w), p1 = vec3(c1.xy - center * c1.w, c1.w), p2 = vec3(c2.xy - center * c2.w, c2.w);
     mat3 edges = mat3(cross(p1, p2), cross(p2, p0), cross(p0, p1));
 
-    vec4 row_u = material_vector(m, MATERIAL_UV_ROWS), row_v = material_vector(m, MATERIAL_UV_ROWS + 1u);
+    UvTransform row = uv_transform_of(m, 0u);
     vec4 t0 = texelFetch(uvs, v.x), t1 = texelFetch(uvs, v.y), t2 = texelFetch(uvs, v.z);
-    bool second = row_u.w != 0.0;
-    vec3 us = second ? vec3(t0.z, t1.z, t2.z) : vec3(t0.x, t1.x, t2.x);
-    vec3 vs = second ? vec3(t0.w, t1.w, t2.w) : vec3(t0.y, t1.y, t2.y);
+    vec3 us = row.second ? vec3(t0.z, t1.z, t2.z) : vec3(t0.x, t1.x, t2.x);
+    vec3 vs = row.second ? vec3(t0.w, t1.w, t2.w) : vec3(t0.y, t1.y, t2.y);
 
     AlphaTest r;
     r.weight = edges * vec3(1.0);
-    r.u = edges * (row_u.x * us + row_u.y * vs + row_u.z);
-    r.v = edges * (row_v.x * us + row_v.y * vs + row_v.z);
-    r.opacity = edges * vec3(texelFetch(colors, v.x).w, texelFetch(colors, v.y).w, texelFetch(colors, v.z).w) * material_vector(m, MATERIAL_BASE_COLOR).w;
-    r.cutoff = material_vector(m, MATERIAL_FACTORS).w;
+    r.u = edges * (row.u.x * us + row.u.y * vs + row.u.z);
+    r.v = edges * (row.v.x * us + row.v.y * vs + row.v.z);
+    r.opacity = edges * vec3(texelFetch(colors, v.x).w, texelFetch(colors, v.y).w, texelFetch(colors, v.z).w) * base_color_of(m).w;
+    r.cutoff = factors_of(m).cutoff;
 
-    uvec4 atlas = material_words(m, MATERIAL_ALPHA);
-    uvec2 size = uvec2(atlas.y & 0xffffu, atlas.y >> 16);
-    uint levels = atlas.z;
-    r.flags = atlas.w;
+    AlphaMap map = alpha_map_of(m);
+    uvec2 size = map.size;
+    r.flags = map.flags;
     float w = 1.0 / dot(r.weight, vec3(at, 1.0));
     vec2 uv = vec2(dot(r.u, vec3(at, 1.0)), dot(r.v, vec3(at, 1.0))) * w;
     mat2 slope = mat2(vec2(r.u.x, r.v.x) - uv * r.weight.x, vec2(r.u.y, r.v.y) - uv * r.weight.y) * pixel;
     vec2 dx = slope[0] * w * vec2(size), dy = slope[1] * w * vec2(size);
     float level = 0.5 * log2(clamp(max(dot(dx, dx), dot(dy, dy)), 1e-30, 1e30));
     r.nearest = (r.flags & (level <= 0.0 ? ALPHA_NEAREST_MAG : ALPHA_NEAREST_MIN)) != 0u;
-    level = (r.flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(levels - 1u));
+    level = (r.flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(map.levels - 1u));
     level = (r.flags & ALPHA_NEAREST_MIP) != 0u ? ceil(level + 0.5) - 1.0 : level;
-    uint low = uint(level), high = min(low + 1u, levels - 1u);
+    uint low = uint(level), high = min(low + 1u, map.levels - 1u);
     r.level_blend = level - float(low);
-    r.first = uvec2(texelFetch(alpha_atlas, int(atlas.x + low)).x, texelFetch(alpha_atlas, int(atlas.x + high)).x);
+    r.first = uvec2(texelFetch(alpha_atlas, int(map.table + low)).x, texelFetch(alpha_atlas, int(map.table + high)).x);
     r.size_low = max(size >> low, uvec2(1u));
     r.size_high = max(size >> high, uvec2(1u));
     return r;

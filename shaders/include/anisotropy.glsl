@@ -5,11 +5,11 @@
 
 // Sets the axes of a surface's reflection, and its roughness along the first axis.
 void draw_out(inout Surface s, Place place, vec3 tangent, vec3 bitangent) {
-    vec4 given = material_vector(place.material, MATERIAL_ANISOTROPY);
+    AnisotropyFactors given = anisotropy_of(place.material);
     vec4 texel = READ(ANISOTROPY_TEXTURE, place);
     vec2 direction = ANISOTROPY_TEXTURE != 0u ? texel.rg * 2.0 - 1.0 : vec2(1.0, 0.0);
-    direction = mat2(given.y, given.z, -given.z, given.y) * direction;
-    float strength = given.x * texel.b;
+    direction = mat2(given.cosine, given.sine, -given.sine, given.cosine) * direction;
+    float strength = given.strength * texel.b;
     vec3 any = abs(s.normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     vec3 along = tangent * direction.x + bitangent * direction.y;
     // Perpendicular to the normal, which a texture may have turned.

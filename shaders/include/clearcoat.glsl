@@ -11,16 +11,16 @@ struct Coat {
 
 // The coat at a place. The tangent, bitangent and normal are those of the mesh: the base's normal texture does not turn them.
 Coat read_coat(Place place, vec3 tangent, vec3 bitangent, vec3 normal, vec3 v) {
-    vec4 given = material_vector(place.material, MATERIAL_CLEARCOAT);
+    ClearcoatFactors given = clearcoat_of(place.material);
     Coat coat;
     coat.normal = normal;
     if (CLEARCOAT_NORMAL_TEXTURE != 0u)
-        coat.normal = bumped(READ(CLEARCOAT_NORMAL_TEXTURE, place), given.z, tangent, bitangent, normal);
+        coat.normal = bumped(READ(CLEARCOAT_NORMAL_TEXTURE, place), given.normal_scale, tangent, bitangent, normal);
     coat.normal = facing(coat.normal, v);
-    coat.roughness = clamp(given.y * READ(CLEARCOAT_ROUGHNESS_TEXTURE, place).g, 0.04, 1.0);
+    coat.roughness = clamp(given.roughness * READ(CLEARCOAT_ROUGHNESS_TEXTURE, place).g, 0.04, 1.0);
     coat.alpha = coat.roughness * coat.roughness;
     float f = 0.04 + 0.96 * schlick(dot(coat.normal, v));
-    coat.weight = given.x * READ(CLEARCOAT_TEXTURE, place).r * f;
+    coat.weight = given.factor * READ(CLEARCOAT_TEXTURE, place).r * f;
     return coat;
 }
 

@@ -117,9 +117,11 @@ uint id_at(ivec2 pixel) {
     return texelFetch(ids, ivec2(frame.seen_corner) + pixel, 0).x;
 }
 
-// Whether lighting or textures may change within a pixel of a triangle. `word` is the triangle's last word.
-bool high_frequency(uint word) {
-    return (word >> 30 & 1u) != 0u;
-}
+// The fields of a triangle's last word: its material; its bin or shading key; whether lighting or textures may change within a
+// pixel; whether back faces are invisible.
+uint material_of(uint word) { return word & 0xffffu; }
+uint bin_of(uint word) { return word >> 16 & 0x3fffu; }
+bool high_frequency(uint word) { return (word >> 30 & 1u) != 0u; }
+bool single_sided(uint word) { return (word >> 31) == 0u; }
 
 #include "groups.glsl"

@@ -376,32 +376,28 @@
 // The number of the plane of a light that needs only one. Smaller numbers are faces of a cube of planes around a light.
 #define SINGLE_PLANE 6u
 
-// Words that `distribute` has for a tile: a word for each pixel, then the first place, the number of places, the first group; see
-// tile_locations.glsl.
+// Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u
-#define LOAD_FIRST 32u
-#define LOAD_COUNT 33u
-#define LOAD_FIRST_GROUP 34u
 
 // Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u
 #define FILTER_TRIANGLES 2048u
 
-// Vectors of a material, see material.glsl.
+// Vectors of a material; material.glsl has their fields.
 #define MATERIAL_BASE_COLOR 0u
 #define MATERIAL_EMISSIVE_METALLIC 1u
-#define MATERIAL_FACTORS 2u         // roughness, normal scale, occlusion strength, alpha cutoff; negative for BLEND
-#define MATERIAL_ALPHA 3u           // atlas: table of levels, width | height << 16, levels, flags
-#define MATERIAL_SPECULAR 4u        // rgb of a dielectric's reflectance at normal incidence, strength
-#define MATERIAL_CLEARCOAT 5u       // factor, roughness, normal scale
-#define MATERIAL_SHEEN 6u           // rgb, roughness
-#define MATERIAL_ANISOTROPY 7u      // strength, cosine and sine of the rotation
-#define MATERIAL_IRIDESCENCE 8u     // factor, index of refraction, least and greatest thickness in nanometres
-#define MATERIAL_DIFFUSE_TRANSMISSION 9u    // rgb, factor
-#define MATERIAL_TRANSMISSION 10u   // factor, thickness
-#define MATERIAL_VOLUME 11u         // rgb of absorption per unit of length
-#define MATERIAL_SPECULAR_GLOSSINESS 12u    // rgb, glossiness
-#define MATERIAL_UV_ROWS 13u        // two rows a texture, the base colour's first: (m00, m01, m02, uv set), (m10, m11, m12, 0)
+#define MATERIAL_FACTORS 2u
+#define MATERIAL_ALPHA 3u
+#define MATERIAL_SPECULAR 4u
+#define MATERIAL_CLEARCOAT 5u
+#define MATERIAL_SHEEN 6u
+#define MATERIAL_ANISOTROPY 7u
+#define MATERIAL_IRIDESCENCE 8u
+#define MATERIAL_DIFFUSE_TRANSMISSION 9u
+#define MATERIAL_TRANSMISSION 10u
+#define MATERIAL_VOLUME 11u
+#define MATERIAL_SPECULAR_GLOSSINESS 12u
+#define MATERIAL_UV_ROWS 13u        // two a texture, the base colour's first: (m00, m01, m02, uv set), (m10, m11, m12, 0)
 
 // Tiles of a stretch, see load.glsl.
 #define STRETCH 256

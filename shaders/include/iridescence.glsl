@@ -53,10 +53,10 @@ vec3 film_reflectance(float n_v, float film_ior, float thickness, vec3 f0) {
 
 // The reflectance at normal incidence for which Schlick's formula gives the film's reflectance at this angle.
 vec3 film_f0(Place place, vec3 f0, float n_v) {
-    vec4 given = material_vector(place.material, MATERIAL_IRIDESCENCE);
-    float factor = given.x * READ(IRIDESCENCE_TEXTURE, place).r;
-    float thickness = mix(given.z, given.w, READ(IRIDESCENCE_THICKNESS_TEXTURE, place).g);
-    vec3 film = film_reflectance(n_v, given.y, thickness, f0);
+    IridescenceFactors given = iridescence_of(place.material);
+    float factor = given.factor * READ(IRIDESCENCE_TEXTURE, place).r;
+    float thickness = mix(given.least, given.greatest, READ(IRIDESCENCE_THICKNESS_TEXTURE, place).g);
+    vec3 film = film_reflectance(n_v, given.index, thickness, f0);
     float grazing = min(schlick(n_v), 0.9999);
     vec3 equal = clamp((film - grazing) / (1.0 - grazing), vec3(0.0), vec3(1.0));
     return mix(f0, equal, thickness > 0.0 ? factor : 0.0);

@@ -19,10 +19,10 @@ float sheen_albedo(float roughness, float n_v) {
 }
 
 Sheen read_sheen(Place place, float n_v) {
-    vec4 given = material_vector(place.material, MATERIAL_SHEEN);
+    SheenFactors given = sheen_of(place.material);
     Sheen sheen;
-    sheen.color = given.rgb * READ(SHEEN_COLOR_TEXTURE, place).rgb;
-    sheen.roughness = clamp(given.w * READ(SHEEN_ROUGHNESS_TEXTURE, place).a, 0.15, 1.0);
+    sheen.color = given.color * READ(SHEEN_COLOR_TEXTURE, place).rgb;
+    sheen.roughness = clamp(given.roughness * READ(SHEEN_ROUGHNESS_TEXTURE, place).a, 0.15, 1.0);
     sheen.albedo = sheen_albedo(sheen.roughness, n_v);
     return sheen;
 }

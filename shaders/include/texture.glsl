@@ -69,11 +69,10 @@ Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
 }
 
 vec4 read_texture(sampler2D image, uint slot, Place place) {
-    uint rows = MATERIAL_UV_ROWS + (ONE_UV_TRANSFORM ? 0u : 2u * slot);
-    vec4 row_u = material_vector(place.material, rows), row_v = material_vector(place.material, rows + 1u);
-    mat3x2 uv = row_u.w != 0.0 ? place.second_uv : place.first_uv;
-    mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
-    vec2 at = linear * (uv * place.w.at) + vec2(row_u.z, row_v.z);
+    UvTransform row = uv_transform_of(place.material, ONE_UV_TRANSFORM ? 0u : slot);
+    mat3x2 uv = row.second ? place.second_uv : place.first_uv;
+    mat2 linear = mat2(row.u.x, row.v.x, row.u.y, row.v.y);
+    vec2 at = linear * (uv * place.w.at) + vec2(row.u.z, row.v.z);
     vec2 dx = linear * (uv * place.w.dx), dy = linear * (uv * place.w.dy);
     if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
     // Where coordinates and sizes are the same, compilers compute the probes once for all textures.

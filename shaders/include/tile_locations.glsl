@@ -4,6 +4,11 @@
 #define TILE_LOCATIONS_GLSL
 #include "interface.glsl"
 
+// Words of a tile behind those of its 32 pixels.
+#define LOAD_FIRST 32u
+#define LOAD_COUNT 33u
+#define LOAD_FIRST_GROUP 34u
+
 // A tile's locations follow a Morton curve through its pixels. The number, row by row in its tile, of the pixel at a place of the
 // curve.
 uint bit_at(uint place) { return (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1; }

@@ -5,14 +5,14 @@
 
 // For a dielectric: of the light that the surface does not reflect, the share that passes.
 float transmitted(Place place) {
-    return material_vector(place.material, MATERIAL_TRANSMISSION).x * READ(TRANSMISSION_TEXTURE, place).r;
+    return transmission_of(place.material).factor * READ(TRANSMISSION_TEXTURE, place).r;
 }
 
 // The share of this light that the volume does not absorb. Its thickness is given in lengths of the mesh; `scale` is how much
 // longer these are in the world.
 vec3 volume_passes(Place place, float scale) {
-    float thickness = material_vector(place.material, MATERIAL_TRANSMISSION).y * READ(THICKNESS_TEXTURE, place).g * scale;
-    return exp(-material_vector(place.material, MATERIAL_VOLUME).rgb * thickness);
+    float thickness = transmission_of(place.material).thickness * READ(THICKNESS_TEXTURE, place).g * scale;
+    return exp(-absorption_of(place.material) * thickness);
 }
 
 #endif

@@ -32,7 +32,7 @@ struct Variation {
 };
 
 uint variation_material(uint of) {
-    return of == 0u ? ~0u : triangle_word(of - 1u) & 0xffffu;
+    return of == 0u ? ~0u : material_of(triangle_word(of - 1u));
 }
 
 // The range of the colours of `codes` that are in the bit set `among`, in the channel where it is largest, in 8-bit codes.

@@ -7,7 +7,7 @@
 #include "locations.glsl"
 #include "workarounds.glsl"
 
-const uint LEFT = 4u;               // added to the number of a kind's list: the list of the cells that are left
+const uint LEFT = TILE_LISTS;       // added to the number of a kind's list: the list of the cells that are left
 const uint PARTS_OF_TILE = 32u / LANES;
 
 // The place of a list's first entry.

@@ -12,7 +12,7 @@
 //! The front is the side from which the vertices are counter-clockwise on the screen (glTF 2.0, section 3.7.2.1). With
 //! y down, the *facing determinant* -det(v0, v1, v2) is then positive.
 
-use super::exact::{Pair, difference_of_products, dot, dot_sign};
+use super::exact::{Pair, difference_of_products, dot, dot_sign, estimate};
 
 /// The side of a triangle that a camera sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +90,7 @@ impl EdgeFunctions {
         let distances = self.edges.iter().map(|edge| {
             let [[a, _], [b, _], _] = *edge;
             // An edge whose ends are at the same place on the screen has no direction, and counts as infinitely far.
-            dot(edge, [x, y, 1.0]) / a.hypot(b)
+            estimate(edge, [x, y, 1.0]) / a.hypot(b)
         });
         distances.fold(f64::INFINITY, f64::min)
     }

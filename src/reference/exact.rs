@@ -26,8 +26,8 @@ pub(super) fn dot(coefficients: &[Pair; 3], point: [f64; 3]) -> f64 {
     sum(&terms)
 }
 
-/// Sign of the same inner product: 1, 0 or -1. It is taken from the rounded value if the error of that permits.
-pub(super) fn dot_sign(coefficients: &[Pair; 3], point: [f64; 3]) -> i8 {
+/// The same inner product with an exact sign, and an error of at most 2^-50 of the sum of its terms' sizes. It is much faster.
+pub(super) fn estimate(coefficients: &[Pair; 3], point: [f64; 3]) -> f64 {
     let (mut value, mut size) = (0.0, 0.0);
     for ([high, _], x) in coefficients.iter().zip(point) {
         value += high * x;
@@ -38,6 +38,12 @@ pub(super) fn dot_sign(coefficients: &[Pair; 3], point: [f64; 3]) -> i8 {
     if value.abs() <= size * 2.0_f64.powi(-50) + f64::MIN_POSITIVE {
         value = dot(coefficients, point);
     }
+    value
+}
+
+/// Sign of the same inner product: 1, 0 or -1.
+pub(super) fn dot_sign(coefficients: &[Pair; 3], point: [f64; 3]) -> i8 {
+    let value = estimate(coefficients, point);
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
@@ -59,7 +65,9 @@ fn two_product(a: f64, b: f64) -> Pair {
 /// non-overlapping components, which are summed from the smallest.
 fn sum(terms: &[f64; 12]) -> f64 {
     let mut expansion = [0.0; 12];
-    for (count, term) in terms.iter().enumerate() {
+    // Products of values with few bits have no rounding error.
+    let terms = terms.iter().filter(|term| **term != 0.0);
+    for (count, term) in terms.enumerate() {
         let mut carry = *term;
         for component in expansion.iter_mut().take(count) {
             [carry, *component] = two_sum(carry, *component);

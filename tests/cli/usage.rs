@@ -1,5 +1,7 @@
 //! Requests that the command refuses: exit codes and messages. No test here needs a device.
 
+use gpc::render::PassTime;
+
 use crate::command::{asset, files, gpc};
 
 #[test]
@@ -256,4 +258,6 @@ fn short_help_fits_one_screen_and_long_help_groups_all_options() {
     ] {
         assert!(long.contains(&format!("\n{heading}\n")), "{heading}");
     }
+    let words = long.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(&format!("one time named {} covers", PassTime::ROUNDS)));
 }

@@ -13,15 +13,15 @@ use crate::stage::{Stage, cells, everywhere, flat, on_gpu, once_each, seen_at};
 use crate::visibility::soup;
 
 /// Size of the image in whole tiles, so that an image and its locations have the same middle.
-const SIZE: [u32; 2] = [64, 64];
+const SIZE: [u32; 2] = [32, 32];
 
-/// The stage with 19,000 more triangles in a tile beside the image's middle. On a device with few texel elements, a
+/// The stage with 16,500 more triangles in a tile beside the image's middle. On a device with few texel elements, a
 /// list has no room for so many, although all pairs fit into memory. The triangles are so small that they lie between
 /// nearly all samples.
 fn with_specks(mut stage: Stage) -> Stage {
     let mut random = Random::new(9);
     let mut specks = Stage::new(stage.materials.clone());
-    for _ in 0..19_000 {
+    for _ in 0..16_500 {
         let middle = [random.range(0.25, 7.5), random.range(0.25, 3.5)];
         let distance = random.range(0.5, 9.0);
         let corners = [0; 3].map(|_| {

@@ -57,31 +57,27 @@ fn larger_subgroups_make_the_same_image() {
         return;
     }
     let stage = layered();
-    for (samples, shading, coverage) in [
-        (8, Shading::Triangle, Coverage::Samples),
-        (64, Shading::Triangle, Coverage::Area),
-        (256, Shading::Triangle, Coverage::Area),
-        (16, Shading::Sample, Coverage::Samples),
-    ] {
-        let settings = everywhere([64, 48], Pattern::Sobol, samples)
-            .map_superpixels(|options| options.shading(shading).coverage(coverage));
-        let mut expected = None;
-        on_gpu(|gpu| expected = Some(stage.render(gpu, &settings)));
-        let expected = expected.unwrap();
-        within(
-            |limits| limits.lanes /= 2,
-            |gpu| {
-                let found = stage.render(gpu, &settings);
-                let (largest, mean) = differences(&found, &expected);
-                let what = format!("{samples} samples, {shading:?}, {coverage:?}");
-                if coverage == Coverage::Area && gpu.gpu().limits().lanes < 8 {
-                    assert!(mean < 1e-3, "{what}: colours differ by {mean}");
-                } else {
-                    assert!(largest < 1e-5, "{what}: colours differ by {largest}");
-                }
-            },
-        );
-    }
+    let test = |gpu: &mut Headless, half: &mut Headless| {
+        for (samples, shading, coverage) in [
+            (8, Shading::Triangle, Coverage::Samples),
+            (64, Shading::Triangle, Coverage::Area),
+            (256, Shading::Triangle, Coverage::Area),
+            (16, Shading::Sample, Coverage::Samples),
+        ] {
+            let settings = everywhere([64, 48], Pattern::Sobol, samples)
+                .map_superpixels(|options| options.shading(shading).coverage(coverage));
+            let expected = stage.render(gpu, &settings);
+            let found = stage.render(half, &settings);
+            let (largest, mean) = differences(&found, &expected);
+            let what = format!("{samples} samples, {shading:?}, {coverage:?}");
+            if coverage == Coverage::Area && half.gpu().limits().lanes < 8 {
+                assert!(mean < 1e-3, "{what}: colours differ by {mean}");
+            } else {
+                assert!(largest < 1e-5, "{what}: colours differ by {largest}");
+            }
+        }
+    };
+    on_gpu(|gpu| within(|limits| limits.lanes /= 2, |half| test(gpu, half)));
 }
 
 /// On a device that may be reset, an image is submitted in parts, which are smaller for more samples a pixel; the
@@ -89,21 +85,18 @@ fn larger_subgroups_make_the_same_image() {
 #[test]
 fn long_work_is_submitted_in_parts() {
     let stage = layered();
-    let of = |samples: u32| everywhere([320, 192], Pattern::Sobol, samples);
-    for (samples, regions) in [(16, 1), (64, 2), (256, 16)] {
-        let mut whole = None;
-        on_gpu(|gpu| whole = Some(stage.render(gpu, &of(samples))));
-        let whole = whole.unwrap();
-        assert_eq!(whole.statistics.regions, 1);
-        within(
-            |limits| limits.max_submitted_samples = 1 << 21,
-            |gpu| {
-                let found = stage.render(gpu, &of(samples));
-                assert_eq!(found.statistics.regions, regions);
-                assert!(found.colors == whole.colors);
-            },
-        );
-    }
+    let test = |gpu: &mut Headless, bounded: &mut Headless| {
+        for (samples, regions) in [(16, 1), (64, 2), (256, 16)] {
+            let settings = everywhere([320, 192], Pattern::Sobol, samples);
+            let whole = stage.render(gpu, &settings);
+            assert_eq!(whole.statistics.regions, 1);
+            let found = stage.render(bounded, &settings);
+            assert_eq!(found.statistics.regions, regions);
+            assert!(found.colors == whole.colors);
+        }
+    };
+    let lower = |limits: &mut Limits| limits.max_submitted_samples = 1 << 21;
+    on_gpu(|gpu| within(lower, |bounded| test(gpu, bounded)));
 }
 
 /// Kernels that run in smaller subgroups than they were made for report it, and no image is returned.

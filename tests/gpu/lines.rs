@@ -38,38 +38,39 @@ fn coded(mesh: &Mesh) -> Stage {
 /// Returns the largest number of pixels of an image that were sampled by points.
 fn compare(gpu: &mut Headless, stage: &Stage, name: &str, tried: &[(u32, u32)]) -> u64 {
     let twin = Twin::new(stage, SIZE);
+    let ids = 1..=stage.triangles.len() as u32;
+    let codes: Vec<_> = ids.map(|id| code(id).map(f64::from)).collect();
     let mut most_left = 0;
     for &(samples, lines) in tried {
         let rendered = stage.render(gpu, &on_lines(samples));
         let sets = [false, true].map(|columns| offsets(columns, lines));
-        let (mut differ, mut doubtful) = (0, 0);
+        let (mut differ, mut doubtful) = (0_u32, 0);
         for (pixel, found) in rendered.colors.iter().enumerate() {
             let middle = centre(pixel, SIZE);
-            let mut errors = [0.0_f64; 2];
-            let mut contested = [0; 2];
-            for (set, places) in sets.iter().enumerate() {
+            // The number of contested samples of a set, if its mean is what the pixel shows.
+            let contested_of_fit = |places: &Vec<[f64; 2]>| {
                 let mut sum = [0.0; 3];
+                let mut contested = 0;
                 for offset in places {
                     let sample = [0, 1].map(|axis| middle[axis] + offset[axis]);
                     let seen = twin.nearest(pixel, sample);
-                    contested[set] += u32::from(seen.contested());
-                    let shown = seen.nearest.map_or([0.0; 3], |hit| code(hit.id));
-                    for (sum, shown) in sum.iter_mut().zip(shown) {
-                        *sum += f64::from(shown);
+                    contested += u32::from(seen.contested());
+                    if let Some(hit) = seen.nearest {
+                        let shown = codes[hit.id as usize - 1];
+                        sum = [0, 1, 2].map(|channel| sum[channel] + shown[channel]);
                     }
                 }
                 let count = places.len() as f64;
-                for channel in 0..3 {
-                    let error = (f64::from(found[channel]) - sum[channel] / count).abs();
-                    errors[set] = errors[set].max(error);
-                }
+                let bound = 0.01 + 4095.0 * f64::from(contested) / count;
+                let errs = |channel: usize| {
+                    (f64::from(found[channel]) - sum[channel] / count).abs() > bound
+                };
+                (!(0..3).any(errs)).then_some(contested)
+            };
+            match sets.iter().find_map(contested_of_fit) {
+                Some(contested) => doubtful += contested,
+                None => differ += 1,
             }
-            let fits = (0..2).any(|set| {
-                let share = f64::from(contested[set]) / sets[set].len() as f64;
-                errors[set] <= 0.01 + 4095.0 * share
-            });
-            differ += u32::from(!fits);
-            doubtful += contested[0].min(contested[1]);
         }
         let left = rendered.statistics.resampled;
         let all = u64::from(SIZE[0] * SIZE[1]);

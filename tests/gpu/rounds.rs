@@ -86,8 +86,8 @@ fn the_passes_of_all_rounds_are_timed() {
         }
         let names = |passes: &[PassTime]| passes.iter().map(|time| time.pass).collect::<Vec<_>>();
         let mut timed = names(passes[0]);
-        assert!(timed.contains(&"rounds"), "{passes:?}");
-        timed.retain(|name| *name != "rounds");
+        assert!(timed.contains(&PassTime::ROUNDS), "{passes:?}");
+        timed.retain(|name| *name != PassTime::ROUNDS);
         assert_eq!(timed, names(passes[1]));
         let total = |passes: &[PassTime]| passes.iter().map(|time| time.ms).sum::<f64>();
         assert!(total(passes[1]) > 0.5 * total(passes[0]), "{passes:?}");

@@ -8,7 +8,7 @@ use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
 use super::{Geometry, HostError, Outcome, Shared};
 use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
-use crate::engine::sampler::{Capacity, EngineError, PassTime, Sampler, Shortfall, Statistics};
+use crate::engine::sampler::{Capacity, EngineError, Sampler, Shortfall, Statistics};
 use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -194,8 +194,8 @@ impl Lending {
         };
         statistics.triangles.total = u64::from(self.triangles);
         sampler.add_statistics([sizes.tiles()], &mut statistics)?;
-        for (pass, ms) in timings.read()? {
-            statistics.add_time(PassTime { pass, ms });
+        for time in timings.read()? {
+            statistics.add_time(time);
         }
         shortfall
             .check_subgroups(sizes.lanes)

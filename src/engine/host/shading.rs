@@ -2,7 +2,7 @@
 
 use crate::engine::data::{Argument, Resources};
 use crate::engine::sampler::RecordShading;
-use crate::vulkan::Recorder;
+use crate::vulkan::{PassTime, Recorder};
 use ash::vk;
 
 /// Names and texts of the GLSL includes for a host's shaders. `gpc_visibility.glsl` defines visibility samples and the
@@ -112,7 +112,7 @@ impl RecordShading for HostShading<'_> {
             condition: recorder.condition(),
             ..self.samples
         };
-        recorder.section("shade", || {
+        recorder.section(PassTime::HOST_SHADING, || {
             self.shading.record(recorder.raw(), &samples);
         });
     }

@@ -23,6 +23,7 @@ mod settings;
 mod statistics;
 pub(crate) mod uniform;
 
+pub use crate::vulkan::timings::PassTime;
 pub(crate) use capacity::{Capacity, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
@@ -36,7 +37,7 @@ pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference};
 pub(crate) use settings::{ImageRequest, SamplerSettings, check_image_size};
-pub use statistics::{PassTime, Statistics, TriangleCounts};
+pub use statistics::{Statistics, TriangleCounts};
 
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,

@@ -1,15 +1,7 @@
 //! Statistics of a frame.
 
 use crate::engine::data::Counter;
-
-/// Time of a pass on the device.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PassTime {
-    /// Name of the pass.
-    pub pass: &'static str,
-    /// Time in milliseconds.
-    pub ms: f64,
-}
+use crate::vulkan::PassTime;
 
 /// Numbers of triangles of the scene, and reasons why some were not sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,16 +43,19 @@ pub struct Statistics {
     pub rounds: u64,
     /// Number of regions of the image.
     pub regions: u64,
-    /// Names of the passes that the scene or the image did not need.
+    /// Names of the passes that the scene or the image did not need, and [`Self::BLEND`].
     pub skipped_passes: Vec<&'static str>,
     /// Device times of the passes, in order. The passes of the first round are timed separately, all further rounds
-    /// together as `rounds`.
+    /// together as [`PassTime::ROUNDS`].
     pub passes: Vec<PassTime>,
     /// Device memory of scene and frame, in bytes.
     pub memory_bytes: u64,
 }
 
 impl Statistics {
+    /// Name of all passes that composite BLEND triangles in every pixel.
+    pub const BLEND: &'static str = "blend";
+
     /// Device time of the whole frame in milliseconds.
     #[must_use]
     pub fn gpu_ms(&self) -> f64 {

@@ -1,12 +1,11 @@
-//! Recording into a command buffer, and timing of the passes.
+//! Recording into a command buffer.
 
 use super::barriers::{Accesses, Barriers, Ordered};
 use super::conditions::{Change, Conditions};
 use super::descriptor_set::ShownSets;
+use super::timings::{PassTime, Timings};
 use super::trace::Dispatched;
-use super::{
-    Access, Binding, Buffer, DescriptorSets, Gpu, Image, Interface, Limits, Pipeline, VulkanError,
-};
+use super::{Access, Binding, Buffer, DescriptorSets, Gpu, Image, Interface, Limits, Pipeline};
 use ash::vk;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -305,8 +304,8 @@ impl<'a> Recorder<'a> {
         self.section(interface.pass(), record);
     }
 
-    /// Records a section with a debug label. If it is not part of another one, the time from the end of the section before it is
-    /// attributed to its name.
+    /// Records a section with a debug label: a pass, or one of the other parts of a frame that [`PassTime`] names. If it is not part
+    /// of another one, the time from the end of the section before it is attributed to its name.
     pub fn section(&self, name: &'static str, record: impl FnOnce()) {
         let outer = self.in_section.replace(true);
         let labels = self.gpu.debug_labels.as_ref();
@@ -329,9 +328,9 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a section that repeats what was recorded before: its dispatches are neither labelled nor listed. Its passes are timed
-    /// together under `name`, or one by one if the timer says so.
-    pub(crate) fn repeated(&self, name: &'static str, record: impl FnOnce()) {
+    /// Records rounds that repeat what was recorded before: their dispatches are neither labelled nor listed. Their passes are timed
+    /// together, or one by one if the timer says so.
+    pub(crate) fn repeated_rounds(&self, record: impl FnOnce()) {
         let repetition = || {
             let outer = self.repeats.replace(true);
             record();
@@ -341,7 +340,7 @@ impl<'a> Recorder<'a> {
         if self.timings.borrow().as_ref().is_some_and(one_by_one) {
             repetition();
         } else {
-            self.section(name, repetition);
+            self.section(PassTime::ROUNDS, repetition);
         }
     }
 
@@ -486,128 +485,5 @@ impl Drop for Recorder<'_> {
     fn drop(&mut self) {
         // Commands that the caller records next depend on any of these.
         self.raw();
-    }
-}
-
-/// Timestamps of a frame. The times of equal names are added up.
-pub struct Timings {
-    gpu: Arc<Gpu>,
-    /// Pools of [`Self::POOL`] queries each; marks make more of them as they need.
-    pools: Vec<vk::QueryPool>,
-    names: Vec<Option<&'static str>>,
-    /// Whether the passes of repetitions are timed one by one.
-    times_repetitions: bool,
-    /// Why there is no further pool.
-    refused: Option<vk::Result>,
-}
-
-impl Timings {
-    /// Number of queries of a pool.
-    const POOL: usize = 64;
-
-    /// Makes a timer. The commands of a [repetition](Recorder::repeated) have one time together.
-    pub fn new(gpu: &Arc<Gpu>) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            pools: Vec::new(),
-            names: Vec::new(),
-            times_repetitions: false,
-            refused: None,
-        }
-    }
-
-    /// The same timer, which times the passes of repetitions one by one where that is `wanted`.
-    pub fn with_repetitions(mut self, wanted: bool) -> Self {
-        self.times_repetitions = wanted;
-        self
-    }
-
-    fn begin(&mut self, raw: vk::CommandBuffer) {
-        self.names.clear();
-        self.refused = None;
-        self.mark(raw, None);
-    }
-
-    fn mark(&mut self, raw: vk::CommandBuffer, name: Option<&'static str>) {
-        if self.gpu.limits().timestamp_period == 0.0 || self.refused.is_some() {
-            return;
-        }
-        let [number, query] = [self.names.len() / Self::POOL, self.names.len() % Self::POOL];
-        if number == self.pools.len() {
-            let info = vk::QueryPoolCreateInfo::default()
-                .query_type(vk::QueryType::TIMESTAMP)
-                .query_count(Self::POOL as u32);
-            // SAFETY: plain creation on a live device.
-            match unsafe { self.gpu.device.create_query_pool(&info, None) } {
-                Ok(pool) => self.pools.push(pool),
-                Err(result) => {
-                    self.refused = Some(result);
-                    return;
-                }
-            }
-        }
-        let pool = self.pools[number];
-        // SAFETY: the recorder's contract; marks lie outside of render passes. The pool is not in use, because the previous frame's
-        // commands have run, and it is reset before its first query.
-        unsafe {
-            if query == 0 {
-                self.gpu
-                    .device
-                    .cmd_reset_query_pool(raw, pool, 0, Self::POOL as u32);
-            }
-            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            self.gpu
-                .device
-                .cmd_write_timestamp2(raw, stage, pool, query as u32);
-        }
-        self.names.push(name);
-    }
-
-    /// Milliseconds by name, in the order of first appearance. This does not wait.
-    ///
-    /// # Errors
-    /// [`VulkanError::NotDone`] if the commands have not run, [`VulkanError::Call`] if the driver refused a query pool or the
-    /// results can't be read.
-    pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
-        if let Some(result) = self.refused {
-            return Err(VulkanError::of("vkCreateQueryPool")(result));
-        }
-        let mut stamps = vec![0_u64; self.names.len()];
-        for (pool, stamps) in self.pools.iter().zip(stamps.chunks_mut(Self::POOL)) {
-            let flags = vk::QueryResultFlags::TYPE_64;
-            // SAFETY: the pool belongs to the device and has at least this many queries. They were reset when the
-            // names were recorded; after that, results may be read at any time without waiting.
-            unsafe {
-                self.gpu
-                    .device
-                    .get_query_pool_results(*pool, 0, stamps, flags)
-            }
-            .map_err(|result| match result {
-                vk::Result::NOT_READY => VulkanError::NotDone,
-                result => VulkanError::of("vkGetQueryPoolResults")(result),
-            })?;
-        }
-        let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
-        let mut times: Vec<(&'static str, f64)> = Vec::new();
-        for (pair, name) in stamps.windows(2).zip(self.names.iter().skip(1)) {
-            let (Some(name), &[before, after]) = (name, pair) else {
-                continue;
-            };
-            let ms = after.saturating_sub(before) as f64 * period;
-            match times.iter_mut().find(|(known, _)| known == name) {
-                Some((_, sum)) => *sum += ms,
-                None => times.push((name, ms)),
-            }
-        }
-        Ok(times)
-    }
-}
-
-impl Drop for Timings {
-    fn drop(&mut self) {
-        for pool in &self.pools {
-            // SAFETY: owners drop timings only after the frames that use them have run.
-            unsafe { self.gpu.device.destroy_query_pool(*pool, None) };
-        }
     }
 }

@@ -17,10 +17,11 @@ pub(crate) mod memory;
 mod pass_layout;
 pub(crate) mod pipeline;
 mod requirements;
+pub(crate) mod timings;
 mod trace;
 
 pub use allocation::{AllocateMemory, HostMemory, MemoryRequest, MemorySource, SharedAllocator};
-pub(crate) use commands::{Recorder, Timings};
+pub(crate) use commands::Recorder;
 pub(crate) use completion::Completion;
 pub(crate) use descriptor_set::{BoundDescriptor, Descriptor, DescriptorSets, Texels, read_image};
 pub use error::VulkanError;
@@ -32,4 +33,5 @@ pub(crate) use memory::{Buffer, Image, Memory, TexelBuffer, TexelView};
 pub(crate) use pass_layout::{PassLayout, SetLayout, SharedLayout};
 pub(crate) use pipeline::{Constants, GraphicsPipeline, Pipeline, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};
+pub(crate) use timings::{PassTime, Timings};
 pub(crate) use trace::{Dispatched, Traced, TracedDispatch};

@@ -2,6 +2,8 @@
 
 mod geometry;
 mod output_cells;
+#[cfg(test)]
+mod rows;
 mod scene;
 
 pub use geometry::FrameGeometry;

@@ -1,8 +1,10 @@
 //! Counters of a frame, read once its commands have run.
 
 use super::Frame;
+use crate::engine::passes::spirv;
 use crate::engine::sampler::Shortfall;
-use crate::render::{PassTime, RenderError, Statistics};
+use crate::render::{RenderError, Statistics};
+use crate::vulkan::Specialized;
 
 impl Frame {
     /// Work that the last recording could not finish.
@@ -50,19 +52,19 @@ impl Frame {
             superpixels.add_statistics(self.tiles(), &mut statistics)?;
         }
         if self.passes.blended.is_none() {
-            statistics.skipped_passes.push("blend");
+            statistics.skipped_passes.push(Statistics::BLEND);
         }
         if self.passes.superpixels.is_some() && statistics.superpixels == 0 {
-            statistics
-                .skipped_passes
-                .extend(["cull", "bin", "sample", "resolve"]);
+            let of_superpixels = [
+                spirv::Cull::INTERFACE,
+                spirv::Bin::INTERFACE,
+                spirv::Sample::INTERFACE,
+                spirv::Resolve::INTERFACE,
+            ];
+            let names = of_superpixels.map(|shader| shader.pass());
+            statistics.skipped_passes.extend(names);
         }
-        statistics.passes = self
-            .timings
-            .read()?
-            .into_iter()
-            .map(|(pass, ms)| PassTime { pass, ms })
-            .collect();
+        statistics.passes = self.timings.read()?;
         Ok(statistics)
     }
 }

@@ -15,7 +15,7 @@ use crate::render::data::{FrameGeometry, GpuScene};
 use crate::render::passes::{Receiving, StrokeSizes};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
-use crate::vulkan::Recorder;
+use crate::vulkan::{PassTime, Recorder};
 use glam::DVec2;
 use std::ops::Range;
 
@@ -152,7 +152,7 @@ impl Recording<'_> {
         );
         if let Some(PixelShading { spans, shade }) = &passes.pixels {
             let background = whole.background;
-            recorder.section("background", || {
+            recorder.section(PassTime::BACKGROUND, || {
                 let code = display_code(background);
                 resources.record_background(recorder, pixels, background, code);
             });
@@ -199,6 +199,6 @@ impl Recording<'_> {
         if let Some(encode) = &passes.encode {
             encode.record_for(recorder, pixels);
         }
-        recorder.section("copy", || self.deliver(recorder, region));
+        recorder.section(PassTime::COPY, || self.deliver(recorder, region));
     }
 }

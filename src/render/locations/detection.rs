@@ -17,7 +17,7 @@ use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
 use crate::render::{
-    CellOptions, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
+    CellOptions, Headless, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -461,8 +461,8 @@ impl BandDetector {
     }
 
     fn add_statistics(&self, total: &mut Statistics) -> Result<(), VulkanError> {
-        for (pass, ms) in self.timings.read()? {
-            total.add_time(PassTime { pass, ms });
+        for time in self.timings.read()? {
+            total.add_time(time);
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::engine::sampler::SamplerRun;
 use crate::render::data::{FrameGeometry, FrameLook};
 use crate::render::passes::{StrokePass, StrokeSizes};
 use crate::render::plane::PlaneWindow;
-use crate::render::{PassTime, PreparedScene, RenderError, Statistics};
+use crate::render::{PreparedScene, RenderError, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -148,8 +148,8 @@ impl RunMemory {
         total.memory_bytes = total
             .memory_bytes
             .max(self.memory.used() + scene.memory_bytes());
-        for (pass, ms) in self.timings.read()? {
-            total.add_time(PassTime { pass, ms });
+        for time in self.timings.read()? {
+            total.add_time(time);
         }
         Ok(())
     }

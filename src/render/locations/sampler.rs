@@ -14,7 +14,7 @@ use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
 use crate::render::{RenderError, Statistics};
-use crate::vulkan::{Recorder, VulkanError};
+use crate::vulkan::{PassTime, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -149,7 +149,7 @@ impl LocationSampler {
             }
             if cells.0 == Cells::Points {
                 let code = settings.output_code(background);
-                recorder.section("background", || {
+                recorder.section(PassTime::BACKGROUND, || {
                     resources.record_background(recorder, count as u32, background, code);
                 });
             }

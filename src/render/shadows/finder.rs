@@ -16,7 +16,7 @@ use crate::render::passes::{
     LightPlane, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
 };
 use crate::scene::Moment;
-use crate::vulkan::{Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
+use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -251,7 +251,7 @@ impl ShadowFinder {
     /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
     /// descriptor sets before and after.
     pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
-        recorder.section("shadows", || {
+        recorder.section(PassTime::SHADOWS, || {
             if shaded.views.is_empty() {
                 recorder.clear(&shaded.resources.shadow_words.buffer);
                 return;
@@ -271,7 +271,7 @@ impl ShadowFinder {
     /// Records marks for the pixels of a region in which a probe is reached by other lights than the centre. The
     /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
-        recorder.section("shadows", || {
+        recorder.section(PassTime::SHADOWS, || {
             let receiving = Receiving::Pixels(shaded.pixels());
             let target = ShadowTarget::Marks {
                 width: shaded.size[0],

@@ -16,6 +16,8 @@ use crate::visibility::soup;
 
 /// Size of the image in whole tiles, so that an image and its locations have the same middle.
 const SIZE: [u32; 2] = [64, 64];
+/// Size for many samples a pixel.
+const FEW_PIXELS: [u32; 2] = [32, 32];
 
 fn stages() -> [(&'static str, Stage); 4] {
     [
@@ -109,14 +111,15 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 _ => {}
             }
             for (pattern, coverage, shading, samples) in cases {
-                let settings = everywhere(SIZE, pattern.clone(), samples)
+                let settings = everywhere(FEW_PIXELS, pattern.clone(), samples)
                     .map_superpixels(|options| options.coverage(coverage).shading(shading));
                 let image = stage.render(gpu, &settings);
+                let (pinhole, places) = (pinhole(FEW_PIXELS), planar(FEW_PIXELS));
                 let locations = gpu
                     .sample_superpixels(
                         &prepared,
-                        &pinhole(SIZE),
-                        &planar(SIZE),
+                        &pinhole,
+                        &places,
                         &cells(&settings),
                         &settings.scene,
                     )

@@ -9,6 +9,7 @@ mod texture;
 use gpc::render::{Footprint, Headless, HeadlessOptions, MethodKind};
 use gpc::scene::{Filter, Sampler, TextureTransform, Wrap};
 use plane::{Plane, reference, render, rmse, settings};
+use std::sync::LazyLock;
 use texture::Texture;
 
 /// Largest error of the reference image: root mean squared difference from the integral, for values of 0 to 1.
@@ -23,22 +24,39 @@ fn headless() -> Headless {
     Headless::new(&HeadlessOptions::default()).unwrap()
 }
 
-/// Planes with squares, and with waves along, across and diagonal.
-fn patterns() -> [(&'static str, Plane); 4] {
+/// A plane with its name, and the image that is expected of it.
+struct Case {
+    name: &'static str,
+    plane: Plane,
+    expected: Vec<f64>,
+}
+
+impl Case {
+    fn new((name, plane): (&'static str, Plane)) -> Self {
+        let expected = plane.expected();
+        Self {
+            name,
+            plane,
+            expected,
+        }
+    }
+}
+
+/// Planes with squares, and with waves along, across and diagonal. Two tests use them.
+static PATTERNS: LazyLock<[Case; 4]> = LazyLock::new(|| {
     let grating = |waves| Plane::new(Texture::grating(Sampler::default(), waves));
+    let checker = Plane::new(Texture::checker(Sampler::default(), 8));
     [
-        (
-            "checker",
-            Plane::new(Texture::checker(Sampler::default(), 8)),
-        ),
+        ("checker", checker),
         ("waves along", grating([4, 0])),
         ("waves across", grating([0, 4])),
         ("waves aslant", grating([3, 5])),
     ]
-}
+    .map(Case::new)
+});
 
 /// Planes with a mosaic under all sampler modes and transforms of coordinates.
-fn modes() -> Vec<(&'static str, Plane)> {
+fn modes() -> [Case; 8] {
     use Filter::{Linear, Nearest};
     use Wrap::{ClampToEdge, MirroredRepeat, Repeat};
     let sampler = |mag, min, mip, wrap_u| Sampler {
@@ -74,18 +92,21 @@ fn modes() -> Vec<(&'static str, Plane)> {
     ]
     .map(|(name, sampler, transform)| {
         let plane = Plane::new(Texture::mosaic(sampler));
-        (name, Plane { transform, ..plane })
+        Case::new((name, Plane { transform, ..plane }))
     })
-    .into()
 }
 
 /// Asserts that the reference equals the integral, and that the errors of superpixels and supersampling have the
 /// allowed ratio.
-fn check(headless: &mut Headless, name: &str, plane: &Plane) {
-    let expected = plane.expected();
+fn check(headless: &mut Headless, case: &Case) {
+    let Case {
+        name,
+        plane,
+        expected,
+    } = case;
     let scene = plane.upload(headless);
     let truth = reference(headless, &scene, Footprint::Sample);
-    let [whole, below] = [0, 1].map(|rows| rmse(&truth, &expected, rows));
+    let [whole, below] = [0, 1].map(|rows| rmse(&truth, expected, rows));
     println!("{name}: truth {whole:.5}, below the horizon's row {below:.5}");
     assert!(
         whole < TRUTH && below < TRUTH_BELOW,
@@ -94,7 +115,7 @@ fn check(headless: &mut Headless, name: &str, plane: &Plane) {
     for (samples, most) in BESIDE_SSAA {
         let [superpixel, ssaa] = [MethodKind::Superpixel, MethodKind::Ssaa].map(|method| {
             let image = render(headless, &scene, &settings(method, samples));
-            rmse(&image, &expected, 0)
+            rmse(&image, expected, 0)
         });
         let ratio = superpixel / ssaa;
         println!("  {samples} samples: superpixel {superpixel:.5}, ssaa {ssaa:.5}, {ratio:.2}");
@@ -105,16 +126,16 @@ fn check(headless: &mut Headless, name: &str, plane: &Plane) {
 #[test]
 fn patterns_come_to_their_integrals() {
     let mut headless = headless();
-    for (name, plane) in patterns() {
-        check(&mut headless, name, &plane);
+    for case in &*PATTERNS {
+        check(&mut headless, case);
     }
 }
 
 #[test]
 fn every_sampler_mode_and_transform_comes_to_its_integral() {
     let mut headless = headless();
-    for (name, plane) in modes() {
-        check(&mut headless, name, &plane);
+    for case in modes() {
+        check(&mut headless, &case);
     }
 }
 
@@ -122,10 +143,10 @@ fn every_sampler_mode_and_transform_comes_to_its_integral() {
 #[test]
 fn textures_read_for_pixels_miss_the_integral() {
     let mut headless = headless();
-    for (name, plane) in patterns() {
-        let scene = plane.upload(&mut headless);
+    for case in &*PATTERNS {
+        let scene = case.plane.upload(&mut headless);
         let blurred = reference(&mut headless, &scene, Footprint::Pixel);
-        let error = rmse(&blurred, &plane.expected(), 0);
-        assert!(error > 5.0 * TRUTH, "{name}: {error}");
+        let error = rmse(&blurred, &case.expected, 0);
+        assert!(error > 5.0 * TRUTH, "{}: {error}", case.name);
     }
 }

@@ -1,5 +1,6 @@
 //! Exit codes.
 
+use super::view;
 use gpc::render::{EngineError, RenderError};
 use gpc::scene::SceneError;
 use gpc::vulkan::VulkanError;
@@ -31,11 +32,9 @@ pub fn code(error: &anyhow::Error) -> u8 {
     error
         .chain()
         .find_map(|cause| {
-            #[cfg(feature = "view")]
-            if cause.is::<crate::view::NoDisplay>() {
-                return Some(NO_DEVICE);
-            }
-            if cause.is::<Usage>() {
+            if view::is_no_display(cause) {
+                Some(NO_DEVICE)
+            } else if cause.is::<Usage>() {
                 Some(USAGE)
             } else if let Some(error) = cause.downcast_ref::<RenderError>() {
                 Some(of_render(error))

@@ -73,7 +73,7 @@ fn passes(scene: &Scene, args: &InfoArgs) -> anyhow::Result<RecordedPasses> {
         settings.scene.shadows = Shadows::Exact;
     }
     let aspect = f64::from(args.size[0]) / f64::from(args.size[1]);
-    let views = render::choose_views(&render::CameraArgs::default(), &pose, aspect)?;
+    let views = render::choose_views(&render::args::CameraArgs::default(), &pose, aspect)?;
     let Some(view) = views.first() else {
         anyhow::bail!("the scene has no camera");
     };

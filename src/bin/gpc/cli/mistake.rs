@@ -1,5 +1,6 @@
 //! Advice on wrong command lines.
 
+use super::view;
 use crate::scene_files::is_scene;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -22,15 +23,10 @@ fn tip(error: &clap::Error) -> Option<String> {
     };
     match error.kind() {
         ErrorKind::InvalidSubcommand => match word(ContextKind::InvalidSubcommand)? {
-            #[cfg(not(feature = "view"))]
-            "view" => Some(
-                "this gpc was built without its window; in the repository: cargo install --path . --features view"
-                    .to_owned(),
-            ),
-            scene if is_scene(Path::new(scene)) => {
-                Some(format!("to render a scene: gpc render {scene} -o image.png"))
-            }
-            _ => None,
+            scene if is_scene(Path::new(scene)) => Some(format!(
+                "to render a scene: gpc render {scene} -o image.png"
+            )),
+            word => view::tip(word).map(str::to_owned),
         },
         ErrorKind::UnknownArgument => {
             let image = word(ContextKind::InvalidArg)?;

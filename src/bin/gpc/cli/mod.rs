@@ -19,6 +19,9 @@ mod unzoom;
 mod values;
 #[cfg(feature = "view")]
 mod view;
+#[cfg(not(feature = "view"))]
+#[path = "no_view.rs"]
+mod view;
 mod zoom;
 
 use clap::builder::styling::AnsiColor;
@@ -31,7 +34,7 @@ use std::process::ExitCode;
 /// Scenes are glTF 2.0, OBJ, STL or PLY files. Images are PNG, JPEG or EXR files.
 #[derive(Parser)]
 #[command(name = "gpc", version, arg_required_else_help = true, max_term_width = 120, after_help = AFTER_HELP)]
-struct Cli {
+pub struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -70,7 +73,7 @@ enum Command {
     ///
     /// OUT may contain placeholders: {stem} is the name of the scene's file, {camera} the name of the camera or its index, and {frame}
     /// the number of an image in a sequence, with at least four digits. A file appears under its name once it is complete.
-    Render(Box<render::RenderArgs>),
+    Render(Box<render::args::RenderArgs>),
     /// Enlarge regions of a scene or photograph within the rest of the image
     ///
     /// A transition joins each enlarged region to the rest without a gap (focus plus context). In a scene, each pixel is sampled exactly
@@ -141,11 +144,8 @@ enum Command {
     ///
     /// Exits with 3 if no device is suitable.
     Devices(devices::DevicesArgs),
-    /// Show scenes and photographs in a window; H lists its keys
-    ///
-    /// The picture has few samples a pixel while anything moves, and more and more at rest, up to --samples.
-    #[cfg(feature = "view")]
-    View(Box<view::ViewArgs>),
+    #[command(flatten)]
+    Window(view::Command),
 }
 
 impl Command {
@@ -159,17 +159,10 @@ impl Command {
             Self::Panorama(args) => &args.report,
             Self::Project(args) => &args.report,
             Self::Compare(_) | Self::Info(_) | Self::Bench(_) | Self::Devices(_) => return false,
-            #[cfg(feature = "view")]
-            Self::View(_) => return false,
+            Self::Window(_) => return false,
         };
         report.quiet
     }
-}
-
-/// The command with its options, from which manual pages and completions are made.
-#[allow(dead_code, reason = "the example `manual` uses it")]
-pub fn command() -> clap::Command {
-    <Cli as clap::CommandFactory>::command()
 }
 
 /// Runs the command that the process was started with.
@@ -190,8 +183,7 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Devices(args) => devices::run(&args),
-        #[cfg(feature = "view")]
-        Command::View(args) => view::run(*args),
+        Command::Window(command) => view::run(command),
     };
     match done {
         Ok(code) => code,

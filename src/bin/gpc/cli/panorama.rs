@@ -1,7 +1,8 @@
 //! `gpc panorama`.
 
 use super::exit::Usage;
-use super::render::{self, ImageArgs};
+use super::render;
+use super::render::image::ImageArgs;
 use super::report::ReportArgs;
 use super::stage::RenderSetup;
 use clap::Args;

@@ -1,7 +1,8 @@
 //! A scene on a device and one camera, for the commands that choose their own sampling locations.
 
 use super::exit::usage;
-use super::render::{self, ImageArgs, RenderedImage};
+use super::render::image::ImageArgs;
+use super::render::{self, RenderedImage};
 use super::report::{DeviceReport, Effort, Figures, RenderWork};
 use super::values::Background;
 use gpc::camera::{Camera, Pinhole, SampleLocation};

@@ -1,16 +1,27 @@
 //! `gpc view`.
 
 use super::exit::{self, Usage, usage};
-use super::render::{AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
+use super::render::args::{CameraArgs, SamplingArgs};
+use super::render::image::{AppearanceArgs, DeviceArgs};
 use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, SceneSource, Start};
-use clap::Args;
+use clap::{Args, Subcommand};
 use gpc::camera::Orbit;
 use gpc::render::{HeadlessOptions, MethodKind, Settings, Shadows};
 use gpc::scene::PoseRequest;
+use std::error::Error;
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
+
+/// The subcommand of the window.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Show scenes and photographs in a window; H lists its keys
+    ///
+    /// The picture has few samples a pixel while anything moves, and more and more at rest, up to --samples.
+    View(Box<ViewArgs>),
+}
 
 /// Options of `gpc view`.
 #[derive(Args)]
@@ -37,7 +48,19 @@ pub struct ViewArgs {
     device: DeviceArgs,
 }
 
-pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
+/// Whether an error says that there is no display for the window.
+pub fn is_no_display(error: &(dyn Error + 'static)) -> bool {
+    error.is::<view::NoDisplay>()
+}
+
+/// Advice on an unknown subcommand that the window would have.
+pub fn tip(_: &str) -> Option<&'static str> {
+    None
+}
+
+pub fn run(command: Command) -> anyhow::Result<ExitCode> {
+    let Command::View(args) = command;
+    let args = *args;
     let background = match values::background(&args.background) {
         Ok(background) => background,
         Err(expected) => usage!("--background {}: {expected}", args.background),
@@ -123,9 +146,7 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     };
     let [width, height] = args.size;
     let sampling = &args.sampling;
-    let samples = sampling
-        .asked_samples()
-        .unwrap_or_else(|| view::default_samples(sampling.aa));
+    let samples = sampling.samples_or(view::default_samples(sampling.aa));
     let settings = Settings::new(width, height)
         .footprint(sampling.footprint)
         .background(background)

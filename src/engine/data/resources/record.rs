@@ -46,7 +46,7 @@ impl Resources {
             self.record_round(recorder, &record);
         }
         if rounds > 1 {
-            recorder.repeated("rounds", || {
+            recorder.repeated_rounds(|| {
                 (1..rounds).for_each(|_| self.record_round(recorder, &record));
             });
         }

@@ -1,7 +1,7 @@
 //! Sizes of a frame's memory.
 
 use crate::engine::data::{LocationSizes, STRETCH};
-use crate::engine::passes::spirv::FILTER_TRIANGLES;
+use crate::engine::passes::spirv::{FILTER_TRIANGLES, TILE_LISTS};
 use crate::vulkan::{Limits, VulkanError};
 use ash::vk;
 
@@ -151,15 +151,16 @@ impl ResourceSizes {
         self.tiles().max(groups).into()
     }
 
-    /// Number of bytes of the work lists: six lists, with room for all entries that the cells of the work items may
-    /// fill.
+    /// Number of bytes of the work lists: one for each kind of tile, and one each for the opaque and the alpha-tested cells that a
+    /// first run leaves. Each has room for all entries that the cells of the work items may fill.
     pub(crate) fn work_bytes(&self) -> u64 {
         let entries = if self.locations.is_some() {
             1
         } else {
             32 / self.lanes
         };
-        self.work_items() * 6 * 4 * u64::from(entries)
+        let lists = TILE_LISTS + 2;
+        self.work_items() * u64::from(4 * lists * entries)
     }
 
     /// Number of elements of the largest texel buffer.

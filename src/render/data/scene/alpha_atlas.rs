@@ -23,7 +23,7 @@ impl AlphaAtlas {
         }
     }
 
-    /// Adds a material's alpha texture, unless the atlas has it already; returns the material's `GpuMaterial::alpha`.
+    /// Adds a material's alpha texture, unless the atlas has it already; returns the material's vector `MATERIAL_ALPHA`.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
         let (AlphaMode::Mask { .. }, Some(used)) =

@@ -1,29 +1,11 @@
-//! Materials in the form that shaders read.
+//! Materials in the form that shaders read: see `shaders/include/material.glsl`.
 
 use super::slots::Slots;
+use crate::engine::passes::spirv;
 use crate::scene::{AlphaMode, Lobes, Material, TextureRole, TextureUse};
 
 /// Number of vectors of a material before those for texture coordinates.
-const FIXED: usize = 13;
-
-/// The first vectors of a material in `shaders/include/material.glsl`, without those for texture coordinates.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-pub(super) struct GpuMaterial {
-    base_color: [f32; 4],
-    emissive_metallic: [f32; 4],
-    roughness_normal_occlusion_cutoff: [f32; 4],
-    alpha: [u32; 4],
-    specular: [f32; 4],
-    clearcoat: [f32; 4],
-    sheen: [f32; 4],
-    anisotropy: [f32; 4],
-    iridescence: [f32; 4],
-    diffuse_transmission: [f32; 4],
-    transmission: [f32; 4],
-    volume: [f32; 4],
-    specular_glossiness: [f32; 4],
-}
+const FIXED: usize = spirv::MATERIAL_UV_ROWS as usize;
 
 /// Data of a material's row in the table that the material itself does not hold.
 pub(super) struct MaterialRow {
@@ -35,8 +17,7 @@ pub(super) struct MaterialRow {
 impl MaterialRow {
     /// The vectors of a material with these slots.
     pub(super) fn words(&self, material: &Material) -> Vec<[u32; 4]> {
-        let fixed = GpuMaterial::new(material, self.alpha);
-        let mut words = bytemuck::cast_slice::<_, [u32; 4]>(&[fixed]).to_vec();
+        let mut words = fixed_vectors(material, self.alpha).to_vec();
         let textures: Vec<_> = material.textures().collect();
         for slot in 0..self.slots.uses.len() {
             let reads = |(role, _): &&(TextureRole, TextureUse)| {
@@ -82,55 +63,73 @@ fn vector([r, g, b]: [f32; 3], w: f32) -> [f32; 4] {
     [r, g, b, w]
 }
 
-impl GpuMaterial {
-    fn new(material: &Material, alpha: [u32; 4]) -> Self {
-        // The value with which alpha is compared; the alpha of a BLEND material is an opacity.
-        let cutoff = match material.alpha_mode {
-            AlphaMode::Opaque => 0.0,
-            AlphaMode::Mask { cutoff } => cutoff,
-            AlphaMode::Blend => -1.0,
-        };
-        let lobes = &material.lobes;
-        Self {
-            base_color: material.base_color,
-            emissive_metallic: vector(material.emissive, material.metallic),
-            roughness_normal_occlusion_cutoff: [
-                material.roughness,
-                material.normal_scale,
-                material.occlusion_strength,
-                cutoff,
-            ],
-            alpha,
-            specular: lobes.specular.map_or([0.0; 4], |lobe| {
-                vector(lobe.color.map(|x| x * lobe.reflectance), lobe.factor)
-            }),
-            clearcoat: lobes.clearcoat.map_or([0.0; 4], |lobe| {
-                [lobe.factor, lobe.roughness, lobe.normal_scale, 0.0]
-            }),
-            sheen: lobes
-                .sheen
-                .map_or([0.0; 4], |lobe| vector(lobe.color, lobe.roughness)),
-            anisotropy: lobes.anisotropy.map_or([0.0; 4], |lobe| {
-                let (sin, cos) = lobe.rotation.sin_cos();
-                [lobe.strength, cos, sin, 0.0]
-            }),
-            iridescence: lobes.iridescence.map_or([0.0; 4], |lobe| {
-                [lobe.factor, lobe.ior, lobe.thickness[0], lobe.thickness[1]]
-            }),
-            diffuse_transmission: lobes
-                .diffuse_transmission
-                .map_or([0.0; 4], |lobe| vector(lobe.color, lobe.factor)),
-            transmission: lobes
-                .transmission
-                .map_or([0.0; 4], |lobe| [lobe.factor, lobe.thickness, 0.0, 0.0]),
-            volume: lobes
-                .transmission
-                .map_or([0.0; 4], |lobe| vector(lobe.absorption, 0.0)),
-            specular_glossiness: lobes
-                .specular_glossiness
-                .map_or([0.0; 4], |lobe| vector(lobe.specular, lobe.glossiness)),
-        }
+/// The first vectors of a material, without those for texture coordinates.
+fn fixed_vectors(material: &Material, alpha: [u32; 4]) -> [[u32; 4]; FIXED] {
+    // The value with which alpha is compared; the alpha of a BLEND material is an opacity.
+    let cutoff = match material.alpha_mode {
+        AlphaMode::Opaque => 0.0,
+        AlphaMode::Mask { cutoff } => cutoff,
+        AlphaMode::Blend => -1.0,
+    };
+    let factors = [
+        material.roughness,
+        material.normal_scale,
+        material.occlusion_strength,
+        cutoff,
+    ];
+    let Lobes {
+        specular,
+        clearcoat,
+        sheen,
+        anisotropy,
+        iridescence,
+        diffuse_transmission,
+        transmission,
+        specular_glossiness,
+    } = &material.lobes;
+    let mut vectors = [[0; 4]; FIXED];
+    vectors[spirv::MATERIAL_ALPHA as usize] = alpha;
+    let mut set = |vector: u32, values: [f32; 4]| {
+        vectors[vector as usize] = values.map(f32::to_bits);
+    };
+    set(spirv::MATERIAL_BASE_COLOR, material.base_color);
+    let emissive_metallic = vector(material.emissive, material.metallic);
+    set(spirv::MATERIAL_EMISSIVE_METALLIC, emissive_metallic);
+    set(spirv::MATERIAL_FACTORS, factors);
+    if let Some(lobe) = specular {
+        let color = lobe.color.map(|x| x * lobe.reflectance);
+        set(spirv::MATERIAL_SPECULAR, vector(color, lobe.factor));
     }
+    if let Some(lobe) = clearcoat {
+        let values = [lobe.factor, lobe.roughness, lobe.normal_scale, 0.0];
+        set(spirv::MATERIAL_CLEARCOAT, values);
+    }
+    if let Some(lobe) = sheen {
+        set(spirv::MATERIAL_SHEEN, vector(lobe.color, lobe.roughness));
+    }
+    if let Some(lobe) = anisotropy {
+        let (sin, cos) = lobe.rotation.sin_cos();
+        set(spirv::MATERIAL_ANISOTROPY, [lobe.strength, cos, sin, 0.0]);
+    }
+    if let Some(lobe) = iridescence {
+        let [least, greatest] = lobe.thickness;
+        let values = [lobe.factor, lobe.ior, least, greatest];
+        set(spirv::MATERIAL_IRIDESCENCE, values);
+    }
+    if let Some(lobe) = diffuse_transmission {
+        let values = vector(lobe.color, lobe.factor);
+        set(spirv::MATERIAL_DIFFUSE_TRANSMISSION, values);
+    }
+    if let Some(lobe) = transmission {
+        let values = [lobe.factor, lobe.thickness, 0.0, 0.0];
+        set(spirv::MATERIAL_TRANSMISSION, values);
+        set(spirv::MATERIAL_VOLUME, vector(lobe.absorption, 0.0));
+    }
+    if let Some(lobe) = specular_glossiness {
+        let values = vector(lobe.specular, lobe.glossiness);
+        set(spirv::MATERIAL_SPECULAR_GLOSSINESS, values);
+    }
+    vectors
 }
 
 /// Largest roughness at which the reflection of an untextured surface can change noticeably within a pixel.
@@ -153,37 +152,4 @@ fn is_glossy(material: &Material) -> bool {
     let base = specular_glossiness.map_or(material.roughness, |base| 1.0 - base.glossiness);
     let coat = clearcoat.map_or(1.0, |coat| coat.roughness);
     base.min(coat) < GLOSSY_ROUGHNESS || iridescence.is_some()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::passes::spirv;
-
-    #[test]
-    fn the_material_is_the_shaders() {
-        let offset = |vector: u32| 16 * vector as usize;
-        macro_rules! check {
-            ($($field:ident $vector:ident,)*) => {
-                $(assert_eq!(std::mem::offset_of!(GpuMaterial, $field), offset(spirv::$vector));)*
-            };
-        }
-        check! {
-            base_color MATERIAL_BASE_COLOR,
-            emissive_metallic MATERIAL_EMISSIVE_METALLIC,
-            roughness_normal_occlusion_cutoff MATERIAL_FACTORS,
-            alpha MATERIAL_ALPHA,
-            specular MATERIAL_SPECULAR,
-            clearcoat MATERIAL_CLEARCOAT,
-            sheen MATERIAL_SHEEN,
-            anisotropy MATERIAL_ANISOTROPY,
-            iridescence MATERIAL_IRIDESCENCE,
-            diffuse_transmission MATERIAL_DIFFUSE_TRANSMISSION,
-            transmission MATERIAL_TRANSMISSION,
-            volume MATERIAL_VOLUME,
-            specular_glossiness MATERIAL_SPECULAR_GLOSSINESS,
-        }
-        assert_eq!(size_of::<GpuMaterial>(), offset(spirv::MATERIAL_UV_ROWS));
-        assert_eq!(size_of::<GpuMaterial>(), 16 * FIXED);
-    }
 }

@@ -3,7 +3,8 @@
 use super::BenchArgs;
 use super::progress::Progress;
 use crate::cli::input;
-use crate::cli::render::{CameraArgs, NamedView, choose_views};
+use crate::cli::render::args::CameraArgs;
+use crate::cli::render::{NamedView, choose_views};
 use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;

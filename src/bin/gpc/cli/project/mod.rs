@@ -3,7 +3,8 @@
 mod calibration;
 
 use super::exit::{Usage, usage};
-use super::render::{self, ImageArgs, RenderedImage};
+use super::render::image::ImageArgs;
+use super::render::{self, RenderedImage};
 use super::report::{Figures, ReportArgs};
 use super::stage::RenderSetup;
 use super::{input, values};

@@ -90,12 +90,6 @@ pub struct SamplingArgs {
 }
 
 impl SamplingArgs {
-    /// The number of samples asked for, if any.
-    #[cfg(feature = "view")]
-    pub fn asked_samples(&self) -> Option<u32> {
-        self.samples
-    }
-
     /// The method with so many samples and the options of superpixels asked for.
     pub fn method(&self, samples: u32) -> Method {
         match self.aa {
@@ -116,11 +110,16 @@ impl SamplingArgs {
 
     /// The number of samples asked for, or otherwise the method's default.
     pub fn samples(&self) -> u32 {
-        self.samples.unwrap_or(match self.aa {
+        self.samples_or(match self.aa {
             MethodKind::None => 1,
             MethodKind::Msaa => 4,
             _ => CellOptions::DEFAULT_SAMPLES,
         })
+    }
+
+    /// The number of samples asked for, or otherwise `default`.
+    pub fn samples_or(&self, default: u32) -> u32 {
+        self.samples.unwrap_or(default)
     }
 }
 

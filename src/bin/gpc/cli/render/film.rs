@@ -1,6 +1,6 @@
 //! A scene at the times of a sequence.
 
-use super::ImageArgs;
+use super::image::ImageArgs;
 use super::sequence::SequenceFrame;
 use super::session::Session;
 use super::startup::Clock;

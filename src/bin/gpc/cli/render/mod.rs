@@ -1,8 +1,8 @@
 //! `gpc render`.
 
-mod args;
+pub mod args;
 mod film;
-mod image;
+pub mod image;
 mod report;
 mod save;
 mod sequence;
@@ -12,12 +12,6 @@ mod template;
 mod unseen;
 mod view;
 
-#[cfg(feature = "view")]
-pub use args::SamplingArgs;
-pub use args::{CameraArgs, RenderArgs, Tonemap};
-pub use image::ImageArgs;
-#[cfg(feature = "view")]
-pub use image::{AppearanceArgs, DeviceArgs};
 pub use save::{beside, check_folder, encode, save, write};
 pub use session::{RenderedImage, open_beside, upload};
 pub use view::{NamedView, choose as choose_views};
@@ -25,6 +19,7 @@ pub use view::{NamedView, choose as choose_views};
 use super::exit::{Usage, usage};
 use super::input;
 use super::values::Background;
+use args::RenderArgs;
 use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::Settings;

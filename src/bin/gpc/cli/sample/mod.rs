@@ -5,7 +5,8 @@ mod npy;
 mod table;
 
 use super::exit::{Usage, usage};
-use super::render::{ImageArgs, Tonemap};
+use super::render::args::Tonemap;
+use super::render::image::ImageArgs;
 use super::report::{Effort, RenderWork, ReportArgs};
 use super::stage::RenderSetup;
 use super::{input, render};

@@ -1,7 +1,7 @@
 //! The options of `gpc zoom`.
 
 use crate::cli::exit::Usage;
-use crate::cli::render::ImageArgs;
+use crate::cli::render::image::ImageArgs;
 use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::Args;
