@@ -7,7 +7,7 @@
 //! <!-- figures: passes-in-short -->
 //!
 //! ```text
-//! every pixel:       raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect
+//! every pixel:       filter ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect
 //! superpixels alone: cull ─▶ bin ─▶ tally ─▶ schedule ─▶ enlist ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve ─▶ grow
 //! ```
 //!

@@ -3,7 +3,8 @@
 use crate::passes;
 
 /// What a pass does, in two short lines under its name.
-const PURPOSES: [(&str, [&str; 2]); 15] = [
+const PURPOSES: [(&str, [&str; 2]); 16] = [
+    ("filter", ["triangles that may", "cover a centre"]),
     ("raster", ["triangle ID", "and depth"]),
     ("spans", ["pixels in order", "of material"]),
     ("shade", ["colour at the", "pixel's centre"]),
