@@ -1,7 +1,6 @@
 //! Names in C for members that the engine's error messages mention.
 
 use super::error::Error;
-use super::options::GROWTHS;
 use crate::host::{EngineError, HostError};
 use crate::vulkan::VulkanError;
 
@@ -174,9 +173,6 @@ pub(super) fn in_c(error: &HostError) -> String {
             asked, possible, ..
         }) => {
             format!("GpcOptions.samples is {asked}; it can be {possible}")
-        }
-        HostError::Engine(EngineError::Growths { asked, .. }) => {
-            format!("GpcOptions.growths is {asked}; it can be {GROWTHS}")
         }
         HostError::Engine(EngineError::Background(found)) => {
             format!("GpcOptions.background is {found:?}: its light must be finite")

@@ -2,7 +2,7 @@
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
-use crate::engine::sampler::{Detection, Shading};
+use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
 use crate::sampling::Pattern;
 use ash::vk;
@@ -62,9 +62,6 @@ pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
 
 /// Value of GpcOptions.growths for the default number: 1, or 4 from 128 samples on.
 pub const GPC_GROWTHS_OF_SAMPLES: u32 = u32::MAX;
-
-/// Possible values of GpcOptions.growths, in words.
-pub(super) const GROWTHS: &str = "0 to 8, or GPC_GROWTHS_OF_SAMPLES";
 
 /// Options of antialiasing a frame; gpc_init_options sets defaults.
 #[derive(Clone, Copy)]
@@ -230,11 +227,15 @@ impl GpcOptions {
             },
             growths: match self.growths {
                 GPC_GROWTHS_OF_SAMPLES => None,
-                asked => Some(u8::try_from(asked).map_err(|_| Error::Value {
-                    name: "GpcOptions.growths",
-                    found: asked,
-                    possible: GROWTHS.to_owned(),
-                })?),
+                asked => {
+                    let most = SuperpixelOptions::MOST_GROWTHS;
+                    let possible = u8::try_from(asked).ok().filter(|&count| count <= most);
+                    Some(possible.ok_or_else(|| Error::Value {
+                        name: "GpcOptions.growths",
+                        found: asked,
+                        possible: format!("0 to {most}, or GPC_GROWTHS_OF_SAMPLES"),
+                    })?)
+                }
             },
             thin: flag("GpcOptions.thin", self.thin)?,
             background: has_background.then_some(self.background),

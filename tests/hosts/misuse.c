@@ -493,6 +493,11 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     MUST((VkResult)CREATE_LIST);
     EXPECT(gpc_list_memory_bytes(list) > 0, "the memory of a list");
     EXPECT(gpc_list_memory_bytes(NULL) == 0, "no list, no memory");
+    GpcOptions wrong = *options;
+    wrong.growths = 9;
+    GpcList *other = NULL;
+    ANSWERS(gpc_list_create(antialiaser, geometry, &lent, &wrong, &other), GPC_RESULT_VALUE,
+            "GpcOptions.growths is 9; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
 
 #define RECORD_LIST(count) (scenery.location_count = (count), gpc_list_record(list, commands, &scenery, shade_nothing, &calls))
     MUST((VkResult)gpc_init_list_scenery(&scenery, sizeof scenery));
