@@ -1023,8 +1023,9 @@ GpcResult gpc_init_list_scenery(struct GpcListScenery *scenery, size_t size);
 GpcResult gpc_init_list_outcome(struct GpcListOutcome *outcome, size_t size);
 
 // Makes the pipelines and memory to sample a list of locations. With one sample, each location is sampled at its own
-// position; with more, as a superpixel around it. A list has no neighbouring pixels, so that the options `detection`,
-// `contrast`, `growths`, `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect; `width` and `height` are the size of the image in whose pixels locations are given.
+// position; with more, as a superpixel around it. `width` and `height` are the size of the image in whose pixels
+// locations are given. A list has no neighbouring pixels, so that the options `detection`, `contrast`, `growths`,
+// `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect.
 //
 // Threads: any; several lists may be created at once.
 // Lifetime: the lent buffers and views outlive the list. The structs are read during the call only.
