@@ -134,12 +134,12 @@ mod tests {
         let Method::Superpixel(draft) = look.draft(16).method else {
             panic!("no superpixels");
         };
-        assert_eq!(draft.samples, 16);
+        assert_eq!(draft.cells.samples, 16);
         assert_eq!(
             (draft.detection, draft.contrast),
             (Detection::Edges, Some(40))
         );
-        assert_eq!(draft.shading, Shading::Triangle);
+        assert_eq!(draft.cells.shading, Shading::Triangle);
         assert_eq!(look.draft(1).method, Method::None);
         look.set_method(MethodKind::Msaa);
         assert_eq!(look.draft(4), look.at(4, None));
