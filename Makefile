@@ -93,7 +93,7 @@ lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
-	$(CARGO) clippy --release --features view --bin gpc --example window --test view -- -D warnings
+	$(CARGO) clippy --release --all-targets --features view -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings
