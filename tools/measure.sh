@@ -51,7 +51,8 @@ for kind in "${kinds[@]}"; do
     out="$work/$kind"
     case "$kind" in
         quality)
-            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --samples 4,16,64,256,1024 --repeat 3 --budget 2
+            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --samples 4,16,64,256,1024 \
+                --superpixel-samples 8,32,128,512 --repeat 3 --budget 2
             keep quality "$out/results.csv"
             ;;
         speed)

@@ -29,7 +29,7 @@ pub fn spread_of<'a>(
 }
 
 fn table(of: &Measurement, further: &[Column], value: Value, write: fn(f64) -> String) -> String {
-    let samples = of.samples("superpixel");
+    let samples = of.compared_samples();
     let mut head = cells(&["scene"]);
     head.extend(further.iter().map(|(name, _)| (*name).to_owned()));
     head.extend(samples.iter().map(|n| grouped(u64::from(*n))));

@@ -100,6 +100,14 @@ impl Measurement {
         samples
     }
 
+    /// Numbers of samples at which both superpixels and supersampling were measured, in ascending order.
+    pub fn compared_samples(&self) -> Vec<u32> {
+        let supersampling = self.samples("ssaa");
+        let mut samples = self.samples("superpixel");
+        samples.retain(|n| supersampling.contains(n));
+        samples
+    }
+
     /// Row of a scene, a method and a number of samples.
     pub fn find(&self, scene: &str, method: &str, samples: u32) -> Option<&Row> {
         self.rows.iter().find(|row| {

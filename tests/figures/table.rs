@@ -67,7 +67,7 @@ pub fn readme() -> String {
     let of = quality(&all);
     let scenes = textured(of);
     let samples: Vec<u32> = of
-        .samples("superpixel")
+        .compared_samples()
         .into_iter()
         .filter(|n| *n >= 16)
         .collect();
@@ -153,7 +153,7 @@ pub fn exceptions() -> String {
         "`ssaa` has the smaller RMSE on",
         "`ssaa` has the smaller FLIP on",
     ]));
-    for n in of.samples("superpixel") {
+    for n in of.compared_samples() {
         let better = |column: Column| {
             let better: Vec<&str> = scenes
                 .iter()
@@ -190,7 +190,7 @@ pub fn quality_by_scene() -> String {
     let mut text = String::new();
     for of in &data::load("quality") {
         text += &format!("{}, {}.\n\n", of.source(), of.size());
-        for n in of.samples("superpixel") {
+        for n in of.compared_samples() {
             let mut table = Table::new(&cells(&[
                 "scene",
                 "superpixels",

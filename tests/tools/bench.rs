@@ -210,6 +210,8 @@ fn bench(folder: &Path) -> Value {
         "64x64",
         "--samples",
         "16,4,16",
+        "--superpixel-samples",
+        "8,4",
         "--reference",
         "512",
         "--repeat",
@@ -256,10 +258,23 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
             .find(|row| row["method"] == method && row["samples"] == samples)
             .unwrap_or_else(|| panic!("no {method} {samples} in {scene}"))
     };
-    let expected = ["none", "msaa", "ssaa", "ssaa", "superpixel", "superpixel"];
+    let expected = [
+        ("none", 1),
+        ("msaa", 4),
+        ("ssaa", 4),
+        ("ssaa", 16),
+        ("superpixel", 4),
+        ("superpixel", 8),
+        ("superpixel", 16),
+    ];
     let found: Vec<_> = rows
         .iter()
-        .map(|row| row["method"].as_str().unwrap())
+        .map(|row| {
+            (
+                row["method"].as_str().unwrap(),
+                row["samples"].as_u64().unwrap(),
+            )
+        })
         .collect();
     assert_eq!(found, expected, "msaa is 4x on the software driver");
     let notes = scene["notes"].to_string();
@@ -319,7 +334,9 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     );
     assert_eq!(scene["textured"], false);
     let summary = results_of_untextured(&first);
-    assert_eq!(summary["at"].as_array().unwrap().len(), 2);
+    let compared = summary["at"].as_array().unwrap();
+    assert_eq!(compared.len(), 3);
+    assert!(compared[1]["rmse_ratio"].is_null(), "ssaa has no 8 samples");
     assert_eq!(
         summary["at"][0]["rmse_ratio"],
         summary["at"][0]["geometry_ratio"]

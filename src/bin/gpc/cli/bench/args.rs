@@ -34,6 +34,10 @@ pub struct BenchArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: Vec<u32>,
+    /// Further numbers of samples for superpixels alone
+    #[arg(long, value_name = "LIST", value_delimiter = ',',
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
+    superpixel_samples: Vec<u32>,
     /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
@@ -77,9 +81,6 @@ pub struct BenchArgs {
 impl BenchArgs {
     /// The methods and numbers of samples to measure, without duplicates, starting with one sample a pixel.
     pub fn cells(&self) -> Vec<(MethodKind, u32)> {
-        let mut counts = self.samples.clone();
-        counts.sort_unstable();
-        counts.dedup();
         let mut cells = Vec::new();
         for method in METHODS {
             if !self.methods.contains(&method) {
@@ -87,9 +88,15 @@ impl BenchArgs {
             }
             if method == MethodKind::None {
                 cells.push((method, 1));
-            } else {
-                cells.extend(counts.iter().map(|count| (method, *count)));
+                continue;
             }
+            let mut counts = self.samples.clone();
+            if method == MethodKind::Superpixel {
+                counts.extend(&self.superpixel_samples);
+            }
+            counts.sort_unstable();
+            counts.dedup();
+            cells.extend(counts.into_iter().map(|count| (method, count)));
         }
         cells
     }
