@@ -69,7 +69,8 @@ enum GpcResult
     GPC_RESULT_STRUCT_SIZE = 2,
     // Value that is not possible, or that contradicts another one.
     GPC_RESULT_VALUE = 3,
-    // Recording with more draws, triangles, vertices or indices than its frame was created for.
+    // Recording with more draws, triangles, vertices, indices or locations than its frame or list was created for, or draw
+    // whose vertices lie outside of its mesh.
     GPC_RESULT_CAPACITY = 4,
     // Device, instance or loader that lacks a requirement.
     GPC_RESULT_UNSUPPORTED = 5,
@@ -385,7 +386,7 @@ typedef struct GpcDraw {
     uint32_t key;
     // Material number of the application's choice, up to 65,535, which its shaders can read. Triangles with the same
     // number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
-    // shaded.
+    // shaded. Draws with alpha maps are told apart by their maps instead.
     uint32_t material;
     // VK_TRUE if back faces are visible. `front_face` says which faces these are.
     VkBool32 double_sided;
@@ -664,7 +665,8 @@ typedef struct GpcOptions {
     // Superpixels that these rounds leave keep their drawn colours and are counted as left over.
     //
     // 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
-    // without work take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    // without work take next to no time on devices with GpcDevice.conditional_rendering. On others each takes a little, and
+    // the time of the callback's commands.
     uint32_t max_rounds;
     // Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     uint32_t location_count;
@@ -874,8 +876,9 @@ GpcResult gpc_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
 //
 // Threads: any. An antialiaser may be used by several threads at once.
 // Lifetime: instance, device and the loader's library outlive the antialiaser and all frames created with it.
-// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_OUT_OF_MEMORY,
-// GPC_RESULT_VULKAN. `*antialiaser` is then NULL.
+// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_VALUE is a flag or a queue family that is not possible;
+// GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_VULKAN.
+// `*antialiaser` is then NULL.
 GpcResult gpc_antialiaser_create(const struct GpcDevice *device,
                                  struct GpcAntialiaser **antialiaser);
 
@@ -932,8 +935,8 @@ GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
 GpcResult gpc_frame_grow(const struct GpcFrame *frame,
                          struct GpcFrame **grown);
 
-// Changes the size of the images, in pixels. Pipelines are kept, and so is memory that suffices: a frame that becomes
-// smaller keeps all of its memory. Otherwise, the first frame that is resized allocates memory, which the other frames
+// Changes the size of the images, in pixels. Pipelines are kept, and so is shared memory that suffices. Memory of the frame
+// alone, which is small, is made anew. If shared memory does not suffice, the first frame that is resized allocates memory, which the other frames
 // of the antialiaser then share.
 //
 // Threads: no other call uses the frame at the same time.
@@ -989,11 +992,11 @@ uint64_t gpc_frame_shared_memory_bytes(const struct GpcFrame *frame);
 // Threads: no other call uses the frame at the same time.
 void gpc_frame_destroy(struct GpcFrame *frame);
 
-// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, and with one shading key.
+// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, with one shading
+// key, positions in clip space, 16-bit indices, and depth from 0 to 1.
 //
 // Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
-GpcResult gpc_init_geometry(struct GpcGeometry *geometry,
-                            size_t size);
+GpcResult gpc_init_geometry(struct GpcGeometry *geometry, size_t size);
 
 // Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): with a colour image only, whose format still
 // has to be set.

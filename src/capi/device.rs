@@ -189,8 +189,9 @@ unsafe fn check_instance(
 ///
 /// Threads: any. An antialiaser may be used by several threads at once.
 /// Lifetime: instance, device and the loader's library outlive the antialiaser and all frames created with it.
-/// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_OUT_OF_MEMORY,
-/// GPC_RESULT_VULKAN. `*antialiaser` is then NULL.
+/// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_VALUE is a flag or a queue family that is not possible;
+/// GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_VULKAN.
+/// `*antialiaser` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_antialiaser_create(
     device: *const GpcDevice,

@@ -24,7 +24,8 @@ pub enum GpcResult {
     StructSize = 2,
     /// Value that is not possible, or that contradicts another one.
     Value = 3,
-    /// Recording with more draws, triangles, vertices or indices than its frame was created for.
+    /// Recording with more draws, triangles, vertices, indices or locations than its frame or list was created for, or draw
+    /// whose vertices lie outside of its mesh.
     Capacity = 4,
     /// Device, instance or loader that lacks a requirement.
     Unsupported = 5,

@@ -222,8 +222,8 @@ pub unsafe extern "C" fn gpc_frame_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Changes the size of the images, in pixels. Pipelines are kept, and so is memory that suffices: a frame that becomes
-/// smaller keeps all of its memory. Otherwise, the first frame that is resized allocates memory, which the other frames
+/// Changes the size of the images, in pixels. Pipelines are kept, and so is shared memory that suffices. Memory of the frame
+/// alone, which is small, is made anew. If shared memory does not suffice, the first frame that is resized allocates memory, which the other frames
 /// of the antialiaser then share.
 ///
 /// Threads: no other call uses the frame at the same time.

@@ -1,7 +1,7 @@
 //! Geometry that the application lends.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes};
+use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes, unused};
 use crate::host::{
     AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, Mesh, PositionSpace, Topology,
 };
@@ -94,8 +94,9 @@ unsafe impl Element for GpcMesh {
 }
 
 impl GpcMesh {
-    fn mesh(&self) -> Mesh {
-        Mesh {
+    fn mesh(&self) -> Result<Mesh, Error> {
+        unused("GpcMesh.reserved", self.reserved)?;
+        Ok(Mesh {
             positions: self.positions,
             positions_offset: self.positions_offset,
             position_stride: self.position_stride,
@@ -111,7 +112,7 @@ impl GpcMesh {
                 index_type: self.index_type,
                 capacity: self.index_capacity,
             }),
-        }
+        })
     }
 }
 
@@ -215,7 +216,8 @@ unsafe impl Struct for GpcGeometry {
     const TYPE: GpcStructType = GpcStructType::Geometry;
 }
 
-/// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, and with one shading key.
+/// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, with one shading
+/// key, positions in clip space, 16-bit indices, and depth from 0 to 1.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
@@ -225,8 +227,9 @@ pub unsafe extern "C" fn gpc_init_geometry(geometry: *mut GpcGeometry, size: usi
 }
 
 impl GpcAlphaMap {
-    fn alpha_map(&self) -> AlphaMap {
-        AlphaMap {
+    fn alpha_map(&self) -> Result<AlphaMap, Error> {
+        unused("GpcAlphaMap.reserved", self.reserved)?;
+        Ok(AlphaMap {
             view: self.view,
             size: [self.width, self.height],
             levels: self.levels,
@@ -235,13 +238,13 @@ impl GpcAlphaMap {
             mipmap_mode: self.mipmap_mode,
             address: [self.address_u, self.address_v],
             cutoff: self.cutoff,
-        }
+        })
     }
 }
 
 impl GpcGeometry {
     /// Mesh 0, from the members of this struct.
-    fn own_mesh(&self) -> Mesh {
+    fn own_mesh(&self) -> Result<Mesh, Error> {
         let mesh = GpcMesh {
             positions: self.positions,
             positions_offset: self.positions_offset,
@@ -295,12 +298,15 @@ impl GpcGeometry {
         Ok(Geometry {
             meshes: std::iter::once(self.own_mesh())
                 .chain(more_meshes.iter().map(GpcMesh::mesh))
-                .collect(),
+                .collect::<Result<_, _>>()?,
             position_space: choice("GpcGeometry.position_space", self.position_space, &spaces)?,
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
             keys: self.keys,
-            alpha_maps: maps.iter().map(GpcAlphaMap::alpha_map).collect(),
+            alpha_maps: maps
+                .iter()
+                .map(GpcAlphaMap::alpha_map)
+                .collect::<Result<_, _>>()?,
             blended: flag("GpcGeometry.blended", self.blended)?,
             clip: ClipSpace {
                 y_up: flag("GpcGeometry.y_up", self.y_up)?,
@@ -347,7 +353,7 @@ pub struct GpcDraw {
     pub key: u32,
     /// Material number of the application's choice, up to 65,535, which its shaders can read. Triangles with the same
     /// number are assumed to look alike where the surrounding colours decide in how many parts `detailed` ones are
-    /// shaded.
+    /// shaded. Draws with alpha maps are told apart by their maps instead.
     pub material: u32,
     /// VK_TRUE if back faces are visible. `front_face` says which faces these are.
     pub double_sided: vk::Bool32,

@@ -308,6 +308,11 @@ pub(super) fn choice<T: Clone>(
     })
 }
 
+/// Checks that a member that no version uses yet is 0, so that a later version can use it.
+pub(super) fn unused(name: &'static str, found: u32) -> Result<(), Error> {
+    choice(name, found, &[(0, "0", ())])
+}
+
 /// Value of a VkBool32.
 pub(super) fn flag(name: &'static str, found: u32) -> Result<bool, Error> {
     choice(name, found, &[(0, "VK_FALSE", false), (1, "VK_TRUE", true)])

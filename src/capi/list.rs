@@ -5,7 +5,8 @@ use super::error::{Error, GpcResult, answer};
 use super::frame::{Callback, GpcShade};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::input::{
-    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, write,
+    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, unused,
+    write,
 };
 use super::options::GpcOptions;
 use crate::host::{List, ListOptions, Location, LocationList};
@@ -265,6 +266,7 @@ pub unsafe extern "C" fn gpc_list_record(
             return Err(Error::Null("commands"));
         }
         let shade = shade.ok_or(Error::Null("shade"))?;
+        unused("GpcListScenery.reserved", scenery.reserved)?;
         // SAFETY: passed on to the caller.
         let draws = unsafe {
             GpcDraw::all(

@@ -1,7 +1,7 @@
 //! Options of antialiasing.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
+use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes, unused};
 use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
 use crate::sampling::Pattern;
@@ -115,7 +115,8 @@ pub struct GpcOptions {
     /// Superpixels that these rounds leave keep their drawn colours and are counted as left over.
     ///
     /// 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
-    /// without work take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    /// without work take next to no time on devices with GpcDevice.conditional_rendering. On others each takes a little, and
+    /// the time of the callback's commands.
     pub max_rounds: u32,
     /// Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     pub location_count: u32,
@@ -174,6 +175,7 @@ impl GpcOptions {
     /// # Safety
     /// With `GpcPattern::List`, `locations` points to as many pairs as `location_count` says.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {
+        unused("GpcOptions.reserved", self.reserved)?;
         let shadings = [
             (
                 GpcShading::Triangle as u32,

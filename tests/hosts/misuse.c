@@ -509,6 +509,9 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     scenery.draw_stride = sizeof draw;
     ANSWERS(RECORD_LIST(1), GPC_RESULT_NULL, "GpcListScenery.draws is NULL");
     scenery.draws = &draw;
+    scenery.reserved = 1;
+    ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "GpcListScenery.reserved is 1; it can be 0");
+    scenery.reserved = 0;
     ANSWERS(RECORD_LIST(LOCATIONS + 1), GPC_RESULT_CAPACITY, "9 locations; GpcLocationList.capacity is 8");
     draw.key = 1;
     ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "GpcDraw.key of draw 0 is 1; it can be 0 to 0");
@@ -577,6 +580,9 @@ static void frames(void) {
     map.levels = 8;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcAlphaMap.levels is 8; it can be 1 to 7");
     map.levels = 1;
+    map.reserved = 5;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcAlphaMap.reserved is 5; it can be 0");
+    map.reserved = 0;
     map.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "an address mode of GpcGeometry.alpha_maps[0] is VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER");
     map.address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
@@ -635,6 +641,9 @@ static void frames(void) {
     mesh.positions = VK_NULL_HANDLE;
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.more_meshes[0]: GpcMesh.positions is VK_NULL_HANDLE");
     mesh.positions = positions;
+    mesh.reserved = 4;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcMesh.reserved is 4; it can be 0");
+    mesh.reserved = 0;
     mesh.position_stride = 8;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.more_meshes[0]: GpcMesh.position_stride is 8 bytes; it can be any multiple of 4 from 12 on");
     geometry.more_mesh_count = 0;
@@ -692,6 +701,9 @@ static void frames(void) {
     options.growths = 300;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 300; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
     options.growths = 3;
+    options.reserved = 1;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.reserved is 1; it can be 0");
+    options.reserved = 0;
     options.width = 0;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "an image of 0 x 64 pixels");
     options.width = SIDE;

@@ -16,10 +16,11 @@ pub const MAX_SAMPLES: u32 = 1024;
 #[non_exhaustive]
 pub enum Pattern {
     /// Samples on straight lines of 64 samples each: rows or columns, whichever the edges in the superpixel cross more
-    /// often. Any count. A count up to 64 has 8 lines (16 on devices with subgroups of 32 invocations), a larger one 32;
-    /// the count also limits the number of places in which the superpixel is shaded. In lists of locations, lines follow
-    /// the columns of the Jacobian. [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND
-    /// triangles are visible, and for counts below 4.
+    /// often. Any count. Up to 64 samples have 8 lines (16 on devices with subgroups of 32 invocations), up to 256 have
+    /// 32, and more have 64 (32 in tiles with alpha-tested triangles). The count also limits the number of places in
+    /// which the superpixel is shaded. In lists of locations, lines follow the columns of the Jacobian.
+    /// [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND triangles are visible, and
+    /// for counts below 4.
     Lines,
     /// First points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2. Any count. Its error on straight
     /// edges depends least on their orientation.
