@@ -34,7 +34,7 @@ help:
 	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
 	@echo "make pictures       render the pictures of the documents again"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
-	@echo "make shaders        compile shaders/ into shaders/spirv, and write their interfaces into src/engine/passes/spirv.rs"
+	@echo "make shaders        compile shaders/ into shaders/spirv, and write their interfaces into src/engine/spirv.rs"
 	@echo "                    (builds shaderc: some 10 minutes once)"
 	@echo "make check-shaders  check that both are what shaders/ compiles to"
 	@echo "make header         write include/gpc.h, the C header, again"

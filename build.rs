@@ -227,7 +227,7 @@ fn main() {
     let own = group("shaders", VARIANTS);
     let folder = spirv(&own, &out);
     #[cfg(feature = "compile-shaders")]
-    interfaces(&own, &folder, &root.join("src/engine/passes/spirv.rs"));
+    interfaces(&own, &folder, &root.join("src/engine/spirv.rs"));
     let mut code = String::new();
     // Paths begin with a variable, so that built files stay valid if the sources are moved.
     let (variable, beside) = if folder.starts_with(&out) {

@@ -29,8 +29,7 @@ layout(push_constant) uniform Push {
     ivec2 low;          // upper left pixel of the part of the plane that is sampled, from its middle
     uvec2 size;         // of that part, in pixels
     float range;        // how far the light of a local light reaches
-    uint step_;         // bits 0 to 4: number of the light; bit 5: the first step of all, which clears the words; from bit 6 on:
-                        // number of the probe, from 1 on, or 0 for none
+    uint step_;         // light and probe, see RECEIVERS_LIGHT
     uint face;          // which of the six planes of a cube this is, as `face_of` numbers them, or SINGLE_PLANE
 } push;
 // Places of probes in their pixels. Growth finds those parts of a shadow that lie within two pixels of a probe or centre in the
@@ -54,7 +53,7 @@ void main() {
     uint i = invocation_number();
     uint count = PIXELS ? frame.size.x * frame.size.y : min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint source = min(i, max(count, 1u) - 1u), id;
-    uint probe = push.step_ >> 6;
+    uint probe = push.step_ >> RECEIVERS_PROBE_SHIFT;
     vec2 p;
     if (PIXELS) {
         uvec2 pixel = split(source, frame.size.x);
@@ -83,8 +82,8 @@ void main() {
     bool backlit = DIFFUSE_TRANSMISSION && diffuse_transmission_of(material_of(k.word)).factor > 0.0;
     bool turned = reached && !backlit && dot(normal, to_light) < 0.0;
     if (i < count && probe == 0u) {
-        uint place = (PIXELS ? i : place_of_record(i)) * SHADOW_WORDS, light = push.step_ & 31u;
-        uint word = (push.step_ & 32u) != 0u ? 0u : words[place];
+        uint place = (PIXELS ? i : place_of_record(i)) * SHADOW_WORDS, light = push.step_ & RECEIVERS_LIGHT;
+        uint word = (push.step_ & RECEIVERS_BEGINS) != 0u ? 0u : words[place];
         words[place] = word | (turned ? 1u << light : 0u);
         if (SHADOW_WORDS > 1u && turned) words[place + 1u + light] = 0u;
     }

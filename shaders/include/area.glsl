@@ -2,7 +2,7 @@
 //
 // A convex region's area is half the sum, over the lines that bound it, of the line's distance from the cell's centre
 // (positive where the centre lies inside) times the length of the line's segment within all other half-planes. There
-// are seven lines, three of the triangle and four of the square. Twin: src/reference/area.rs.
+// are seven lines, three of the triangle and four of the square. Twin: src/reference/edge.rs.
 #ifndef AREA_GLSL
 #define AREA_GLSL
 

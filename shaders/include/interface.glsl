@@ -376,6 +376,12 @@
 // The number of the plane of a light that needs only one. Smaller numbers are faces of a cube of planes around a light.
 #define SINGLE_PLANE 6u
 
+// What `receivers` takes in a word: the number of the light; a flag of the first step of all, which clears the shadow words; and,
+// shifted, the number of the probe, from 1 on, or 0 for none.
+#define RECEIVERS_LIGHT 31u
+#define RECEIVERS_BEGINS 32u
+#define RECEIVERS_PROBE_SHIFT 6u
+
 // Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u
 

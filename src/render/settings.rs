@@ -177,7 +177,7 @@ impl Settings {
         })
     }
 
-    /// How superpixels are found and sampled; of another method, what cells have whose samples are no superpixels.
+    /// Options of superpixels. For other methods, the options of their cells.
     pub(super) fn superpixels(&self) -> SuperpixelOptions {
         match &self.method {
             Method::Superpixel(options) => options.clone(),

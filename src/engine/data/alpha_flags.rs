@@ -1,6 +1,6 @@
 //! Flags of the alpha test.
 
-pub(crate) use crate::engine::passes::spirv::{
+pub(crate) use crate::engine::spirv::{
     ALPHA_NEAREST_MAG as NEAREST_MAG, ALPHA_NEAREST_MIN as NEAREST_MIN,
     ALPHA_NEAREST_MIP as NEAREST_MIP, ALPHA_NO_MIP as NO_MIP, ALPHA_TEXTURED as TEXTURED,
     WRAP_CLAMP_TO_EDGE as CLAMP_TO_EDGE, WRAP_MIRRORED_REPEAT as MIRRORED_REPEAT,

@@ -1,11 +1,11 @@
-//! Indices of counters and of indirect dispatches: the same numbers as in `shaders/include/interface.glsl`.
+//! Counters and indirect dispatches, which are generated from `shaders/include/interface.glsl`.
 
-pub(crate) use crate::engine::passes::spirv::STRETCH;
-pub use crate::engine::passes::spirv::{Argument, Counter};
+pub(crate) use crate::engine::spirv::STRETCH;
+pub use crate::engine::spirv::{Argument, Counter};
 
 impl Counter {
     /// Number of counters.
-    pub const COUNT: usize = size_of::<crate::engine::passes::spirv::Counters>() / 4;
+    pub const COUNT: usize = size_of::<crate::engine::spirv::Counters>() / 4;
     /// Number of bytes of the buffer of counters.
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
     /// Number of bytes of the counters that are cleared before each run.

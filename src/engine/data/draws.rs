@@ -5,7 +5,7 @@ use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// A draw, laid out as in `shaders/include/draws.glsl`.
-pub(crate) use crate::engine::passes::spirv::Draw as HostDraw;
+pub(crate) use crate::engine::spirv::Draw as HostDraw;
 
 impl HostDraw {
     /// Whether back faces are visible.

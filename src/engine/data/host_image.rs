@@ -1,7 +1,7 @@
 //! Colour image of a host as input of kernels.
 
-use crate::engine::passes::spirv::{self, take_set};
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::spirv::{self, take_set};
 use crate::vulkan::{DescriptorSets, Specialized, VulkanError, read_image};
 use ash::vk;
 use std::sync::Arc;

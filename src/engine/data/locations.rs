@@ -1,11 +1,8 @@
 //! Lists of sampling locations on the device; they are sampled instead of pixels.
 
-use super::{Resources, SampleSet};
-use crate::engine::passes::spirv::{LOAD_WORDS, distribute_set};
-use crate::engine::passes::{Distribute, ListLength, ListRegion};
-use crate::vulkan::{
-    BoundDescriptor, Buffer, Memory, MemoryUse, Recorder, TexelBuffer, Texels, VulkanError,
-};
+use super::Resources;
+use crate::engine::spirv::{LOAD_WORDS, distribute_set};
+use crate::vulkan::{BoundDescriptor, Buffer, Memory, MemoryUse, TexelBuffer, Texels, VulkanError};
 use ash::vk;
 
 /// Kind of a cell.
@@ -230,20 +227,6 @@ impl Resources {
             (distribute_set::LOCATIONS, locations.into()),
             (distribute_set::ORDER, order.texels().into()),
         ]
-    }
-
-    /// Records the sorting of a list into cells, after [`Self::record_begin`] has begun the region.
-    pub fn record_locations(
-        &self,
-        recorder: &Recorder<'_>,
-        (set, distribute): (&SampleSet, &Distribute),
-        region: &ListRegion,
-        length: ListLength<'_>,
-    ) {
-        recorder.clear(&self.locations.loads);
-        distribute.record(recorder, region, length);
-        self.record_reach(recorder, set);
-        set.show(recorder);
     }
 }
 

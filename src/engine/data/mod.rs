@@ -8,12 +8,13 @@ mod draws;
 mod host_image;
 mod locations;
 mod resources;
+pub(crate) mod tiles;
 mod triangle_word;
 pub(crate) mod upload;
 mod visibility;
 
 /// Uniform block `Frame` of `shaders/include/frame.glsl`, whose comments explain the fields.
-pub use crate::engine::passes::spirv::Frame as FrameUniform;
+pub use crate::engine::spirv::Frame as FrameUniform;
 pub use color_constants::ColorConstants;
 pub use content::Content;
 pub(crate) use counters::STRETCH;

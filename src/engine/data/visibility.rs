@@ -2,13 +2,13 @@
 
 use super::Resources;
 use super::draws::Draws;
-use crate::engine::passes::spirv::gpc_visibility_set;
+use crate::engine::spirv::gpc_visibility_set;
 use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Gpu, SetLayout, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Uniform block about a frame for hosts' shaders.
-pub(crate) use crate::engine::passes::spirv::GpcFrame as VisibilityUniform;
+pub(crate) use crate::engine::spirv::GpcFrame as VisibilityUniform;
 
 /// Makes the layout of the set; hosts use it in the layouts of their pipelines.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<Arc<SetLayout>, VulkanError> {

@@ -8,8 +8,8 @@ use crate::engine::data::alpha_flags::{
     TEXTURED, beyond,
 };
 use crate::engine::passes::alpha_map::{self, AlphaLevel};
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::{
     DescriptorSets, Memory, MemoryUse, Recorder, Specialized, TexelBuffer, VulkanError,
 };

@@ -10,23 +10,23 @@ use crate::vulkan::Recorder;
 use ash::vk;
 use std::sync::Arc;
 
-/// What fills triangle IDs, depth and colours of all pixels.
+/// Passes that fill triangle IDs, depth and colours of all pixels.
 pub(super) struct Base {
-    /// Of a host that has no IDs.
+    /// Draws IDs and depth; `None` if the host lends IDs.
     raster: Option<Raster>,
     colors: Colors,
 }
 
 enum Colors {
-    /// The host's image is read.
+    /// Reads the host's image.
     Drawn(Pass),
-    /// The host's shading makes them.
+    /// Has the host's pipelines shade all pixels.
     Shaded { centres: Centres, sort: Pass },
 }
 
 impl Base {
-    /// Makes the pipelines; `image` is there where the host has drawn colours, `filters` is there where it lends no IDs, and
-    /// says whether long runs of triangles are filtered before they are drawn; `output` are the colour constants.
+    /// Makes the pipelines. `image` is the host's colour image, if it has drawn one. `filters` is `None` if the host lends IDs, else
+    /// whether long runs of triangles are filtered before they are drawn. `output` has the colour constants.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -53,7 +53,8 @@ impl Base {
         })
     }
 
-    /// Records it, for draws that the set's uniform block is of; IDs and depth are drawn into `targets`, where the host lends none.
+    /// Records the passes for `placed`, whose uniform block the descriptor set shows. IDs and depth go to `targets` unless the host
+    /// lends them.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -82,7 +83,7 @@ impl Base {
     }
 }
 
-/// Those that are not blended. Neighbouring draws that are alike in whether their back faces show, and whether they are opaque, are drawn at once.
+/// Runs of the draws that are not blended. Neighbouring draws with the same culling and alpha test become one run.
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let push = RasterPush {
         matrix: *transform,

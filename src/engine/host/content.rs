@@ -3,7 +3,7 @@
 use super::Geometry;
 use super::alpha::Alpha;
 use crate::engine::data::Content;
-use crate::engine::passes::spirv::frame_set;
+use crate::engine::spirv::frame_set;
 use crate::vulkan::{
     BoundDescriptor, Buffer, Gpu, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError,
 };

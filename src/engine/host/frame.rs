@@ -22,7 +22,7 @@ use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
-/// What a recording shows.
+/// Draws, projection and viewport of a recording.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Scenery<'a> {
@@ -55,12 +55,13 @@ impl<'a> Scenery<'a> {
     }
 }
 
-/// What a recording did.
+/// Result of the last recording of a [`Frame`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
-    /// Figures.
+    /// Statistics of the recording.
     pub statistics: Statistics,
-    /// Superpixels and tiles that found no room. [`Frame::grow`] makes a frame with more.
+    /// Number of superpixels and tiles for which memory did not suffice. [`Frame::grow`] makes a frame with more.
     pub left_over: u64,
 }
 
@@ -269,26 +270,27 @@ impl Frame {
         })
     }
 
-    /// The options that it was prepared with.
+    /// Options with which the frame was prepared.
     #[must_use]
     pub fn options(&self) -> &Options {
         &self.options
     }
 
-    /// Bytes of device memory that it takes, beside what the host lends: its own, and those that it shares.
+    /// Number of bytes of device memory in use, without the host's buffers and images: the frame's own, and those that it shares.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.lending.bytes() + self.work.memory.used() + self.shared_memory_bytes()
     }
 
-    /// Bytes of these that other frames of the same antialiaser may use as well, and that count once for all of them.
+    /// Number of those bytes that the frames of the antialiaser share.
     #[must_use]
     pub fn shared_memory_bytes(&self) -> u64 {
         self.work.scratch.bytes()
     }
 
-    /// Goes on with images of another size, in pixels. Pipelines stay, and so does memory where it suffices: a frame that becomes
-    /// smaller keeps what it has. Where that is too small, the first frame that is resized makes more, and the others share it.
+    /// Changes the size of the images, in pixels. Pipelines are kept, and so is shared memory that suffices. Memory of the frame alone,
+    /// which is small, is made anew. If shared memory does not suffice, the first frame that is resized makes more, and the others
+    /// share it.
     ///
     /// # Errors
     /// As [`super::Antialiaser::prepare`]; the frame is then as it was.
@@ -308,8 +310,8 @@ impl Frame {
         Ok(())
     }
 
-    /// A frame like this one, for the same buffers and kinds of images, with more of what the last recording lacked: memory for lists.
-    /// Where it lacked nothing, it is made with as much; [`Options::max_rounds`] stays what it is.
+    /// Makes a frame for the same buffers and kinds of images, with more of the memory that the last recording lacked. If it lacked
+    /// none, the new frame has as much. [`Options::max_rounds`] stays as it is.
     ///
     /// # Errors
     /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
@@ -433,7 +435,7 @@ impl Frame {
         Ok(())
     }
 
-    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
+    /// Result of the last recording, available once its commands are done, until the next recording. This does not wait.
     ///
     /// # Errors
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
@@ -485,8 +487,8 @@ impl Frame {
     }
 }
 
-/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth, where clip space has so many
-/// pixels to its upper side.
+/// Change of depth between surfaces a pixel's width apart, as a factor on the depth and a constant. `half_height` is half the height
+/// of clip space, in pixels.
 fn gap(projection: &[[f32; 4]; 4], half_height: f32) -> [f32; 2] {
     let pixel = 1.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * half_height);
     // Depth is near / distance in perspective, up to a constant, and linear in distance without.

@@ -7,13 +7,13 @@ use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
 use super::{Draw, Geometry, HostError, ListOptions, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
-use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{SamplerSettings, Statistics, check_image_size};
+use crate::engine::spirv::frame_set;
 use crate::vulkan::{DescriptorSets, Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -52,6 +52,7 @@ pub struct Location {
 
 /// Result of the last recording of a [`List`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ListOutcome {
     /// Statistics of the recording.
     pub statistics: Statistics,

@@ -1,6 +1,6 @@
 //! Check that a host's shader was compiled with the includes of this library.
 
-use crate::engine::passes::spirv::GPC_SHADER_VERSION;
+use crate::engine::spirv::GPC_SHADER_VERSION;
 
 /// Reason for which the library rejects a shader.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -1,6 +1,6 @@
 //! Primitive topologies of draws.
 
-use crate::engine::passes::spirv;
+use crate::engine::spirv;
 
 /// Primitive topology of a draw: how consecutive corners (indices, or vertices without indices) form triangles.
 /// Primitive restart is not supported: a draw is a single strip or fan.

@@ -6,8 +6,8 @@ use super::viewport::ClipPlane;
 use super::{ClipSpace, Geometry, HostError};
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock};
 
-/// Number of loop iterations that CPU devices complete, with a margin; in each, a workgroup of `bin` processes 64 tiles
-/// of 32 pixels.
+/// Number of loop iterations that llvmpipe completes, with a margin: see MOST_TRIPS of `shaders/include/workarounds.glsl`. In each,
+/// a workgroup of `bin` processes 64 tiles of 32 pixels.
 const TRIPS: u64 = 60_000;
 
 /// Checks that an image does not have more tiles than devices can process.

@@ -1,8 +1,8 @@
 //! adopt: converts a host's triangles to the form that the other passes read.
 
-use super::spirv::{self, adopt_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, adopt_set};
 use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 

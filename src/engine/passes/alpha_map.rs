@@ -1,7 +1,7 @@
 //! alpha_map: converts a host's alpha maps to the form that the alpha test reads.
 
-use super::spirv::{self, alpha_map_set};
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, alpha_map_set};
 use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Specialized, VulkanError, read_image};
 use ash::vk;
 

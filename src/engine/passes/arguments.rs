@@ -1,7 +1,7 @@
 //! arguments: turns the counts of a pass into the sizes of the dispatches that follow.
 
-use super::spirv;
 use crate::engine::pipelines::{Dispatch, FrameLayout, Size};
+use crate::engine::spirv;
 use crate::vulkan::VulkanError;
 
 /// Pass whose counts are used.

@@ -1,9 +1,9 @@
 //! bin: makes pairs of triangles and the tiles that they touch.
 
 use super::arguments::{self, CountedBy};
-use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Lists the pairs, and counts the pairs of each tile: first for small triangles, then for large ones.

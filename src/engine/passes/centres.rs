@@ -1,9 +1,9 @@
 //! centres: turns the centres of pixels into visibility samples. It is no [`Pass`](crate::engine::pipelines::Pass), because
 //! its client sorts and shades a band of pixels between the two dispatches for it.
 
-use super::spirv;
 use crate::engine::data::{ColorConstants, Resources};
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::{Recorder, VulkanError};
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! composite: blends the layers that samples see.
 
-use super::spirv;
 use crate::engine::data::{Argument, ColorConstants};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Composites each list of layers in the visibility samples of the round. The resulting colour replaces that of the list's

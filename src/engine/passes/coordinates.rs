@@ -1,8 +1,8 @@
 //! coordinates: gathers texture coordinates of a host's vertices, one for each position in clip space.
 
-use super::spirv::{self, coordinates_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, coordinates_set};
 use crate::vulkan::{Buffer, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 

@@ -1,9 +1,9 @@
 //! cull: finds the triangles that can touch a superpixel.
 
 use super::arguments::{self, CountedBy};
-use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Filter for the triangles that are kept.

@@ -1,7 +1,7 @@
 //! detect: decides which pixels are superpixels.
 
-use super::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Rule that makes a pixel a superpixel.

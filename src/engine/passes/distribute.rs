@@ -1,10 +1,9 @@
 //! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells. It is no
 //! [`Pass`](crate::engine::pipelines::Pass), because the length and region of a list are known only when it is recorded.
 
-use super::spirv;
-use crate::engine::data::CellSizes;
-use crate::engine::data::{Argument, Cells, Resources};
+use crate::engine::data::{Argument, CellSizes, Cells, Resources, SampleSet};
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, Texels, VulkanError};
 
 /// Steps of the shader, in their order.
@@ -70,8 +69,14 @@ impl Distribute {
         })
     }
 
-    /// Records the pass. Its set takes the place of the frame's.
-    pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion, length: ListLength<'_>) {
+    /// Records the pass for a list that [`Resources::record_begin`] has begun the region of. Then the frame's `set` is shown.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        (resources, set): (&Resources, &SampleSet),
+        region: &ListRegion,
+        length: ListLength<'_>,
+    ) {
         let push = spirv::DistributePush {
             tiles: region.tiles,
             count: region.count,
@@ -79,6 +84,7 @@ impl Distribute {
             in_group: self.sizes.in_group,
             samples: self.sizes.samples,
         };
+        recorder.clear(&resources.locations.loads);
         recorder.show(&self.own);
         recorder.pass(spirv::Distribute::INTERFACE, || {
             for (step, kernel) in STEPS.into_iter().zip(&self.steps) {
@@ -95,5 +101,7 @@ impl Distribute {
                 kernel.record(recorder, &push, invocations);
             }
         });
+        resources.record_reach(recorder, set);
+        set.show(recorder);
     }
 }

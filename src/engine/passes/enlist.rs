@@ -1,8 +1,8 @@
 //! enlist: gives the tiles of a round their places in its memory, and enters them in the work lists.
 
-use super::spirv;
 use crate::engine::data::{Argument, Cells};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Allocates the lists of a round's tiles, and lists its work, over the stretches of the round. `load` are the push constants of

@@ -1,9 +1,11 @@
 //! filter: lists the triangles that may cover a pixel's centre, so that `raster` draws no others.
+//!
+//! It is no `Pass`: its runs of triangles are known only when a frame is recorded.
 
 use super::RasterRun;
-use super::spirv;
 use crate::engine::data::Content;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::{Recorder, Specialized, VulkanError};
 use ash::vk;
 

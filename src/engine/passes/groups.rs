@@ -1,9 +1,10 @@
 //! groups: lists the groups of cells of a round, for cells that are locations.
 
+use super::SampleBlocks;
 use super::arguments::{self, CountedBy};
-use super::{SampleBlocks, spirv};
 use crate::engine::data::Argument;
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Lists groups by the kernel that their samples need, and computes the sizes of the dispatches over them. `blocks` are

@@ -1,7 +1,7 @@
 //! grow: makes pixels superpixels if they contrast with a neighbouring superpixel.
 
-use super::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Replaces the resolved superpixels in the masks by the pixels that [`resolve`](super::resolve) marked, for the tiles of a

@@ -1,8 +1,8 @@
 //! patch: draws the colours of superpixels, or of all pixels, into a host's image. It is no
 //! [`Pass`](crate::engine::pipelines::Pass), which declares dispatches, because it draws.
 
-use super::spirv;
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::spirv;
 use crate::vulkan::{Compiled, GraphicsPipeline, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;

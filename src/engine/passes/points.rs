@@ -1,8 +1,8 @@
 //! points: writes colour and attributes of locations that are sampled once.
 
-use super::spirv;
 use crate::engine::data::{Argument, ColorConstants, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Writes a colour and, on request, two vectors of attributes for each location, as `shaders/points.comp` describes, for the

@@ -2,9 +2,9 @@
 //! [`Pass`](crate::engine::pipelines::Pass), which declares dispatches, because it draws.
 
 use super::filter::{self, Filter, FilteredDraws};
-use super::spirv::{self, frame_set};
 use crate::engine::data::{Content, IdViews};
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{
     Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError,
 };

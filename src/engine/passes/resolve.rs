@@ -1,8 +1,9 @@
 //! resolve: computes the colour of each superpixel.
 
-use super::{SampleBlocks, TileList, spirv};
+use super::{SampleBlocks, TileList};
 use crate::engine::data::{ColorConstants, HostImage};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 use std::sync::Arc;
 

@@ -1,9 +1,10 @@
 //! sample: finds the nearest triangle of every sample.
 
 use super::arguments::{self, CountedBy};
-use super::{sample_lines, sample_masks, scatter, spirv};
+use super::{sample_lines, sample_masks, scatter};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.

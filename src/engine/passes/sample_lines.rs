@@ -1,7 +1,8 @@
 //! sample_lines: finds the nearest triangle of samples that lie on straight lines, for many of them at once.
 
-use super::{SampleOptions, spirv};
+use super::SampleOptions;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::VulkanError;
 
 /// Makes the kernel, with the constants of the general kernel that it takes the place of. A header represents `header`

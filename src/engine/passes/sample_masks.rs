@@ -1,8 +1,9 @@
 //! sample_masks: finds the nearest triangle of the samples of a pixel, of which a set is a mask.
 
-use super::{SampleOptions, spirv};
+use super::SampleOptions;
 use crate::engine::data::Cells;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::vulkan::VulkanError;
 use ash::vk;
 

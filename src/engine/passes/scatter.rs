@@ -1,9 +1,10 @@
 //! scatter: finds the visible triangles of samples in tiles without a list of candidates.
 
+use super::SampleOptions;
 use super::arguments::{self, CountedBy};
-use super::{SampleOptions, spirv};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Tests the triangles of a tile one by one, so that their number is not limited, for the cells and the scene of `options`.

@@ -1,8 +1,9 @@
 //! schedule: chooses the tiles of a round.
 
-use super::{enlist, spirv};
+use super::enlist;
 use crate::engine::data::Cells;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Adds tiles to a round as long as they fit, and then lists them with [`enlist`]. `load` are the push constants of

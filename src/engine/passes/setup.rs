@@ -1,8 +1,8 @@
 //! setup: computes edge functions of triangles around the tiles that they touch.
 
-use super::spirv;
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Fills the lists of candidates that `enlist` has allocated, for all pairs.

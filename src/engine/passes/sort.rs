@@ -1,9 +1,9 @@
 //! sort: sorts visibility samples by material bin.
 
 use super::arguments::{self, CountedBy};
-use super::spirv::{self, frame_set};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Counting sort of a round's visibility samples. With a single bin, the pass only computes the sizes of dispatches over the

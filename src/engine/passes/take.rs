@@ -1,8 +1,8 @@
 //! take: reads a host's colour image, in which superpixels will be replaced.
 
-use super::spirv;
 use crate::engine::data::{ColorConstants, HostImage};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Reads the colours of a frame's pixels, and computes the codes that detection compares. `output` are the colour constants

@@ -1,8 +1,8 @@
 //! tally: adds up what the tiles of each stretch need, so that `schedule` takes stretches instead of tiles.
 
-use super::spirv;
 use crate::engine::data::{Argument, Cells};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Adds up the needs of the tiles of each stretch, over all stretches. `load` are the push constants of

@@ -1,9 +1,9 @@
 //! thin: finds pixels that a thin triangle crosses without covering the centre.
 
 use super::arguments::{self, CountedBy};
-use super::spirv::{self, frame_set};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Marks pixels that `detect` turns into superpixels, for the triangle slots of a scene. `blend_ids` says whether BLEND

@@ -1,8 +1,8 @@
 //! transform: computes positions of a host's vertices in clip space.
 
-use super::spirv::{self, transform_set};
 use crate::engine::data::Draws;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, transform_set};
 use crate::vulkan::{Buffer, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 

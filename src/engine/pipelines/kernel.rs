@@ -1,7 +1,7 @@
 //! Kernels, and dispatches of them.
 
-use crate::engine::data::Argument;
-use crate::engine::passes::spirv::frame_set;
+use crate::engine::spirv::Argument;
+use crate::engine::spirv::frame_set;
 use crate::vulkan::{Buffer, DescriptorSets, Pipeline, Recorder, Specialized};
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -19,8 +19,8 @@ pub(crate) enum Size {
     Indirect(u32),
     /// One workgroup.
     One,
-    /// As many workgroups as have an invocation for each item. The caller who records the pass names the number of items; an
-    /// invocation processes as many as stands here.
+    /// Workgroups for a number of items that the caller names when it records the pass. The value is the number of items that an
+    /// invocation processes.
     Items(u32),
 }
 

@@ -2,7 +2,7 @@
 
 use super::Kernel;
 use super::cache::Pipelines;
-use crate::engine::passes::spirv::INTERFACES;
+use crate::engine::spirv::INTERFACES;
 use crate::vulkan::{
     BoundDescriptor, Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline,
     SetLayout, SharedLayout, Specialized, VulkanError, compute_pipeline,
@@ -61,7 +61,7 @@ impl FrameLayout {
         DescriptorSets::new(&self.gpu, true, &self.of_frame, count)
     }
 
-    /// Makes `count` times the sets that the passes of these shaders have besides those of the frame.
+    /// Makes `count` copies of the sets that the passes of these shaders have besides those of the frame.
     ///
     /// # Errors
     /// If the driver refuses them.
@@ -160,7 +160,7 @@ impl FrameLayout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::passes::spirv::gpc_visibility_set;
+    use crate::engine::spirv::gpc_visibility_set;
     use crate::vulkan::{Binding, Requirements};
     use ash::vk::DescriptorType as T;
 

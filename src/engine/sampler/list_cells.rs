@@ -1,6 +1,7 @@
 //! Cells that are locations of a list.
 
 use super::{Sampler, SamplerContext, Source, averaging, with_probes};
+use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{Distribute, points};
@@ -56,7 +57,7 @@ impl ListCells {
         capacity: Capacity,
     ) -> ResourceSizes {
         let limits = layout.gpu.limits();
-        let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
+        let tiles = tile_count(region);
         let most = u64::from(locations);
         let records = match self.cells {
             Cells::Points | Cells::Occluders if scene.has_blend() => {

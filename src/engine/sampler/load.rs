@@ -1,7 +1,8 @@
 //! Load of a round: what tiles need of its memory, and how many rounds suffice for all tiles.
 
 use crate::engine::data::ResourceSizes;
-use crate::engine::passes::{RecordRate, SampleBlocks, spirv};
+use crate::engine::passes::{RecordRate, SampleBlocks};
+use crate::engine::spirv;
 use crate::vulkan::Limits;
 
 /// Needs of tiles whose cells are sampled in these blocks.

@@ -265,7 +265,7 @@ impl Sampler {
                     tiles: uniform.tiles,
                     count,
                 };
-                resources.record_locations(recorder, (set, distribute), &region, length);
+                distribute.record(recorder, (resources, set), &region, length);
             }
         }
         let growths = self.source.growths();

@@ -14,7 +14,7 @@ pub(crate) struct PixelCells {
     pub mode: DetectMode,
     /// Whether pixels that a thin triangle crosses without covering a centre become cells too.
     pub thin: bool,
-    /// Whether these are also pixels in which such a triangle lies at an angle to the surface that the centre sees.
+    /// Whether pixels in which such a triangle stands at an angle to the surface at the centre become cells too.
     pub folds: bool,
     /// Factor and offset that convert values of the depth image to reversed depth, in which larger values are nearer.
     pub depth_of_image: [f32; 2],

@@ -2,8 +2,9 @@
 
 use super::capacity::Capacity;
 use super::{CellOptions, EngineError, ImageRequest, Method, RoundPolicy, Shading};
+use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{Content, ResourceSizes};
-use crate::engine::passes::spirv::FILTER_TRIANGLES;
+use crate::engine::spirv::FILTER_TRIANGLES;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 use ash::vk;
@@ -257,7 +258,7 @@ impl Plan {
             regions.retain_mut(|region| region.keep(wanted.corner, end));
         }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
-        let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
+        let tiles = tile_count(outer);
         let samples = u64::from(image.method.samples());
         let policy = RoundPolicy::of(limits);
         let records = match image.method {

@@ -2,6 +2,7 @@
 
 use super::SamplerSettings;
 use super::footprint::Footprints;
+use crate::engine::data::tiles::tiles;
 use crate::engine::data::{FrameUniform, ResourceSizes};
 
 /// Part of the uniform block about the scene: triangles, materials and viewpoint. Clients whose passes don't read it
@@ -94,7 +95,7 @@ pub(crate) fn frame_uniform(
         raster_offset: [0, 1].map(|axis| (-plane.corner[axis] * to_device[axis] - 1.0) as f32),
         origin: plane.corner.map(|side| (side + 0.5) as f32),
         size: plane.size,
-        tiles: [width.div_ceil(8), height.div_ceil(4)],
+        tiles: tiles([width, height]),
         interior_low: plane.interior[0],
         interior_high: plane.interior[1],
         gap: plane.gap,

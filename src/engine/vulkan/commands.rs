@@ -15,7 +15,7 @@ const SETS: usize = 3;
 
 /// Recorder of a frame's commands into a caller's command buffer.
 ///
-/// It binds the descriptor sets of a pipeline, of those that show the data that the caller named.
+/// It binds each pipeline's descriptor sets, chosen from the data that was selected last.
 ///
 /// It records a barrier before a command that depends on an earlier one: the interface of a dispatch's shader says which bindings it
 /// reads and writes, and the sets say which buffers these are. Copies and fills name their buffers. Before and after commands of
@@ -34,7 +34,7 @@ pub struct Recorder<'a> {
     is_timed: Cell<bool>,
     /// Whether a named section is being recorded.
     in_section: Cell<bool>,
-    /// Whether what is recorded repeats what was recorded before.
+    /// Whether the present commands repeat those of an earlier round.
     repeats: Cell<bool>,
     /// Whether commands are traced.
     traces: bool,
@@ -224,8 +224,7 @@ impl<'a> Recorder<'a> {
         self.barriers.borrow_mut().all_ordered();
     }
 
-    /// Has pipelines read and write what these sets show, from now on: instead of the frame whose sets were named before, or of what
-    /// a pass's own sets have shown.
+    /// Selects the data that pipelines read and write from now on. The sets replace the frame's sets, or the pass's own sets.
     pub(crate) fn show(&self, sets: &DescriptorSets) {
         let slot = usize::from(!sets.are_of_frame());
         self.shown.borrow_mut()[slot] = Some(sets.shown().clone());

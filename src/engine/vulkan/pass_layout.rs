@@ -50,7 +50,7 @@ impl Drop for SetLayout {
     }
 }
 
-/// What the layouts of several passes begin with, so that it stays bound and pushed between them.
+/// Set 0 and push constants that several passes have in common, so that they stay bound and pushed between them.
 pub(crate) struct SharedLayout {
     /// Layout of set 0.
     pub set: Arc<SetLayout>,

@@ -1,5 +1,6 @@
 //! Contents of an output's cells, uploaded by the host for `detect`.
 
+use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{IdViews, Resources};
 use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -153,7 +154,7 @@ impl OutputCells {
             let shadows = &resources.shadow_words.buffer;
             self.record_copy(recorder, OutputPlane::Shadows, shadows, bytes);
         }
-        let tiles = u64::from(self.size[0].div_ceil(8) * rows.div_ceil(4));
+        let tiles = tile_count([self.size[0], rows]);
         recorder.clear(&resources.marks);
         self.record_copy(recorder, OutputPlane::Marks, &resources.marks, 4 * tiles);
     }

@@ -2,7 +2,7 @@
 //! shaders' includes.
 
 use super::{FrameGeometry, FrameLook};
-use crate::engine::passes::spirv::{self, frame_set};
+use crate::engine::spirv::{self, frame_set};
 use crate::render::{Headless, HeadlessOptions, SceneRequest};
 use crate::scene::{
     AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Draw, DrawClass, Filter, Geometry,

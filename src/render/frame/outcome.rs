@@ -1,8 +1,9 @@
 //! Counters of a frame, read once its commands have run.
 
 use super::Frame;
-use crate::engine::passes::spirv;
+use crate::engine::data::tiles::tiles;
 use crate::engine::sampler::Shortfall;
+use crate::engine::spirv;
 use crate::render::{RenderError, Statistics};
 use crate::vulkan::Specialized;
 
@@ -28,8 +29,8 @@ impl Frame {
     fn tiles(&self) -> impl Iterator<Item = u32> {
         let side = self.settings.method.side();
         self.plan.regions.iter().map(move |region| {
-            let [width, height] = region.outer().map(|pixels| pixels * side);
-            width.div_ceil(8) * height.div_ceil(4)
+            let [columns, rows] = tiles(region.outer().map(|pixels| pixels * side));
+            columns * rows
         })
     }
 

@@ -106,7 +106,7 @@ impl CrossingFinder {
         let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, _| {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
-            resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
+            distribute.record(recorder, (resources, set), &region, ListLength::Known);
             cull.record(recorder);
             bin.record(recorder);
             crossings.record(recorder);

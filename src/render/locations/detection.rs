@@ -8,6 +8,7 @@ use super::partition::Partition;
 use super::plan::LocationPlan;
 use super::{ListSettings, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
+use crate::engine::data::tiles::{mask_bit, tiles};
 use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::grow;
@@ -124,7 +125,8 @@ impl Headless {
             let (x, row) = (cell % width, cell / width);
             band.seen.contains(&row) && !image.is_superpixel(cell) && {
                 let y = row - band.seen.start;
-                masks[(y / 4 * columns + x / 8) as usize] >> (y % 4 * 8 + x % 8) & 1 != 0
+                let (tile, bit) = mask_bit([x, y], columns);
+                masks[tile] & bit != 0
             }
         };
         let chosen = chosen(rig, is_found);
@@ -229,7 +231,7 @@ impl Band {
     }
 
     fn tiles(&self, width: u32) -> [u32; 2] {
-        [width.div_ceil(8), self.height().div_ceil(4)]
+        tiles([width, self.height()])
     }
 
     /// Locations whose cells may become superpixels in this band.
@@ -363,16 +365,16 @@ impl BandDetector {
                 words.copy_from_slice(values);
             }
         }
-        let columns = width.div_ceil(8);
+        let [columns, _] = tiles([width, 0]);
         let marks = self.cells.words_mut(OutputPlane::Marks);
         marks.fill(0);
         for (cell, _) in (0_u32..)
             .zip(shadowed.get(range).unwrap_or(&[]))
             .filter(|(_, shadowed)| **shadowed)
         {
-            let (x, y) = (cell % width, cell / width);
-            if let Some(word) = marks.get_mut((y / 4 * columns + x / 8) as usize) {
-                *word |= 1 << (y % 4 * 8 + x % 8);
+            let (tile, bit) = mask_bit([cell % width, cell / width], columns);
+            if let Some(word) = marks.get_mut(tile) {
+                *word |= bit;
             }
         }
     }

@@ -1,8 +1,8 @@
 //! attributes: writes depth, ID, normal and number of samples of every pixel, on request.
 
 use crate::engine::data::Content;
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Writes two vectors for each pixel of a region: see `shaders/attributes.comp`. `superpixels` says whether there are

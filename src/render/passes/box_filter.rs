@@ -1,7 +1,7 @@
 //! box_filter: averages k x k supersampled pixels.
 
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Averages squares of `side` x `side` pixels, for each pixel of the filtered region.

@@ -2,8 +2,8 @@
 
 use crate::engine::data::{Argument, Content, Resources};
 use crate::engine::passes::arguments::{self, CountedBy};
-use crate::engine::passes::spirv::{self, crossings_set};
 use crate::engine::pipelines::{FrameLayout, Pass};
+use crate::engine::spirv::{self, crossings_set};
 use crate::vulkan::{Buffer, Specialized, VulkanError};
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub struct SeenLocation {
 
 /// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel`
 /// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
-pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
+pub use crate::engine::spirv::CrossingsPush as MarkedOutput;
 
 /// Marks crossed cells for `detect`, which makes them superpixels, after `bin` for lists of locations in a scene. `seen` has a
 /// [`SeenLocation`] for each location; cells of `output` are marked in `marks`, two words for each of its tiles.

@@ -1,7 +1,7 @@
 //! encode: converts colours to the format of a host's image.
 
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 use ash::vk;
 

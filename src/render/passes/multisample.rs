@@ -1,7 +1,7 @@
 //! multisample: turns the device's multisampling into visibility samples.
 
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Turns multisampled triangle IDs into visibility samples, for the pixels of a region's tiles.

@@ -1,8 +1,8 @@
 //! neighbours: finds cells of an output that contrast with a superpixel beside them.
 
 use crate::engine::data::ColorConstants;
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Marks cells for `grow` in an output whose superpixels are sampled as a list of locations, for all cells of the output.

@@ -1,8 +1,8 @@
 //! pose: computes vertices that move, at a moment. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
 //! depend on the moment.
 
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Moment;
 use crate::vulkan::{Recorder, Specialized, VulkanError};

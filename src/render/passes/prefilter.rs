@@ -7,8 +7,8 @@
 //!
 //! It is no [`Pass`](crate::engine::pipelines::Pass), because each of its dispatches has another number of texels.
 
-use crate::engine::passes::spirv::{self, prefilter_set};
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, prefilter_set};
 use crate::vulkan::{Buffer, DescriptorSets, Memory, Recorder, Specialized, VulkanError};
 use ash::vk;
 use glam::DVec3;

@@ -2,19 +2,19 @@
 //! [`Pass`](crate::engine::pipelines::Pass), because the planes of lights depend on the camera.
 
 use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
-use crate::engine::passes::spirv::{self, receivers_set};
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv::{self, receivers_set};
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
 
 /// Plane of a light, as the pass takes it; `shaders/receivers.comp` describes the fields.
-pub use crate::engine::passes::spirv::ReceiversPush as LightPlane;
+pub use crate::engine::spirv::ReceiversPush as LightPlane;
 
 impl LightPlane {
     /// Face of a plane that does not belong to a cube.
     pub const SINGLE: u32 = spirv::SINGLE_PLANE;
     /// Flag in `step`: the pass initialises the shadow words.
-    pub const BEGINS: u32 = 32;
+    pub const BEGINS: u32 = spirv::RECEIVERS_BEGINS;
     /// Further places in a pixel that are probed, relative to its centre. `shaders/receivers.comp` explains the
     /// choice.
     pub const PROBES: [[f64; 2]; 3] = [
@@ -25,10 +25,10 @@ impl LightPlane {
 
     /// Copies of this plane, one for each probe.
     pub fn of_probes(self) -> impl Iterator<Item = Self> {
-        let light = self.step & (Self::BEGINS - 1);
+        let light = self.step & spirv::RECEIVERS_LIGHT;
         let numbers = 1..=Self::PROBES.len() as u32;
         numbers.map(move |number| Self {
-            step: light | number << 6,
+            step: light | number << spirv::RECEIVERS_PROBE_SHIFT,
             ..self
         })
     }

@@ -1,8 +1,8 @@
 //! shade: computes the radiance of visible places, with one dispatch for each material bin.
 
 use crate::engine::data::{Argument, Cells, ColorConstants, Content};
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv;
 use crate::render::data::GpuScene;
 use crate::render::data::MaterialBin;
 use crate::vulkan::{Specialized, VulkanError};

@@ -3,8 +3,8 @@
 
 use crate::engine::data::{Argument, Resources};
 use crate::engine::passes::arguments::{self, CountedBy};
-use crate::engine::passes::spirv::{self, shadow_set};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
+use crate::engine::spirv::{self, shadow_set};
 use crate::vulkan::{
     Buffer, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
 };

@@ -2,8 +2,8 @@
 
 use crate::engine::data::Content;
 use crate::engine::passes::arguments::{self, CountedBy};
-use crate::engine::passes::spirv::{self, frame_set};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
+use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Number of invocations of a workgroup, which may contain several subgroups.

@@ -1,8 +1,8 @@
 //! stroke: computes points and lines for a camera. It is no [`Pass`](crate::engine::pipelines::Pass), because its push constants
 //! depend on the camera.
 
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::{FrameLayout, Kernel};
+use crate::engine::spirv;
 use crate::render::SceneSettings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Edge;

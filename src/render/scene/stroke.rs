@@ -1,6 +1,6 @@
 //! Points and lines. Their size is in pixels, so that they have another shape for each camera.
 
-use crate::engine::passes::spirv;
+use crate::engine::spirv;
 
 /// Vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of
 /// a line. The other vertices that it refers to are positions in space.

@@ -3,13 +3,13 @@
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
 use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Resources, SampleSet};
-use crate::engine::passes::spirv::frame_set;
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
     Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
     Shortfall,
 };
+use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{

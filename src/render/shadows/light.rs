@@ -10,6 +10,7 @@
 
 use super::casters::Lit;
 use crate::camera::{Pinhole, Rig};
+use crate::engine::data::tiles::tiles;
 use crate::render::passes::LightPlane;
 use crate::render::plane::{PlaneWindow, TILE};
 use crate::scene::{Light, LightKind};
@@ -128,7 +129,7 @@ fn around(places: impl Iterator<Item = DVec2>) -> Rectangle {
 fn whole_window(side: u32) -> PlaneWindow {
     PlaneWindow {
         low: [0; 2],
-        tiles: [side / 8, side / 4],
+        tiles: tiles([side; 2]),
         middle: [0.5 * f64::from(side); 2],
     }
 }

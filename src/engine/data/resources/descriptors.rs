@@ -1,7 +1,7 @@
 //! Buffers and images of a frame's descriptor sets.
 
 use super::{Resources, SampleSet};
-use crate::engine::passes::spirv::frame_set;
+use crate::engine::spirv::frame_set;
 use crate::vulkan::{BoundDescriptor, Descriptor, read_image};
 use ash::vk;
 

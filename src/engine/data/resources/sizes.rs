@@ -1,7 +1,8 @@
 //! Sizes of a frame's memory.
 
+use crate::engine::data::tiles::tiles;
 use crate::engine::data::{LocationSizes, STRETCH};
-use crate::engine::passes::spirv::{FILTER_TRIANGLES, TILE_LISTS};
+use crate::engine::spirv::{FILTER_TRIANGLES, TILE_LISTS};
 use crate::vulkan::{Limits, VulkanError};
 use ash::vk;
 
@@ -190,7 +191,8 @@ impl ResourceSizes {
     /// Number of tiles of 8 x 4 pixels of a region.
     #[must_use]
     pub fn tiles(&self) -> u32 {
-        self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
+        let [columns, rows] = tiles(self.region);
+        columns * rows
     }
 
     /// Number of bytes of the buffer of tiles: a vector for each tile, and two for each stretch of tiles.

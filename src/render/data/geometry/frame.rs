@@ -2,7 +2,7 @@
 
 use super::{MovingVertices, PlacedInstances, double_sided};
 use crate::engine::passes::RasterRun;
-use crate::engine::passes::spirv::frame_set;
+use crate::engine::spirv::frame_set;
 use crate::render::data::GpuScene;
 use crate::scene::{DrawClass, Moment};
 use crate::vulkan::{BoundDescriptor, Memory, Recorder, VulkanError};

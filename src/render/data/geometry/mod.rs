@@ -16,7 +16,7 @@ pub(in crate::render) use moving::{GpuMotion, GpuStrokes, MovingVertices};
 pub(in crate::render) use placed::PlacedInstances;
 
 use crate::engine::data::upload::Uploader;
-use crate::engine::passes::spirv;
+use crate::engine::spirv;
 use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
 use crate::vulkan::{TexelBuffer, VulkanError};
 use ash::vk;

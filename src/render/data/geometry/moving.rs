@@ -3,7 +3,7 @@
 
 use super::GpuGeometry;
 use crate::engine::data::upload::Uploader;
-use crate::engine::passes::spirv;
+use crate::engine::spirv;
 use crate::scene::{Edge, Moment, Motion, MotionPart, Stroke};
 use crate::vulkan::{Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;

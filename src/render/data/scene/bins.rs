@@ -2,8 +2,8 @@
 
 use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
-use crate::engine::passes::spirv;
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::spirv;
 use crate::scene::{Geometry, Material, Scene, TextureRole};
 use crate::vulkan::{DescriptorSets, Specialized, VulkanError};
 use std::collections::HashMap;

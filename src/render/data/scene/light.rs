@@ -4,7 +4,7 @@ use crate::scene::{Light, LightKind};
 use glam::DVec3;
 
 /// `Light` of `shaders/include/frame.glsl`.
-pub(super) use crate::engine::passes::spirv::Light as GpuLight;
+pub(super) use crate::engine::spirv::Light as GpuLight;
 
 impl GpuLight {
     pub(super) fn of_scene(light: &Light, origin: DVec3) -> Self {

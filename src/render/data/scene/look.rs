@@ -3,7 +3,7 @@
 use super::light::GpuLight;
 use super::material::MaterialRow;
 use super::{GpuScene, Slots};
-use crate::engine::passes::spirv::frame_set;
+use crate::engine::spirv::frame_set;
 use crate::scene::{Moment, Motion};
 use crate::vulkan::{
     BoundDescriptor, Buffer, Descriptor, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError,

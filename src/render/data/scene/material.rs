@@ -1,7 +1,7 @@
 //! Materials in the form that shaders read: see `shaders/include/material.glsl`.
 
 use super::slots::Slots;
-use crate::engine::passes::spirv;
+use crate::engine::spirv;
 use crate::scene::{AlphaMode, Lobes, Material, TextureRole, TextureUse};
 
 /// Number of vectors of a material before those for texture coordinates.

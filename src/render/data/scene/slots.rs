@@ -1,6 +1,6 @@
 //! Texture slots of a material: textures that are read in the same way share a slot, and are read once.
 
-use crate::engine::passes::spirv::shade_set;
+use crate::engine::spirv::shade_set;
 use crate::scene::{Material, Scene, TextureRole, TextureUse};
 use crate::vulkan::VulkanError;
 

@@ -1,7 +1,7 @@
 //! Images and samplers of a scene, each created once.
 
 use super::texture::{DeviceSampler, GpuTexture};
-use crate::engine::passes::spirv::shade_set;
+use crate::engine::spirv::shade_set;
 use crate::scene::{Filter, Image as SceneImage, Sampler, Scene};
 use crate::vulkan::{Buffer, DescriptorSets, Memory, VulkanError, read_image};
 use ash::vk;

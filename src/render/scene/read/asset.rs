@@ -3,7 +3,7 @@
 use gltf::json::{Asset, Root};
 use serde_json::Value;
 
-use super::{container::CONVERT_OLD, model};
+use super::{basis, container::CONVERT_OLD, draco, model};
 use crate::scene::{
     SceneError,
     error::{Fault, Warnings},
@@ -17,7 +17,7 @@ const SUPPORTED: [(&str, bool); 25] = [
     ("EXT_texture_webp", true),
     // A pointer to something that can't be animated gets its own warning.
     ("KHR_animation_pointer", true),
-    ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
+    ("KHR_draco_mesh_compression", draco::AVAILABLE),
     ("KHR_lights_punctual", true),
     ("KHR_materials_anisotropy", true),
     ("KHR_materials_clearcoat", true),
@@ -35,7 +35,7 @@ const SUPPORTED: [(&str, bool); 25] = [
     ("KHR_mesh_quantization", true),
     ("KHR_meshopt_compression", true),
     ("KHR_node_visibility", true),
-    ("KHR_texture_basisu", cfg!(feature = "basisu")),
+    ("KHR_texture_basisu", basis::AVAILABLE),
     ("KHR_texture_transform", true),
 ];
 

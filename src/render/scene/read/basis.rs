@@ -7,6 +7,9 @@ use basisu::{
     ktx2::{BasisFormat, Ktx2Header},
 };
 
+/// Whether the extension is supported.
+pub const AVAILABLE: bool = true;
+
 /// Width and height from the header; an error if the extension does not allow them.
 pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
     let header = Ktx2Header::parse(bytes).ok_or(

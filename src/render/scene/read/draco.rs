@@ -17,6 +17,9 @@ use super::{
 };
 use crate::scene::error::Fault;
 
+/// Whether the extension is supported.
+pub const AVAILABLE: bool = true;
+
 /// The extension's name.
 pub const NAME: &str = "KHR_draco_mesh_compression";
 

@@ -1,5 +1,8 @@
 //! KTX2 images where the feature `basisu` is off: they are refused.
 
+/// Whether the extension is supported.
+pub const AVAILABLE: bool = false;
+
 const REFUSED: &str =
     "is a KTX2 image, for which the feature `basisu` is needed; convert it to PNG, JPEG or WebP";
 
