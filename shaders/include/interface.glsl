@@ -1,6 +1,6 @@
 // Numbers that the host and the shaders share: bindings, specialisation constants, counters, indirect dispatches. They are
 // defined here alone, except those of `gpc_visibility.glsl`, which is for the shaders of hosts. `make shaders` copies them by
-// name into `src/engine/passes/spirv.rs`, with the interfaces that it finds in the compiled shaders. A name that begins with the
+// name into `src/engine/spirv.rs`, with the interfaces that it finds in the compiled shaders. A name that begins with the
 // name of a shader belongs to this shader alone.
 #ifndef INTERFACE_GLSL
 #define INTERFACE_GLSL

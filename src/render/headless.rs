@@ -12,11 +12,28 @@ use std::sync::Arc;
 
 /// Options for opening a device.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct HeadlessOptions {
-    /// Part of the device's name; `None` for the best device.
+    /// Part of the device's name; `None`, the default, for the best device.
     pub device: Option<String>,
-    /// Whether to run under the validation layer.
+    /// Whether to run under the validation layer; by default not.
     pub validation: bool,
+}
+
+impl HeadlessOptions {
+    /// Sets the part of the device's name; `None` chooses the best device.
+    #[must_use]
+    pub fn device(mut self, name: Option<String>) -> Self {
+        self.device = name;
+        self
+    }
+
+    /// Sets whether to run under the validation layer.
+    #[must_use]
+    pub fn validation(mut self, validation: bool) -> Self {
+        self.validation = validation;
+        self
+    }
 }
 
 /// A rendered image and its statistics.

@@ -13,10 +13,7 @@ use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
 /// Runs a test on a device with lower limits; fails if the validation layer reports a message.
 pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
-    let options = HeadlessOptions {
-        validation: true,
-        ..HeadlessOptions::default()
-    };
+    let options = HeadlessOptions::default().validation(true);
     // SAFETY: tests only lower limits.
     let mut gpu = unsafe { Headless::within(&options, lower) }.unwrap();
     test(&mut gpu);

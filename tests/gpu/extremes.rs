@@ -152,10 +152,7 @@ fn attributes_are_those_of_the_surface() {
 /// A device is created, used and destroyed without a message of the validation layer.
 #[test]
 fn a_whole_life_is_valid() {
-    let options = HeadlessOptions {
-        device: None,
-        validation: true,
-    };
+    let options = HeadlessOptions::default().validation(true);
     let mut gpu = Headless::new(&options).unwrap();
     let instance = gpu.gpu().instance().unwrap().clone();
     let (scene, pose) = crate::scenes::ball_over_checker().build();

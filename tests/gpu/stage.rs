@@ -40,10 +40,7 @@ fn idle() -> MutexGuard<'static, Vec<Headless>> {
 pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     let known = idle().pop();
     let mut gpu = known.unwrap_or_else(|| {
-        let options = HeadlessOptions {
-            device: None,
-            validation: true,
-        };
+        let options = HeadlessOptions::default().validation(true);
         // Most of the time goes to making pipelines, and many tests use the same ones.
         let keep = |limits: &mut Limits| limits.max_unused_pipelines = 256;
         // SAFETY: keeping more pipelines only takes more memory.

@@ -12,10 +12,7 @@ use crate::stage::camera;
 const SIZE: [u32; 2] = [96, 64];
 
 fn headless() -> Headless {
-    let options = HeadlessOptions {
-        device: None,
-        validation: true,
-    };
+    let options = HeadlessOptions::default().validation(true);
     Headless::new(&options).unwrap()
 }
 

@@ -12,11 +12,7 @@ const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/fence.glb");
 
 /// sRGB codes of a headless render with the example's settings, under the validation layer.
 fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
-    let mut headless = Headless::new(&HeadlessOptions {
-        validation: true,
-        ..HeadlessOptions::default()
-    })
-    .unwrap();
+    let mut headless = Headless::new(&HeadlessOptions::default().validation(true)).unwrap();
     let scene = Scene::load(Path::new(SCENE)).unwrap().scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();
     let camera = Camera::from_scene(pose.cameras.first().unwrap());

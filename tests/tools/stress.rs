@@ -10,11 +10,7 @@ use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings};
 use gpc::scene::{PoseRequest, Scene};
 
 fn headless() -> Headless {
-    Headless::new(&HeadlessOptions {
-        device: None,
-        validation: true,
-    })
-    .unwrap()
+    Headless::new(&HeadlessOptions::default().validation(true)).unwrap()
 }
 
 /// Runs a check of the suite, which must have findings, all of them within their bounds.

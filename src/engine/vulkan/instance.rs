@@ -11,6 +11,7 @@ const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// Options for creating an [`Instance`].
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct InstanceOptions {
     /// Whether to run under the validation layer with synchronisation validation, and collect its messages.
     pub validation: bool,

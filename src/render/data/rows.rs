@@ -416,10 +416,7 @@ fn shaders_read_the_fields_that_the_host_wrote() {
     let rows = DMat4::from(placed()).transpose().as_mat4().to_cols_array();
     instanced.floats("rows of the instance", &rows[..12]);
 
-    let options = HeadlessOptions {
-        device: None,
-        validation: true,
-    };
+    let options = HeadlessOptions::default().validation(true);
     let mut headless = Headless::new(&options).unwrap();
     for (fields, is_instanced) in [(direct.0, false), (instanced.0, true)] {
         let read = read_by_shader(&mut headless, &scene, &pose, is_instanced);

@@ -24,6 +24,7 @@ pub struct Comparison {
 
 /// Error: a pair of images that can't be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// Images of different sizes.
     #[error("the images differ in size: {} x {} and {} x {} pixels", .first[0], .first[1], .second[0], .second[1])]

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 /// Kind of an AOV.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AovKind {
     /// Distance from the eye along the direction of view, in the scene's unit.
     Depth,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 /// Error of encoding, writing, reading or decoding an image file or film.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutputError {
     /// Number of pixels that contradicts the size.
     #[error("an image of {width} x {height} was given {found} pixels")]

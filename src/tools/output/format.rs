@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// Format of a written image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// PNG, 8 bits a channel.
     Png8,

@@ -9,6 +9,7 @@ use y4m::{Colorspace, Ratio, VendorExtensionString};
 
 /// Format of a film's frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum VideoFormat {
     /// YUV4MPEG2: a header line with size and rate, then for each frame the planes Y', Cb and Cr, 8 bits each, 4:4:4.
     /// The codes are those of BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), of sRGB-encoded

@@ -27,6 +27,7 @@ pub struct Zoomed {
 
 /// Error: a file that is not a zoomed image.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ZoomedError {
     /// File that is not an image.
     #[error(transparent)]

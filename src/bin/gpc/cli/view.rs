@@ -93,10 +93,9 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
         appearance_options,
         look,
         shows_environment: background == Background::Environment,
-        device: HeadlessOptions {
-            device: args.device.name,
-            validation,
-        },
+        device: HeadlessOptions::default()
+            .device(args.device.name)
+            .validation(validation),
         describe: exit::message,
     })?;
     Ok(ExitCode::SUCCESS)

@@ -59,10 +59,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let moved = args.motion.len();
     let parts = args.scenes.len() + moved + timed + chosen + curves + checks;
     let mut bench = Bench {
-        headless: Headless::new(&HeadlessOptions {
-            device: args.device.clone(),
-            validation: false,
-        })?,
+        headless: Headless::new(&HeadlessOptions::default().device(args.device.clone()))?,
         cache: Cache::new(&cache),
         args,
         progress: Progress::new(parts),

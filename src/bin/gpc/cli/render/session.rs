@@ -31,7 +31,11 @@ pub struct RenderedImage {
 /// Opens the best device, or one by part of its name. `GPC_VALIDATION` turns the validation layer on.
 fn open(device: Option<String>) -> Result<Headless, VulkanError> {
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
-    Headless::new(&HeadlessOptions { device, validation })
+    Headless::new(
+        &HeadlessOptions::default()
+            .device(device)
+            .validation(validation),
+    )
 }
 
 /// Opens a device as [`open`] does, while `load` runs in parallel. If both fail, the error is that of `load`.
