@@ -50,8 +50,7 @@ layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
     uvec2 color_corner;     // texel of a host's image of colours that is this pixel
 } frame;
 
-// On CPU devices texel buffers are faster to read, and storage buffers faster to write. Data that one pass writes and another
-// reads is therefore bound as both; the binding for writers ends in `_out`.
+// Data that one pass writes and another reads is bound twice: BOUND_TWICE of workarounds.glsl.
 layout(set = SET_DATA, binding = BINDING_POSITIONS) uniform textureBuffer positions;
 layout(set = SET_DATA, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
 layout(set = SET_DATA, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: length in the world / in the mesh

@@ -7,8 +7,7 @@
 
 // Descriptor sets. Set 0 has the uniform blocks of all passes of a frame. Set 1 has other data of a frame: each shader has a set
 // of what it uses. Set 2 has the textures of a material, or is a set of the shader's own beside the frame's. Shaders without a
-// frame have one set. The uniform blocks have a set of their own so that they stay bound: lavapipe 22.3 compiles a kernel again,
-// with the values of uniform blocks, where they were bound since the last dispatch.
+// frame have one set. The uniform blocks have a set of their own: STAYS_BOUND of workarounds.glsl.
 #define SET_FRAME 0
 #define SET_DATA 1
 #define SET_TEXTURES 2
