@@ -30,8 +30,6 @@ pub struct SceneSettings {
     pub exposure: f32,
     /// Meaning of the numbers in the image.
     pub reference: Reference,
-    /// Whether detection compares tone-mapped colours even if the image is scene-referred.
-    pub tonemapped_detection: bool,
     /// Area for which texture levels are chosen.
     pub footprint: Footprint,
     /// Shadows of the scene's lights.
@@ -74,7 +72,6 @@ impl Default for SceneSettings {
             background: None,
             exposure: 0.0,
             reference: Reference::Display,
-            tonemapped_detection: true,
             footprint: Footprint::Sample,
             shadows: Shadows::None,
             line_width: 1.0,
@@ -120,7 +117,6 @@ impl SceneSettings {
             background: self.background,
             exposure: self.exposure,
             reference: self.reference,
-            tonemapped_detection: self.tonemapped_detection,
         }
     }
 }
@@ -231,7 +227,6 @@ setters! {
         background: Option<[f32; 3]> = "the linear colour of the background; `None` for transparent",
         exposure: f32 = "the exposure in stops: 1 is twice as bright",
         reference: Reference = "the meaning of the numbers in the image",
-        tonemapped_detection: bool = "whether detection compares tone-mapped colours even if the image is scene-referred",
         footprint: Footprint = "the area for which texture levels are chosen",
         shadows: Shadows = "the shadows of the scene's lights",
         line_width: f32 = "the width of lines in output pixels",

@@ -164,9 +164,7 @@ fn masks_of_blended_scenes_are_the_twins() {
             let corners = [corner(), corner(), corner()];
             stage.add(1, corners);
         }
-        let settings = once(size)
-            .reference(Reference::Display)
-            .tonemapped_detection(true);
+        let settings = once(size).reference(Reference::Display);
         let base = stage.render(gpu, &settings);
         let (codes, doubtful) = codes(&base);
         // With BLEND made opaque, the device shows the nearest of these triangles.

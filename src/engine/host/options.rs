@@ -113,7 +113,9 @@ impl Options {
     /// Settings of the sampler.
     pub(super) fn sampler(&self) -> SamplerSettings {
         SamplerSettings {
-            tonemapped_detection: self.high_dynamic_range,
+            reference: Reference::Scene {
+                tonemapped_detection: self.high_dynamic_range,
+            },
             ..ListOptions::from(self).sampler()
         }
     }
@@ -172,8 +174,9 @@ impl ListOptions {
             filter: TextureFilter::of_cells(footprint, self.shading),
             background: self.background,
             exposure: 0.0,
-            reference: Reference::Scene,
-            tonemapped_detection: false,
+            reference: Reference::Scene {
+                tonemapped_detection: false,
+            },
         }
     }
 }

@@ -13,14 +13,24 @@ impl SamplerSettings {
 
     /// Whether the image's colours are tone-mapped.
     pub(crate) fn tonemaps(&self) -> bool {
-        self.reference == Reference::Display && self.tonemapped_detection
+        self.reference == Reference::Display
+    }
+
+    /// Whether detection compares tone-mapped colours.
+    fn tonemaps_codes(&self) -> bool {
+        match self.reference {
+            Reference::Display => true,
+            Reference::Scene {
+                tonemapped_detection,
+            } => tonemapped_detection,
+        }
     }
 
     /// Constants of `shaders/include/color.glsl` for the scene and these settings.
     pub(crate) fn color_constants(&self, scene: &dyn Content) -> ColorConstants {
         ColorConstants {
             tonemap: self.tonemaps(),
-            tonemap_codes: self.tonemapped_detection,
+            tonemap_codes: self.tonemaps_codes(),
             box_filter: self.filter == TextureFilter::Boxes,
             tinted: scene.is_tinted(),
         }
@@ -39,7 +49,7 @@ impl SamplerSettings {
     /// Display code of an output colour, which detection compares; equal to `display_code` of the shaders.
     /// Scene-referred colours are tone-mapped first.
     pub(crate) fn output_code(&self, color: [f32; 4]) -> u32 {
-        if self.reference == Reference::Display || !self.tonemapped_detection {
+        if self.tonemaps() || !self.tonemaps_codes() {
             return display_code(color);
         }
         let alpha = f64::from(color[3]);

@@ -27,7 +27,11 @@ pub enum Reference {
     /// Linear light of 0 to 1, tone-mapped by Khronos PBR Neutral, for a display.
     Display,
     /// Scene-linear radiance times exposure, unbounded.
-    Scene,
+    Scene {
+        /// Whether detection compares colours after the tone mapping of [`Self::Display`]: right if the image will be tone-mapped
+        /// before it is shown.
+        tonemapped_detection: bool,
+    },
 }
 
 /// Rectangle of an image, in pixels.
@@ -74,8 +78,6 @@ pub(crate) struct SamplerSettings {
     pub exposure: f32,
     /// Meaning of the numbers in the image.
     pub reference: Reference,
-    /// Whether detection compares tone-mapped colours even if the image is scene-referred.
-    pub tonemapped_detection: bool,
 }
 
 impl SamplerSettings {

@@ -153,8 +153,9 @@ impl Plane {
 pub fn settings(method: MethodKind, samples: u32) -> Settings {
     Settings::new(SIZE[0], SIZE[1])
         .background(Some([SKY as f32; 3]))
-        .reference(Reference::Scene)
-        .tonemapped_detection(false)
+        .reference(Reference::Scene {
+            tonemapped_detection: false,
+        })
         .method(method.with_samples(samples))
 }
 

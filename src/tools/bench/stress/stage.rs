@@ -267,8 +267,9 @@ pub fn code(id: u32) -> [f32; 3] {
 #[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     Settings::new(size[0], size[1])
-        .reference(Reference::Scene)
-        .tonemapped_detection(false)
+        .reference(Reference::Scene {
+            tonemapped_detection: false,
+        })
         .method(
             SuperpixelOptions::new(samples)
                 .pattern(pattern)
@@ -282,8 +283,9 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
 #[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
     Settings::new(size[0], size[1])
-        .reference(Reference::Scene)
-        .tonemapped_detection(false)
+        .reference(Reference::Scene {
+            tonemapped_detection: false,
+        })
         .attributes(true)
         .method(Method::None)
 }

@@ -183,9 +183,10 @@ impl ImageArgs {
             .reference(if tonemaps && !format.is_scene_linear() {
                 Reference::Display
             } else {
-                Reference::Scene
+                Reference::Scene {
+                    tonemapped_detection: tonemaps,
+                }
             })
-            .tonemapped_detection(tonemaps)
             .attributes(!self.aov.is_empty())
             .max_memory(self.device.max_memory);
         self.appearance.settings(settings)
