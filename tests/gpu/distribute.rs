@@ -84,7 +84,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
             tiles: TILES,
             count: list.len() as u32,
         };
-        distribute.record(&recorder, (&resources, set), &region, ListLength::Known);
+        distribute.record(&recorder, (resources, set), &region, ListLength::Known);
         drop(recorder);
         for (from, to) in &kept {
             copy(gpu, commands, from, to);
