@@ -1,7 +1,7 @@
 //! Rectangle of tiles on a pinhole's plane, as passes see it.
 
 use crate::camera::Pinhole;
-use crate::engine::data::{Cells, FrameUniform, ResourceSizes};
+use crate::engine::data::{Cells, FrameUniform, ResourceSizes, tiles};
 use crate::engine::passes::ListRegion;
 use crate::engine::sampler::SamplerSettings;
 use crate::engine::sampler::footprint::Footprints;
@@ -10,7 +10,7 @@ use crate::render::data::GpuScene;
 use glam::{DMat4, DVec2};
 
 /// Width and height of a tile in pixels.
-pub(super) const TILE: [i64; 2] = [8, 4];
+pub(super) const TILE: [i64; 2] = [tiles::WIDTH as i64, tiles::HEIGHT as i64];
 
 /// Part of a plane in which sampling locations lie.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,10 @@
 //! Tiles: blocks of 8 x 4 pixels, whose masks of superpixels and of shadows are words with a bit for each pixel.
 
-const WIDTH: u32 = 8;
-const HEIGHT: u32 = 4;
+/// Width of a tile in pixels.
+pub const WIDTH: u32 = 8;
+
+/// Height of a tile in pixels.
+pub const HEIGHT: u32 = 4;
 
 /// Numbers of tiles that cover an image of `size` pixels, horizontally and vertically.
 pub const fn tiles(size: [u32; 2]) -> [u32; 2] {
@@ -14,8 +17,9 @@ pub const fn tile_count(size: [u32; 2]) -> u64 {
     columns as u64 * rows as u64
 }
 
-/// Index of the tile of pixel (`x`, `y`) in an image with `columns` tiles in a row, and the pixel's bit in the tile's mask.
-pub const fn mask_bit([x, y]: [u32; 2], columns: u32) -> (usize, u32) {
+/// Index of the tile of pixel (`x`, `y`) in an image of `width` pixels, and the pixel's bit in the tile's mask.
+pub const fn mask_bit([x, y]: [u32; 2], width: u32) -> (usize, u32) {
+    let [columns, _] = tiles([width, 0]);
     (
         (y / HEIGHT * columns + x / WIDTH) as usize,
         1 << (y % HEIGHT * WIDTH + x % WIDTH),

@@ -69,7 +69,7 @@ impl Distribute {
         })
     }
 
-    /// Records the pass for a list that [`Resources::record_begin`] has begun the region of. Then the frame's `set` is shown.
+    /// Records the pass, after [`Resources::record_begin`] has begun the list's region. Later passes see the frame's `set` again.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

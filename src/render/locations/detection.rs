@@ -120,12 +120,11 @@ impl Headless {
         let settings = detector.settings_beside();
         let width = settings.size[0];
         let masks = detector.masks(band)?;
-        let columns = band.tiles(width)[0];
         let is_found = |cell: u32| {
             let (x, row) = (cell % width, cell / width);
             band.seen.contains(&row) && !image.is_superpixel(cell) && {
                 let y = row - band.seen.start;
-                let (tile, bit) = mask_bit([x, y], columns);
+                let (tile, bit) = mask_bit([x, y], width);
                 masks[tile] & bit != 0
             }
         };
@@ -365,14 +364,13 @@ impl BandDetector {
                 words.copy_from_slice(values);
             }
         }
-        let [columns, _] = tiles([width, 0]);
         let marks = self.cells.words_mut(OutputPlane::Marks);
         marks.fill(0);
         for (cell, _) in (0_u32..)
             .zip(shadowed.get(range).unwrap_or(&[]))
             .filter(|(_, shadowed)| **shadowed)
         {
-            let (tile, bit) = mask_bit([cell % width, cell / width], columns);
+            let (tile, bit) = mask_bit([cell % width, cell / width], width);
             if let Some(word) = marks.get_mut(tile) {
                 *word |= bit;
             }
