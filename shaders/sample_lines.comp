@@ -1,6 +1,6 @@
 // sample_lines: finds the same as sample.comp, for cells with opaque or alpha-tested triangles whose samples lie on straight
-// lines (include/lines.glsl). A subgroup takes the cells of an entry of a work list one after the other; an invocation holds
-// some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
+// lines (include/lines.glsl). A subgroup takes the cells of an entry of a work list one after the other, or one of them (APART);
+// an invocation holds some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
 // location's Jacobian. Lines run along these sides.
 // Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that see more than SLOTS triangles or one that
 // crosses the near plane, or that take too many trips of loops, and cells of tiles with more than INDEX candidates, are marked
@@ -27,10 +27,12 @@ layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    /
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
+layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one cell, not those of an entry
 layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples of a block of sample.comp
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
 const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // slots are numbered from 1 on; 0 is no owner
+const uint CELLS = APART ? 1u : LANES;                  // cells that a subgroup takes
 const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an invocation holds
 
 #include "include/alpha.glsl"
@@ -41,7 +43,7 @@ const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an i
 #include "include/lines.glsl"
 #include "include/order.glsl"
 
-shared uint touched[32u * LANES];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
+shared uint touched[32u * CELLS];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
 
 uint trips;                         // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
 uint owner[SLOT_BITS * WORDS];      // owners of this invocation's samples: WORDS words for each bit of a slot's number
@@ -209,10 +211,11 @@ void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS
 
 void main() {
     if (in_other_subgroups(LANES)) return;
-    uint number = workgroup_number();
-    if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    // Several subgroups share an entry of the work list. `work.y` is the entry, `work.x` is this subgroup's share of it.
+    uvec2 work = split(workgroup_number(), LANES / CELLS);
+    if (work.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint entry = tile_lists[first_entry(LIST) + number], item = entry_item(entry);
+    uint entry = tile_lists[first_entry(LIST) + work.y], item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
@@ -220,7 +223,9 @@ void main() {
     vec2 center = tile_center(tile_at);
     uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
     uint word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint first_cell = entry_part(entry) * LANES, cells = min(uint(bitCount(word)) - first_cell, LANES);
+    uint first_cell = entry_part(entry) * LANES + work.x * CELLS;
+    if (first_cell >= uint(bitCount(word))) return;
+    uint cells = min(uint(bitCount(word)) - first_cell, CELLS);
     uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u)), my_location = 0u;
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.0);
     if (LOCATIONS) {
@@ -254,10 +259,14 @@ void main() {
                 trips += cells;
             } else {
                 uint touches = candidate < count ? texelFetch(candidates, int(first + candidate) * 4 + 3).w : 0u;
-                [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+                if (APART) {
+                    touching |= subgroupBallot((touches >> my_bit & 1u) != 0u).x << part;
+                } else {
+                    [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+                }
             }
         }
-        touched[words * LANES + lane] = touching;
+        if (lane < CELLS) touched[words * CELLS + lane] = touching;
         trips++;
     } while (++words * 32u < count);
     subgroupBarrier();
@@ -293,7 +302,7 @@ void main() {
             Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
             uint word_ = 0u;
             do {
-                uint mine = word_ + lane < words ? touched[(word_ + lane) * LANES + cell] : 0u;
+                uint mine = word_ + lane < words ? touched[(word_ + lane) * CELLS + cell] : 0u;
                 uint own = uint(bitCount(mine)), before = lanes_before(own), all = lanes_add(own), read = 0u;
                 do {
                     uint wanted = read + lane, of = 0u;

@@ -1913,6 +1913,7 @@ pub struct SampleLines {
     pub list: u32,
     pub by_part: bool,
     pub part: u32,
+    pub apart: bool,
     pub header: u32,
     pub lines: u32,
     pub locations: bool,
@@ -1930,6 +1931,7 @@ impl Default for SampleLines {
             list: 0,
             by_part: false,
             part: 4,
+            apart: false,
             header: 64,
             lines: 16,
             locations: false,
@@ -1983,6 +1985,7 @@ impl Specialized for SampleLines {
             .with(4, self.list)
             .flag(6, self.by_part)
             .with(8, self.part)
+            .flag(9, self.apart)
             .with(10, self.header)
             .with(11, self.lines)
             .flag(20, self.locations)

@@ -151,6 +151,7 @@ impl<'a> Passes<'a> {
             records: case.records_are,
             exact_areas: false,
             can_settle: false,
+            one_cell: false,
             long_lists: LongLists::Scattered,
             samples_unlisted: case.unlisted,
             has_mask: false,

@@ -55,6 +55,8 @@ pub struct SampleOptions {
     pub exact_areas: bool,
     /// Whether a few samples may suffice for a cell. If so, cells with many samples get a first run with few samples.
     pub can_settle: bool,
+    /// Whether a subgroup samples a single cell, however short the lists of candidates are.
+    pub one_cell: bool,
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
     /// Whether tiles without a list are sampled, with `scatter`. Otherwise they are skipped and counted.
@@ -211,7 +213,7 @@ impl SampleBlocks {
     pub fn new(lanes: u32, options: SampleOptions) -> Self {
         let rows = options.samples.min(BLOCK).div_ceil(lanes);
         let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
-        let one_cell = options.long_lists.takes_one_cell();
+        let one_cell = options.takes_one_cell();
         let taking = |samples: u32, one_cell: bool| {
             let blocks = samples.div_ceil(block);
             if one_cell {
@@ -223,6 +225,8 @@ impl SampleBlocks {
         let first = if options.probes() {
             taking(PROBES, one_cell)
         } else if options.by_lines() {
+            if one_cell { lanes } else { 1 }
+        } else if options.by_masks() {
             1
         } else {
             taking(options.samples, one_cell)
@@ -270,7 +274,7 @@ impl SampleBlocks {
             by_part: options.by_part(run, block),
             exact_areas: options.measures(list, run),
             part: options.part_samples(),
-            apart: options.long_lists.takes_one_cell() || list == TileList::Unlisted,
+            apart: options.takes_one_cell() || list == TileList::Unlisted,
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
             occluders: options.cells.are_occluders(),
@@ -344,6 +348,11 @@ pub(crate) fn pass(
 }
 
 impl SampleOptions {
+    /// Whether a subgroup samples a single cell.
+    fn takes_one_cell(&self) -> bool {
+        self.one_cell || self.long_lists.takes_one_cell()
+    }
+
     /// Runs over tiles of opaque and alpha-tested triangles.
     fn listed(&self, run: Run) -> impl Iterator<Item = ListRun> {
         let run_of = |list, masked| ListRun { list, run, masked };
@@ -445,6 +454,7 @@ mod tests {
                 records: RecordRate::Part,
                 exact_areas: true,
                 can_settle: true,
+                one_cell: false,
                 long_lists: LongLists::SeveralCells,
                 samples_unlisted: false,
                 has_mask: false,

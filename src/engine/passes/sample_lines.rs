@@ -23,6 +23,7 @@ pub(super) fn kernel(
         list: shader.list,
         by_part: shader.by_part,
         part: shader.part,
+        apart: shader.apart,
         header,
         lines,
         locations: shader.locations,
