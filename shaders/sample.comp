@@ -46,11 +46,12 @@ layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false
 #endif
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
 layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
+layout(constant_id = SAMPLE_CONSTANT_LONG) const bool LONG = false;         // APART: lists are long for the device's loops
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 #ifndef UNLISTED
-const uint ROOM = APART && LANES < 32u ? 3072u : 1024u; // words of `kept`: small subgroups take more trips if it is too small
+const uint ROOM = LONG && LANES < 32u ? 3072u : 1024u;  // words of `kept`: small subgroups take more trips if it is too small
 const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates in the short list of a cell
 
 // The short lists, cell by cell: numbers of candidates, two in a word, since 16 bits can count the tile's list; APART: one.

@@ -1818,6 +1818,7 @@ pub struct Sample {
     pub exact_areas: bool,
     pub part: u32,
     pub apart: bool,
+    pub long: bool,
     pub locations: bool,
     pub points: bool,
     pub occluders: bool,
@@ -1838,6 +1839,7 @@ impl Default for Sample {
             exact_areas: false,
             part: 8,
             apart: false,
+            long: false,
             locations: false,
             points: false,
             occluders: false,
@@ -1896,6 +1898,7 @@ impl Specialized for Sample {
             .flag(7, self.exact_areas)
             .with(8, self.part)
             .flag(9, self.apart)
+            .flag(12, self.long)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(22, self.occluders)

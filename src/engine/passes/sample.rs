@@ -275,6 +275,7 @@ impl SampleBlocks {
             exact_areas: options.measures(list, run),
             part: options.part_samples(),
             apart: options.takes_one_cell() || list == TileList::Unlisted,
+            long: options.long_lists.takes_one_cell(),
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
             occluders: options.cells.are_occluders(),
