@@ -130,15 +130,16 @@ fn long_work_is_submitted_in_parts() {
 #[test]
 fn other_subgroups_are_an_error() {
     let stage = ball_over_checker();
-    let lowered: [(fn(&mut Limits), MethodKind); 2] = [
+    let lowered: [fn(&mut Limits); 2] = [
         // This limit affects all kernels except those that list spans.
-        (|limits| limits.lanes *= 2, MethodKind::Superpixel),
+        |limits| limits.lanes *= 2,
         // This limit affects the kernels that list spans.
-        (|limits| limits.subgroup_size *= 2, MethodKind::None),
+        |limits| limits.subgroup_size *= 2,
     ];
+    let methods = [MethodKind::Superpixel, MethodKind::None];
     // Kernels use at most 32 invocations of a subgroup. For more, their arrays would have no elements.
     let widest = lanes() == 32;
-    for (lower, method) in lowered.into_iter().skip(usize::from(widest)) {
+    for (lower, method) in lowered.into_iter().zip(methods).skip(usize::from(widest)) {
         within(
             |limits| {
                 limits.can_require_subgroup_size = false;
