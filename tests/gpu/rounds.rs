@@ -12,9 +12,10 @@ use crate::devices::within;
 use crate::scenes::{ball_over_checker, layered};
 use crate::stage::{Stage, camera, on_gpu};
 
-/// A GPU with memory of its own, as far as the division into rounds depends on it.
+/// A GPU with memory of its own, as far as the division into rounds and subgroups depends on it.
 fn gpu(limits: &mut Limits) {
     limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
+    limits.one_cell = true;
 }
 
 fn settings(samples: u32) -> Settings {
