@@ -32,7 +32,7 @@ layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;     
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
 const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // slots are numbered from 1 on; 0 is no owner
-const uint CELLS = APART ? 1u : LANES;                  // cells that a subgroup takes
+const uint CELLS_AT_ONCE = APART ? 1u : LANES;          // cells that a subgroup takes
 const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an invocation holds
 
 #include "include/alpha.glsl"
@@ -43,7 +43,7 @@ const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an i
 #include "include/lines.glsl"
 #include "include/order.glsl"
 
-shared uint touched[32u * CELLS];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
+shared uint touched[32u * CELLS_AT_ONCE];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
 
 uint trips;                         // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
 uint owner[SLOT_BITS * WORDS];      // owners of this invocation's samples: WORDS words for each bit of a slot's number
@@ -212,7 +212,7 @@ void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS
 void main() {
     if (in_other_subgroups(LANES)) return;
     // Several subgroups share an entry of the work list. `work.y` is the entry, `work.x` is this subgroup's share of it.
-    uvec2 work = split(workgroup_number(), LANES / CELLS);
+    uvec2 work = split(workgroup_number(), LANES / CELLS_AT_ONCE);
     if (work.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
     uint entry = tile_lists[first_entry(LIST) + work.y], item = entry_item(entry);
@@ -223,9 +223,9 @@ void main() {
     vec2 center = tile_center(tile_at);
     uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
     uint word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint first_cell = entry_part(entry) * LANES + work.x * CELLS;
+    uint first_cell = entry_part(entry) * LANES + work.x * CELLS_AT_ONCE;
     if (first_cell >= uint(bitCount(word))) return;
-    uint cells = min(uint(bitCount(word)) - first_cell, CELLS);
+    uint cells = min(uint(bitCount(word)) - first_cell, CELLS_AT_ONCE);
     uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u)), my_location = 0u;
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.0);
     if (LOCATIONS) {
@@ -266,7 +266,7 @@ void main() {
                 }
             }
         }
-        if (lane < CELLS) touched[words * CELLS + lane] = touching;
+        if (lane < CELLS_AT_ONCE) touched[words * CELLS_AT_ONCE + lane] = touching;
         trips++;
     } while (++words * 32u < count);
     subgroupBarrier();
@@ -302,7 +302,7 @@ void main() {
             Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
             uint word_ = 0u;
             do {
-                uint mine = word_ + lane < words ? touched[(word_ + lane) * CELLS + cell] : 0u;
+                uint mine = word_ + lane < words ? touched[(word_ + lane) * CELLS_AT_ONCE + cell] : 0u;
                 uint own = uint(bitCount(mine)), before = lanes_before(own), all = lanes_add(own), read = 0u;
                 do {
                     uint wanted = read + lane, of = 0u;

@@ -1,5 +1,6 @@
 //! One device that simulates others: larger and smaller subgroups, and the limits that Vulkan guarantees.
 
+use ash::vk;
 use gpc::render::{
     CellOptions, Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError,
     Rendered, SceneRequest, Settings, Shading,
@@ -100,8 +101,8 @@ fn single_cells_make_the_same_image() {
             }
         }
     };
-    let several = |limits: &mut Limits| limits.one_cell = false;
-    let single = |limits: &mut Limits| limits.one_cell = true;
+    let several = |limits: &mut Limits| limits.device_type = vk::PhysicalDeviceType::CPU;
+    let single = |limits: &mut Limits| limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
     within(several, |several| {
         within(single, |single| test(several, single))
     });

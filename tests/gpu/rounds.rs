@@ -15,7 +15,6 @@ use crate::stage::{Stage, camera, on_gpu};
 /// A GPU with memory of its own, as far as the division into rounds and subgroups depends on it.
 fn gpu(limits: &mut Limits) {
     limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
-    limits.one_cell = true;
 }
 
 fn settings(samples: u32) -> Settings {

@@ -55,7 +55,8 @@ pub struct SampleOptions {
     pub exact_areas: bool,
     /// Whether a few samples may suffice for a cell. If so, cells with many samples get a first run with few samples.
     pub can_settle: bool,
-    /// Whether a subgroup samples a single cell, however short the lists of candidates are.
+    /// Whether a subgroup samples a single cell, however short the lists of candidates are. A GPU runs thousands of
+    /// subgroups at once, and would wait for the fullest tile; on a CPU, the cells share the work of a tile.
     pub one_cell: bool,
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
@@ -73,7 +74,7 @@ pub struct SampleOptions {
 /// drivers allow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LongLists {
-    /// Like other cells: a subgroup samples blocks of several cells.
+    /// Like other cells.
     #[default]
     SeveralCells,
     /// A subgroup samples a block of a single cell.
@@ -214,8 +215,8 @@ impl SampleBlocks {
         let rows = options.samples.min(BLOCK).div_ceil(lanes);
         let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
         let one_cell = options.takes_one_cell();
-        let taking = |samples: u32, one_cell: bool| {
-            let blocks = samples.div_ceil(block);
+        let blocks_of = |samples: u32| samples.div_ceil(block);
+        let taking = |blocks: u32, one_cell: bool| {
             if one_cell {
                 lanes * blocks
             } else {
@@ -223,15 +224,16 @@ impl SampleBlocks {
             }
         };
         let first = if options.probes() {
-            taking(PROBES, one_cell)
+            taking(blocks_of(PROBES), one_cell)
         } else if options.by_lines() {
-            if one_cell { lanes } else { 1 }
+            taking(1, one_cell)
         } else if options.by_masks() {
             1
         } else {
-            taking(options.samples, one_cell)
+            taking(blocks_of(options.samples), one_cell)
         };
-        let [all, unlisted] = [one_cell, true].map(|one_cell| taking(options.samples, one_cell));
+        let [all, unlisted] =
+            [one_cell, true].map(|one_cell| taking(blocks_of(options.samples), one_cell));
         Self {
             options,
             block,

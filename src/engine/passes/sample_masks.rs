@@ -5,7 +5,6 @@ use crate::engine::data::Cells;
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv;
 use crate::vulkan::VulkanError;
-use ash::vk;
 
 /// Variants of the kernel, each with the largest number of samples that it supports.
 const KERNELS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
@@ -29,7 +28,7 @@ pub(super) fn kernel(
         part: shader.part,
         // Compilers of GPU drivers spill registers if loops over samples are unrolled; CPU drivers are slower if they
         // are not.
-        rolled: layout.gpu.limits().device_type != vk::PhysicalDeviceType::CPU,
+        rolled: !layout.gpu.limits().is_cpu(),
         locations: shader.locations,
         instanced: shader.instanced,
         unsure: shader.unsure,

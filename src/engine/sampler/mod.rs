@@ -104,7 +104,7 @@ impl SamplerContext<'_> {
             // High-frequency triangles are shaded in many places, so the few samples of a first run would never
             // suffice.
             can_settle: options.shading != Shading::Part || !scene.is_mostly_high_frequency(),
-            one_cell: self.layout.gpu.limits().one_cell,
+            one_cell: !self.layout.gpu.limits().is_cpu(),
             long_lists: self.capacity.long_lists,
             samples_unlisted: self.capacity.samples_unlisted,
             has_mask: scene.has_mask(),

@@ -7,7 +7,6 @@ use crate::engine::data::{Content, ResourceSizes};
 use crate::engine::spirv::FILTER_TRIANGLES;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
-use ash::vk;
 
 /// Part of an image, in output pixels. If only a part of the image is wanted, the region is still placed and drawn as
 /// for the whole image, because devices round vertices to a fraction of a pixel after the viewport transform.
@@ -300,7 +299,7 @@ impl Plan {
         } else {
             0
         };
-        let filters = limits.device_type == vk::PhysicalDeviceType::CPU
+        let filters = limits.is_cpu()
             && limits.has_subgroups_of(limits.lanes)
             && !matches!(image.method, Method::Msaa { .. })
             && scene.triangle_slots() >= FILTER_TRIANGLES

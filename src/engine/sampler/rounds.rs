@@ -2,7 +2,6 @@
 
 use super::plan::MOST_RECORDS;
 use crate::vulkan::Limits;
-use ash::vk;
 
 /// Policy for dividing a frame's samples into rounds, which depends on the kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +27,7 @@ const RECORD_BYTES: u64 = 44;
 impl RoundPolicy {
     /// Policy for a device.
     pub fn of(limits: &Limits) -> Self {
-        let is_cpu = limits.device_type == vk::PhysicalDeviceType::CPU;
-        if is_cpu || limits.local_bytes < PLENTY {
+        if limits.is_cpu() || limits.local_bytes < PLENTY {
             Self::Small
         } else {
             let records = limits.local_bytes / (PART * RECORD_BYTES);

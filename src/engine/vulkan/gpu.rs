@@ -134,9 +134,6 @@ pub struct Limits {
     pub subgroup_size: u32,
     /// Whether a compute pipeline can be told its subgroup size.
     pub can_require_subgroup_size: bool,
-    /// Whether a subgroup samples a single cell, not those of a tile one after the other. A GPU runs thousands of
-    /// subgroups at once, and would wait for the fullest tile; on a CPU, the cells share the work of a tile.
-    pub one_cell: bool,
     /// Largest width or height of an image in pixels.
     pub max_image_side: u32,
     /// How far the device may move a corner of a triangle before it draws the triangle, in pixels.
@@ -162,6 +159,11 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Whether the device computes on the CPU.
+    pub(crate) fn is_cpu(&self) -> bool {
+        self.device_type == vk::PhysicalDeviceType::CPU
+    }
+
     /// Whether the device runs subgroups of exactly `lanes` invocations where it is asked to.
     pub(crate) fn has_subgroups_of(&self, lanes: u32) -> bool {
         self.can_require_subgroup_size && lanes == self.subgroup_size
@@ -429,7 +431,6 @@ pub(super) unsafe fn limits(
         lanes,
         subgroup_size,
         can_require_subgroup_size,
-        one_cell: basic.device_type != vk::PhysicalDeviceType::CPU,
         max_image_side: basic.limits.max_image_dimension2_d,
         snap: (-(basic.limits.sub_pixel_precision_bits as f32)).exp2() + POSITION_ERROR,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
