@@ -19,7 +19,7 @@ SONAME = libgpc.so.$(shell sed -n 's/^pub const GPC_ABI_VERSION: u32 = \(.*\);/\
 # Scene that `make view` opens.
 SCENE ?= assets/letters.glb
 
-.PHONY: help demo view test test-view test-drivers test-compilers bench measure figures pictures lint shaders check-shaders \
+.PHONY: help demo view test test-view test-drivers test-compilers test-bounds bench measure figures pictures lint shaders check-shaders \
 	header assets install dist test-dist
 
 help:
@@ -29,6 +29,7 @@ help:
 	@echo "make test-view      run the tests of the window, on a display of their own"
 	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
 	@echo "make test-compilers compile the kernels for GPUs that are not there, and check what their compilers say"
+	@echo "make test-bounds    check that no shader reads or writes beyond the end of a buffer"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make measure        write docs/bench/*.csv of this machine's driver again (hours); KINDS='...' are some of them"
 	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
@@ -71,6 +72,11 @@ test-drivers:
 test-compilers:
 	@tools/setup.sh build lavapipe c
 	@tools/test-compilers.sh $(HARDWARE)
+
+# Takes half an hour: the validation layer checks and compiles all shaders.
+test-bounds:
+	@tools/setup.sh build lavapipe
+	@tools/test-bounds.sh $(IMAGES)
 
 bench:
 	@tools/setup.sh build vulkan
