@@ -299,6 +299,7 @@
 #define DETECT_EXACT 2u
 #define DETECT_BLENDED 3u
 #define DETECT_EVERY 4u
+#define DETECT_SECOND_DIFFERENCES 5u
 
 // Steps of `distribute`, in their order.
 #define DISTRIBUTE_NUMBER 0u

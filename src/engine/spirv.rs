@@ -3191,6 +3191,7 @@ pub const DETECT_EDGES: u32 = 1;
 pub const DETECT_EXACT: u32 = 2;
 pub const DETECT_BLENDED: u32 = 3;
 pub const DETECT_EVERY: u32 = 4;
+pub const DETECT_SECOND_DIFFERENCES: u32 = 5;
 pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;

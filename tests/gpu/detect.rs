@@ -193,6 +193,73 @@ fn masks_of_blended_scenes_are_the_twins() {
     });
 }
 
+/// Squares as large as pixels, whose colours or alphas differ at random.
+fn squares(seed: u64, size: [u32; 2], alpha_mode: AlphaMode) -> Stage {
+    let mut random = Random::new(seed);
+    let mut stage = Stage::new(vec![flat([1.0; 4], alpha_mode)]);
+    let half = size.map(|side| f64::from(side) / 2.0);
+    for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+        let [left, top] = [f64::from(x) - half[0], f64::from(y) - half[1]];
+        let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
+        let place = |[right, down]: [f64; 2]| seen_at([left + right, top + down], 1.0, size[1]);
+        let first = stage.triangles.len();
+        stage.add_quad(0, corners.map(place));
+        let mut code = || 100 + (random.below(20) == 0) as u8 * random.below(10) as u8;
+        let color = if alpha_mode == AlphaMode::Blend {
+            [0.0, 0.0, 0.0, f32::from(code()) / 255.0]
+        } else {
+            let [r, g, b] = [code(), code(), code()].map(|code| decode_u8(code) as f32);
+            [r, g, b, 1.0]
+        };
+        for triangle in &mut stage.triangles[first..] {
+            triangle.color = color;
+        }
+    }
+    stage
+}
+
+/// From 128 samples on, second differences count as well, but not with detection of edges.
+#[test]
+fn masks_of_second_differences_are_the_twins() {
+    on_gpu(|gpu| {
+        for (seed, size) in SIZES.into_iter().enumerate() {
+            for alpha_mode in [AlphaMode::Opaque, AlphaMode::Blend] {
+                let stage = squares(seed as u64, size, alpha_mode);
+                let base = stage.render(gpu, &once(size));
+                let (codes, doubtful) = codes(&base);
+                assert!(!doubtful.contains(&true));
+                let ids = ids(&base);
+                let blend = vec![0; ids.len()];
+                let mut render = |samples, detection| {
+                    let options = SuperpixelOptions::new(samples)
+                        .growths(Some(0))
+                        .thin(false)
+                        .contrast(Some(6))
+                        .detection(detection);
+                    stage.render(gpu, &once(size).method(options))
+                };
+                let mut sums = Vec::new();
+                for (samples, mode) in [(127, Mode::Contrast(6)), (128, Mode::SecondDifferences(6))]
+                {
+                    let rendered = render(samples, Detection::Contrast);
+                    let found = rendered
+                        .attributes
+                        .iter()
+                        .map(|pixel| pixel.superpixel == 1);
+                    assert!(
+                        found.eq(expected(size, &ids, &blend, &codes, mode)),
+                        "{size:?}, {alpha_mode:?}, {mode:?}"
+                    );
+                    sums.push(rendered.statistics.superpixels);
+                }
+                let edges = render(128, Detection::Edges).statistics.superpixels;
+                assert!(edges <= sums[0], "{edges}, {sums:?}");
+                assert!(size[0] < 37 || sums[0] < sums[1], "{sums:?}");
+            }
+        }
+    });
+}
+
 /// Alpha alone distinguishes a black surface from a transparent background.
 #[test]
 fn black_contrasts_with_a_transparent_background() {

@@ -180,9 +180,9 @@ impl SuperpixelOptions {
     /// Largest number of growths. Each growth records further rounds.
     pub const MOST_GROWTHS: u8 = 8;
 
-    /// Number of samples from which on more pixels become superpixels: by a lower contrast, more growths, and thin
-    /// triangles at an angle to the surface around them.
-    pub(crate) const MANY_SAMPLES: u32 = 128;
+    /// Number of samples from which on more pixels become superpixels: by a lower contrast, second differences of
+    /// colours, more growths, and thin triangles at an angle to the surface around them.
+    const MANY_SAMPLES: u32 = 128;
 
     /// Default options with `samples` samples of a superpixel.
     #[must_use]
@@ -219,6 +219,11 @@ impl SuperpixelOptions {
             }
             _ => 0,
         }
+    }
+
+    /// Whether superpixels have so many samples that more pixels become superpixels.
+    pub(crate) fn has_many_samples(&self) -> bool {
+        self.cells.samples >= Self::MANY_SAMPLES
     }
 
     /// Contrast threshold in code values: two colours contrast if any channel differs by more.

@@ -304,7 +304,7 @@ impl BandDetector {
         let superpixels = settings.superpixels();
         let growths = superpixels.growth_count();
         let options = DetectOptions {
-            mode: DetectMode::of(superpixels.detection),
+            mode: DetectMode::of(&superpixels),
             blend_ids: scene.has_blend(),
             thin: superpixels.thin,
             transparent: true,
