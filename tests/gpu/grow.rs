@@ -44,7 +44,10 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
         let expected = pixels(SIZE, &expected);
         let count = |mask: &[bool]| mask.iter().filter(|&&superpixel| superpixel).count();
         let counts = [count(&first), count(&expected)];
-        assert!(counts[1] > counts[0] + fewest, "{samples} samples: {counts:?}");
+        assert!(
+            counts[1] > counts[0] + fewest,
+            "{samples} samples: {counts:?}"
+        );
         assert!(count(&expected) < expected.len(), "{samples} samples");
         let mut excused = 0;
         for (pixel, attributes) in rendered.attributes.iter().enumerate() {
