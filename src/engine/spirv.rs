@@ -638,6 +638,7 @@ pub mod crossings_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crossings {
     pub blend_ids: bool,
+    pub folds: bool,
     pub occluders: bool,
     pub instanced: bool,
 }
@@ -646,6 +647,7 @@ impl Default for Crossings {
     fn default() -> Self {
         Self {
             blend_ids: false,
+            folds: false,
             occluders: false,
             instanced: false,
         }
@@ -680,6 +682,7 @@ impl Specialized for Crossings {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(1, self.blend_ids)
+            .flag(2, self.folds)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
     }

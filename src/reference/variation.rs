@@ -40,9 +40,9 @@ const MANY_SAMPLES: u32 = 128;
 ///   shaded once.
 /// - Otherwise, if 3 or more centres see its material, the difference of their colours decides: up to `alike`, or from
 ///   128 samples on up to 0, it is shaded once; up to four times `alike`, in parts merged in fours; above, in all parts.
-///   All parts are merged in pairs
-///   if the triangle's own colours differ by at most a quarter of `alike`, though only 2 or 3 centres see it. With 65
-///   to 256 samples, they are also merged in pairs if the material's colours differ by at most 12.
+///   All parts are merged in pairs if the triangle's own colours differ by at most a quarter of `alike`, though only 2
+///   or 3 centres see it. With 65 to 256 samples, they are also merged in pairs if the material's colours differ by at
+///   most 12.
 /// - If fewer centres see it, or the triangle is neither of the two and has neither of their materials, parts are
 ///   merged in pairs.
 ///

@@ -325,67 +325,75 @@ fn unseen_wires_make_superpixels() {
     });
 }
 
-/// Specks that no centre sees stand on a wall, at random angles to it. The wall consists of triangles as small as pixels. From
-/// 128 samples on, the superpixels are the pixels whose speck and wall are a fold.
-#[test]
-fn specks_at_an_angle_to_the_wall_make_superpixels() {
-    const SIDE: u32 = 64;
-    on_gpu(|gpu| {
-        let mut stage = Stage::new(vec![
-            flat([1.0; 4], AlphaMode::Opaque),
-            flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-        ]);
-        let mut random = Random::new(5);
-        let half = f64::from(SIDE) / 2.0;
-        let place = |x: u32, y: u32| [x, y].map(|v| f64::from(v) - half);
-        let position = |at: [f64; 2], distance: f64| seen_at(at, distance, SIDE);
-        let cells = (0..=SIDE).flat_map(|y| (0..=SIDE).map(move |x| (x, y)));
-        let wall = |x: u32, y: u32| {
-            let [x, y] = place(x, y);
-            let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
-            corners.map(|[right, down]| position([x + right, y + down], 5.0))
-        };
-        for (x, y) in cells {
-            stage.add_quad(1, wall(x, y));
-        }
-        let mut cosines = vec![1.0; (SIDE * SIDE) as usize];
-        for (x, y) in (2..SIDE)
-            .step_by(3)
-            .flat_map(|y| (2..SIDE).step_by(3).map(move |x| (x, y)))
-        {
-            let [left, top] = place(x, y);
-            let lifts = [0, 1, 2].map(|_| random.below(1000) as f64 * 3e-4);
-            let least = lifts.into_iter().fold(f64::INFINITY, f64::min);
-            let corners = [[0.6, 0.6], [0.9, 0.65], [0.7, 0.9]];
-            let corners = [0, 1, 2].map(|corner| {
-                let [right, down] = corners[corner];
-                position([left + right, top + down], 4.999 - lifts[corner] + least)
-            });
-            stage.add(0, corners);
-            let exact = |corner: [f32; 3]| DVec3::from(corner.map(f64::from));
-            let [a, b, c, _] = wall(x, y).map(exact);
-            cosines[(y * SIDE + x) as usize] = cosine(corners.map(exact), [a, b, c], DVec3::ZERO);
-        }
-        for samples in [64, 128] {
-            let settings = once([SIDE; 2]).method(SuperpixelOptions::new(samples).growths(Some(0)));
-            let rendered = stage.render(gpu, &settings);
-            let mut folds = 0;
-            for (pixel, (attributes, cosine)) in
-                rendered.attributes.iter().zip(&cosines).enumerate()
-            {
-                let fold = samples >= 128 && *cosine < FOLD;
-                folds += u32::from(fold);
-                assert!(
-                    (attributes.superpixel == 1) == fold || (cosine - FOLD).abs() < 0.01,
-                    "{samples} samples, pixel {pixel}, cosine {cosine}"
-                );
-            }
-            let expected = if samples >= 128 { 100..350 } else { 0..1 };
+/// Specks that no centre sees stand on a wall, at random angles to it, in an image of `side` x `side` pixels. The wall consists of
+/// triangles as small as pixels. For each pixel there is the cosine of the angle between speck and wall; 1 without a speck.
+pub fn specks(side: u32) -> (Stage, Vec<f64>) {
+    let mut stage = Stage::new(vec![
+        flat([1.0; 4], AlphaMode::Opaque),
+        flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
+    ]);
+    let mut random = Random::new(5);
+    let half = f64::from(side) / 2.0;
+    let place = |x: u32, y: u32| [x, y].map(|v| f64::from(v) - half);
+    let position = |at: [f64; 2], distance: f64| seen_at(at, distance, side);
+    let cells = (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));
+    let wall = |x: u32, y: u32| {
+        let [x, y] = place(x, y);
+        let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
+        corners.map(|[right, down]| position([x + right, y + down], 5.0))
+    };
+    for (x, y) in cells {
+        stage.add_quad(1, wall(x, y));
+    }
+    let mut cosines = vec![1.0; (side * side) as usize];
+    for (x, y) in (2..side)
+        .step_by(3)
+        .flat_map(|y| (2..side).step_by(3).map(move |x| (x, y)))
+    {
+        let [left, top] = place(x, y);
+        let lifts = [0, 1, 2].map(|_| random.below(1000) as f64 * 3e-4);
+        let least = lifts.into_iter().fold(f64::INFINITY, f64::min);
+        let corners = [[0.6, 0.6], [0.9, 0.65], [0.7, 0.9]];
+        let corners = [0, 1, 2].map(|corner| {
+            let [right, down] = corners[corner];
+            position([left + right, top + down], 4.999 - lifts[corner] + least)
+        });
+        stage.add(0, corners);
+        let exact = |corner: [f32; 3]| DVec3::from(corner.map(f64::from));
+        let [a, b, c, _] = wall(x, y).map(exact);
+        cosines[(y * side + x) as usize] = cosine(corners.map(exact), [a, b, c], DVec3::ZERO);
+    }
+    (stage, cosines)
+}
+
+/// Checks that the superpixels are the pixels whose speck and wall are a fold, and none below 128 samples. `render` renders the
+/// specks in an image of `side` x `side` pixels.
+pub fn check_folds(side: u32, cosines: &[f64], mut render: impl FnMut(&Settings) -> Rendered) {
+    for samples in [64, 128] {
+        let settings = once([side; 2]).method(SuperpixelOptions::new(samples).growths(Some(0)));
+        let rendered = render(&settings);
+        let mut folds = 0;
+        for (pixel, (attributes, cosine)) in rendered.attributes.iter().zip(cosines).enumerate() {
+            let fold = samples >= 128 && *cosine < FOLD;
+            folds += u32::from(fold);
             assert!(
-                expected.contains(&folds),
-                "{samples} samples: {folds} folds"
+                (attributes.superpixel == 1) == fold || (cosine - FOLD).abs() < 0.01,
+                "{samples} samples, pixel {pixel}, cosine {cosine}"
             );
         }
+        let expected = if samples >= 128 { 100..350 } else { 0..1 };
+        assert!(
+            expected.contains(&folds),
+            "{samples} samples: {folds} folds"
+        );
+    }
+}
+
+#[test]
+fn specks_at_an_angle_to_the_wall_make_superpixels() {
+    on_gpu(|gpu| {
+        let (stage, cosines) = specks(64);
+        check_folds(64, &cosines, |settings| stage.render(gpu, settings));
     });
 }
 
