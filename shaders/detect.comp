@@ -3,9 +3,9 @@
 //   CONTRAST  has a contrasting colour, by display-encoded 8-bit codes
 //   EDGES     has a contrasting colour, and another triangle (opaque or the nearest BLEND one) or other shadows
 //   EXACT     has another triangle or other shadows
-// SECOND_DIFFERENCES: as CONTRAST, or if three pixels a, b, c of a row, a column or a diagonal of the 3 x 3 pixels around it have a
-// second difference |a - 2 b + c| above the threshold in some channel. Fine textures have such; a gradient, rounded to codes, has
-// not. Beyond the image's edge its pixels are repeated.
+// SECOND_DIFFERENCES: as CONTRAST, or if three pixels a, b, c of a row, a column or a diagonal of the 3 x 3 pixels around it have
+// a second difference |a - 2 b + c| above the threshold in some channel. Faint textures have one; a gradient that is rounded to
+// codes has none. Beyond the image's edge its pixels are repeated.
 // BLENDED: if the pixel itself shows a BLEND triangle. EVERY: always.
 // Twin: src/reference/detect.rs.
 // Reads: ids, blend_ids, display, marks, shadow words. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
@@ -115,11 +115,15 @@ void main() {
                 [[unroll]] for (int i = 1; i < 9; i++)
                     middles |= bends(code[i - 1], code[i], code[i + 1], alpha[i - 1], alpha[i], alpha[i + 1]) ? 1u << i : 0u;
                 above |= top_middles | above_middles | middles;
-                [[unroll]] for (int i = 0; i < 10; i++)
-                    above |= bends(top_code[i], above_code[i], code[i], top_alpha[i], above_alpha[i], alpha[i]) ? 7u << i >> 1 : 0u;
+                [[unroll]] for (int i = 0; i < 10; i++) {
+                    bool column = bends(top_code[i], above_code[i], code[i], top_alpha[i], above_alpha[i], alpha[i]);
+                    above |= column ? 7u << i >> 1 : 0u;
+                }
                 [[unroll]] for (int i = 1; i < 9; i++) {
-                    above |= bends(top_code[i - 1], above_code[i], code[i + 1], top_alpha[i - 1], above_alpha[i], alpha[i + 1]) ? 1u << i : 0u;
-                    above |= bends(top_code[i + 1], above_code[i], code[i - 1], top_alpha[i + 1], above_alpha[i], alpha[i - 1]) ? 1u << i : 0u;
+                    int left = i - 1, right = i + 1;
+                    bool falling = bends(top_code[left], above_code[i], code[right], top_alpha[left], above_alpha[i], alpha[right]);
+                    bool rising = bends(top_code[right], above_code[i], code[left], top_alpha[right], above_alpha[i], alpha[left]);
+                    above |= falling || rising ? 1u << i : 0u;
                 }
                 [[unroll]] for (int i = 0; i < 10; i++) { top_code[i] = above_code[i]; top_alpha[i] = above_alpha[i]; }
             }

@@ -8,7 +8,8 @@ const float FOLD = 0.5;             // cosine of the angle from which on two tri
 
 // The normal of a triangle on the side that the eye sees.
 vec3 facing_normal(Triangle k) {
-    vec3 a = position_of(k, vec3(1.0, 0.0, 0.0)), b = position_of(k, vec3(0.0, 1.0, 0.0)), c = position_of(k, vec3(0.0, 0.0, 1.0));
+    vec3 a = position_of(k, vec3(1.0, 0.0, 0.0));
+    vec3 b = position_of(k, vec3(0.0, 1.0, 0.0)), c = position_of(k, vec3(0.0, 0.0, 1.0));
     vec3 normal = unit_or(cross(b - a, c - a), vec3(0.0));
     vec3 ray = frame.view_direction.w != 0.0 ? frame.view_direction.xyz : a - frame.eye.xyz;
     return dot(normal, ray) > 0.0 ? -normal : normal;

@@ -15,7 +15,7 @@ const uint FEWER_PARTS = PART == 1u ? PARTS_PAIRS : PARTS_FOURS, SOME_PARTS = PA
 // error would rise more, and with more samples, too.
 const float PAIRED_RANGE = 12.0;
 
-// With so many samples or more, triangles are shaded once only where colours do not differ at all. Twin: `MANY_SAMPLES`.
+// With so many samples or more, triangles are shaded once only where colours do not differ at all.
 const uint MANY_SAMPLES = 128u;
 
 // Number of samples of a part.

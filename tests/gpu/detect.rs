@@ -325,8 +325,9 @@ fn unseen_wires_make_superpixels() {
     });
 }
 
-/// Specks that no centre sees stand on a wall, at random angles to it, in an image of `side` x `side` pixels. The wall consists of
-/// triangles as small as pixels. For each pixel there is the cosine of the angle between speck and wall; 1 without a speck.
+/// Specks that no centre sees stand on a wall, at random angles to it, in an image of `side` x `side` pixels. The wall
+/// consists of triangles as small as pixels. For each pixel there is the cosine of the angle between speck and wall; 1
+/// without a speck.
 pub fn specks(side: u32) -> (Stage, Vec<f64>) {
     let mut stage = Stage::new(vec![
         flat([1.0; 4], AlphaMode::Opaque),
@@ -366,8 +367,8 @@ pub fn specks(side: u32) -> (Stage, Vec<f64>) {
     (stage, cosines)
 }
 
-/// Checks that the superpixels are the pixels whose speck and wall are a fold, and none below 128 samples. `render` renders the
-/// specks in an image of `side` x `side` pixels.
+/// Checks that the superpixels are the pixels whose speck and wall are a fold, and none below 128 samples. `render`
+/// renders the specks in an image of `side` x `side` pixels.
 pub fn check_folds(side: u32, cosines: &[f64], mut render: impl FnMut(&Settings) -> Rendered) {
     for samples in [64, 128] {
         let settings = once([side; 2]).method(SuperpixelOptions::new(samples).growths(Some(0)));
