@@ -70,7 +70,8 @@ impl fmt::Display for MethodKind {
 #[non_exhaustive]
 pub enum Detection {
     /// A neighbour with a contrasting colour, on the same or another triangle. With growth, the resolved colour of a
-    /// neighbouring superpixel is compared as well.
+    /// neighbouring superpixel is compared as well. From 128 samples on, three pixels in a line, among the pixel and its
+    /// 8 neighbours, are enough if their colours have a second difference above the threshold.
     Contrast,
     /// A neighbour with another triangle and a contrasting colour: the rule with which the method was published.
     Edges,
