@@ -188,7 +188,7 @@ fn one_surface_contrasts_with_itself_unless_edges_are_asked_for() {
 fn textures_bend_and_gradients_do_not() {
     let codes = [10, 10, 11, 11, 12, 12, 13, 13, 14, 13, 14, 13];
     let (ids, blend_ids) = ([1; 12], [0; 12]);
-    let colours = codes.map(|code| 0xFF00_0000 | code * 0x01_0101);
+    let colours = codes.map(|code| 0xFF00_0000 | (code * 0x01_0101));
     let frame = DetectionImage::new(12, 1, &ids, &blend_ids, &colours).unwrap();
     assert_eq!(superpixels(&frame, Mode::Contrast(1)), [0, 0]);
     assert_eq!(superpixels(&frame, Mode::SecondDifferences(2)), [0, 0]);
