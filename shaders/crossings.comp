@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/fold.glsl"
 #include "include/locations.glsl"
 #include "include/pairs.glsl"
 #include "include/thin.glsl"
@@ -17,6 +18,7 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = CROSSINGS_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
+layout(constant_id = CROSSINGS_CONSTANT_FOLDS) const bool FOLDS = false;
 layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_LOADS) readonly buffer TileLocations { uint loads[]; };
 // A vector a location: (distance along the view direction as a float's bits, 0 for background; ID; ID of the nearest BLEND
 // triangle, 0 for none; number of its cell of the output, row by row).
@@ -48,7 +50,7 @@ float nearness_at(float distance_) { return frame.view_direction.w != 0.0 ? -dis
 
 vec3 projected(Corner v) { return vec3(v.at.xy / v.at.w, nearness_at(v.distance_)); }
 
-void mark(uint location, uint t, vec2 nearness, float cell_width) {
+void mark(uint location, uint t, vec2 nearness, float cell_width, vec3 normal) {
     uvec4 there = seen[location];
     float distance_ = uintBitsToFloat(there.x);
     bool parallel = frame.view_direction.w != 0.0;
@@ -56,6 +58,7 @@ void mark(uint location, uint t, vec2 nearness, float cell_width) {
     bool unseen = !BLEND_IDS || t < frame.first_blend || there.z != t + 1u;
     bool apart = nearness.x - behind > push.pixel * cell_width * (parallel ? 1.0 : nearness.x);
     bool painted = nearness.y >= behind && there.y != t + 1u;
+    if (FOLDS) apart = apart || (painted && is_fold(normal, there.y));
     if (unseen && (apart || painted)) {
         uvec2 cell = split(there.w, push.width), tile = cell / uvec2(8u, 4u), within = cell % uvec2(8u, 4u);
         uint word = (apart ? 0u : push.tiles.x * push.tiles.y) + tile.y * push.tiles.x + tile.x;
@@ -70,6 +73,7 @@ void main() {
     uint t = min(pair.x, frame.triangle_count - 1u), tile = min(pair_tile(pair), frame.tiles.x * frame.tiles.y - 1u);
     vec2 center = tile_center(ivec2(split(tile, frame.tiles.x)));
     Triangle k = triangle_at(t);
+    vec3 normal = FOLDS ? facing_normal(k) : vec3(0.0);
     Corner a = corner_of(k, k.v0, vec3(1.0, 0.0, 0.0), center);
     Corner b = corner_of(k, k.v1, vec3(0.0, 1.0, 0.0), center);
     Corner c = corner_of(k, k.v2, vec3(0.0, 0.0, 1.0), center);
@@ -117,7 +121,7 @@ void main() {
             both_of(span_of(q0, q1, -0.5, 0.5), span_of(q1, q2, -0.5, 0.5)),
             both_of(span_of(q2, q3, -0.5, 0.5), span_of(q3, q0, -0.5, 0.5)));
         bool crosses = n < end && area != 0.0 && height < THIN && height > 0.0 && span.x < 0.5 && span.y >= -0.5;
-        if (crosses) mark(location, t, span.zw, sqrt(abs(area)));
+        if (crosses) mark(location, t, span.zw, sqrt(abs(area)), normal);
         n += INVOCATIONS_OF_PAIR;
     } while (n < end);
 }

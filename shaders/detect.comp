@@ -3,6 +3,9 @@
 //   CONTRAST  has a contrasting colour, by display-encoded 8-bit codes
 //   EDGES     has a contrasting colour, and another triangle (opaque or the nearest BLEND one) or other shadows
 //   EXACT     has another triangle or other shadows
+// SECOND_DIFFERENCES: as CONTRAST, or if three pixels a, b, c of a row, a column or a diagonal of the 3 x 3 pixels around it have
+// a second difference |a - 2 b + c| above the threshold in some channel. Faint textures have one; a gradient that is rounded to
+// codes has none. Beyond the image's edge its pixels are repeated.
 // BLENDED: if the pixel itself shows a BLEND triangle. EVERY: always.
 // Twin: src/reference/detect.rs.
 // Reads: ids, blend_ids, display, marks, shadow words. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
@@ -38,7 +41,12 @@ bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint shadow_a, ui
     bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b) || shadow_a != shadow_b;
     if (MODE == DETECT_EXACT) return other;
     bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
-    return contrast && (MODE == DETECT_CONTRAST || other);
+    return contrast && (MODE != DETECT_EDGES || other);
+}
+
+// Whether three pixels in a line have a second difference above the threshold.
+bool bends(uint color_a, uint color_b, uint color_c, int alpha_a, int alpha_b, int alpha_c) {
+    return bending(color_a, color_b, color_c) || (TRANSPARENT && abs(alpha_a - 2 * alpha_b + alpha_c) > int(frame.contrast));
 }
 
 void main() {
@@ -61,7 +69,11 @@ void main() {
     } else {
         uint id[10], blend[10], shadow[10], code[10], above_id[10], above_blend[10], above_shadow[10], above_code[10];
         int alpha[10], above_alpha[10];
+        // SECOND_DIFFERENCES: the row above that one, and the middle pixels of lines along the last rows.
+        uint top_code[10], middles = 0u, above_middles = 0u, top_middles = 0u;
+        int top_alpha[10];
         [[unroll]] for (int i = 0; i < 10; i++) {
+            top_code[i] = 0u; top_alpha[i] = 0;
             above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; shadow[i] = 0u; above_shadow[i] = 0u; above_alpha[i] = 0;
         }
         // The tile's rows, with one above and one below. The results of the first two trips are shifted out of the word. ROLLED,
@@ -94,6 +106,26 @@ void main() {
                 bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_shadow[i + 1], shadow[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
                 row |= rising ? 1u << i : 0u;
                 above |= rising ? 2u << i : 0u;
+            }
+            if (MODE == DETECT_SECOND_DIFFERENCES) {
+                // Lines through the row above, which has its neighbours now.
+                top_middles = above_middles;
+                above_middles = middles;
+                middles = 0u;
+                [[unroll]] for (int i = 1; i < 9; i++)
+                    middles |= bends(code[i - 1], code[i], code[i + 1], alpha[i - 1], alpha[i], alpha[i + 1]) ? 1u << i : 0u;
+                above |= top_middles | above_middles | middles;
+                [[unroll]] for (int i = 0; i < 10; i++) {
+                    bool column = bends(top_code[i], above_code[i], code[i], top_alpha[i], above_alpha[i], alpha[i]);
+                    above |= column ? 7u << i >> 1 : 0u;
+                }
+                [[unroll]] for (int i = 1; i < 9; i++) {
+                    int left = i - 1, right = i + 1;
+                    bool falling = bends(top_code[left], above_code[i], code[right], top_alpha[left], above_alpha[i], alpha[right]);
+                    bool rising = bends(top_code[right], above_code[i], code[left], top_alpha[right], above_alpha[i], alpha[left]);
+                    above |= falling || rising ? 1u << i : 0u;
+                }
+                [[unroll]] for (int i = 0; i < 10; i++) { top_code[i] = above_code[i]; top_alpha[i] = above_alpha[i]; }
             }
             word = word >> 8 | ((previous_row | above) >> 1 & 255u) << 24;
             if (THIN) {

@@ -10,12 +10,13 @@
 // On a dense mesh, small triangles lie within the surface of their neighbours, and mark nothing.
 // If a triangle lies close to a surface, like paint on a road, depths do not tell which is nearer. Pixels where some of it may be
 // nearer get marks of another kind, and become superpixels only if `detect` finds them amid another triangle.
-// FOLDS: such a pixel is also marked if the triangle lies at an angle to the one at the pixel's centre, like the tread of a small
-// step. Light differs on the two. Twin: src/reference/thin.rs.
+// FOLDS: such a pixel is also marked if the triangle and the one at the pixel's centre are a fold, like the tread and the riser
+// of a small step. Light differs on the two. Twin: src/reference/thin.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/fold.glsl"
 #include "include/survivors.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
@@ -28,7 +29,6 @@ layout(constant_id = THIN_CONSTANT_FOLDS) const bool FOLDS = false;
 layout(set = SET_DATA, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
 const float LONG = 64.0;            // in pixels: longer triangles are followed by a workgroup, not an invocation
-const float FOLD = 0.5;             // cosine of the angle between two triangles from which on they are a fold
 layout(push_constant) uniform Push {
     uint long_;             // 1: follows the long triangles, not the short ones
     float depth_factor;     // raster's depth * depth_factor + depth_constant = depth of triangles
@@ -55,14 +55,6 @@ void select_thin() {
     list_survivors(first, uvec2(short_, long_), uvec2(COUNTER_THIN, COUNTER_THIN_LONG));
 }
 
-// The normal of a triangle on the side that the eye sees.
-vec3 facing_normal(Triangle k) {
-    vec3 a = position_of(k, vec3(1.0, 0.0, 0.0)), b = position_of(k, vec3(0.0, 1.0, 0.0)), c = position_of(k, vec3(0.0, 0.0, 1.0));
-    vec3 normal = unit_or(cross(b - a, c - a), vec3(0.0));
-    vec3 ray = frame.view_direction.w != 0.0 ? frame.view_direction.xyz : a - frame.eye.xyz;
-    return dot(normal, ray) > 0.0 ? -normal : normal;
-}
-
 // Marks a pixel if triangle `t` is not seen there and passes the tests above. `depths`: the triangle's farthest and nearest depth
 // there; `normal`: its normal.
 void mark(ivec2 pixel, uint t, vec2 depths, vec3 normal) {
@@ -71,11 +63,7 @@ void mark(ivec2 pixel, uint t, vec2 depths, vec3 normal) {
     bool unseen = !BLEND_IDS || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = depths.x - seen > frame.gap.x * depths.x + frame.gap.y;
     bool painted = depths.y >= seen && id_at(pixel) != t + 1u;
-    if (FOLDS) {
-        uint id = id_at(pixel);
-        vec3 seen_normal = facing_normal(triangle_at(max(id, 1u) - 1u));
-        apart = apart || (painted && id != 0u && dot(normal, seen_normal) < FOLD);
-    }
+    if (FOLDS) apart = apart || (painted && is_fold(normal, id_at(pixel)));
     if (unseen && depths.y <= 1.0 && (apart || painted)) {
         uvec2 tile = uvec2(pixel) / uvec2(8u, 4u), within = uvec2(pixel) % uvec2(8u, 4u);
         uint word = (apart ? 0u : frame.tiles.x * frame.tiles.y) + tile.y * frame.tiles.x + tile.x;

@@ -638,6 +638,7 @@ pub mod crossings_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crossings {
     pub blend_ids: bool,
+    pub folds: bool,
     pub occluders: bool,
     pub instanced: bool,
 }
@@ -646,6 +647,7 @@ impl Default for Crossings {
     fn default() -> Self {
         Self {
             blend_ids: false,
+            folds: false,
             occluders: false,
             instanced: false,
         }
@@ -680,6 +682,7 @@ impl Specialized for Crossings {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(1, self.blend_ids)
+            .flag(2, self.folds)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
     }
@@ -3191,6 +3194,7 @@ pub const DETECT_EDGES: u32 = 1;
 pub const DETECT_EXACT: u32 = 2;
 pub const DETECT_BLENDED: u32 = 3;
 pub const DETECT_EVERY: u32 = 4;
+pub const DETECT_SECOND_DIFFERENCES: u32 = 5;
 pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;

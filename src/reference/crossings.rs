@@ -126,11 +126,12 @@ impl PinholeView {
 }
 
 impl Crossing {
-    /// Effect on a cell that shows something at the nearness `behind`.
+    /// Effect on a cell that shows something at the nearness `behind`. `fold` says whether the triangle lies at an angle to
+    /// it: see [`FOLD`](super::thin::FOLD).
     #[must_use]
-    pub fn mark(&self, behind: f64) -> Mark {
+    pub fn mark(&self, behind: f64, fold: bool) -> Mark {
         let [farthest, nearest] = self.nearness;
-        if farthest - behind > self.gap {
+        if farthest - behind > self.gap || (fold && nearest >= behind) {
             Mark::Apart
         } else if nearest >= behind {
             Mark::Painted
@@ -226,16 +227,28 @@ mod tests {
         for side in [0.5, 1.0, 3.0] {
             let crossing =
                 view().crossing(wire.map(DVec3::from_array), &location([10.0, 10.0], side));
-            let at = |widths: f64| {
+            let at = |widths: f64, fold: bool| {
                 crossing
                     .unwrap()
-                    .mark(view().behind(2.0 + 0.2 * side * widths))
+                    .mark(view().behind(2.0 + 0.2 * side * widths), fold)
             };
-            let marks = [at(1.6), at(0.5), at(-0.5)];
-            assert_eq!(marks, [Mark::Apart, Mark::Painted, Mark::None], "{side}");
+            let marks = |fold: bool| [at(1.6, fold), at(0.5, fold), at(-0.5, fold)];
+            assert_eq!(
+                marks(false),
+                [Mark::Apart, Mark::Painted, Mark::None],
+                "{side}"
+            );
+            assert_eq!(
+                marks(true),
+                [Mark::Apart, Mark::Apart, Mark::None],
+                "{side}"
+            );
         }
         let crossing = view().crossing(wire.map(DVec3::from_array), &location([10.0, 10.0], 1.0));
-        assert_eq!(crossing.unwrap().mark(view().behind(0.0)), Mark::Apart);
+        assert_eq!(
+            crossing.unwrap().mark(view().behind(0.0), false),
+            Mark::Apart
+        );
     }
 
     /// A wire from far ahead to behind the eye is as thin as its visible part.

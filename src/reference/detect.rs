@@ -1,7 +1,8 @@
 //! Detection: which pixels alias and become superpixels.
 //!
 //! A pixel is a superpixel if any of its 8 neighbours inside the image differs in colour; with [`Mode::Edges`], only
-//! if that neighbour shows another surface too. Two pixels show different surfaces if the IDs of their nearest opaque
+//! if that neighbour shows another surface too. With [`Mode::SecondDifferences`], colours around it that bend make it one,
+//! too. Two pixels show different surfaces if the IDs of their nearest opaque
 //! triangles differ, or the IDs of their nearest blended triangles. Colours are compared as displayed, channel by
 //! channel and including alpha, because alpha alone distinguishes a black object from a transparent background.
 
@@ -23,6 +24,9 @@ pub enum Mode {
     Edges(u8),
     /// Another surface with any colour.
     Exact,
+    /// Another colour, or three pixels a, b, c of a row, a column or a diagonal of the 3 x 3 pixels around the pixel whose
+    /// second difference |a - 2 b + c| exceeds the threshold. Beyond the image's edge its pixels are repeated.
+    SecondDifferences(u8),
 }
 
 /// Image as detection reads it, rows from the top.
@@ -95,10 +99,34 @@ impl<'a> DetectionImage<'a> {
             pairs.any(|(a, b)| a.abs_diff(b) > threshold)
         };
         match mode {
-            Mode::Contrast(threshold) => colour(threshold),
+            Mode::Contrast(threshold) | Mode::SecondDifferences(threshold) => colour(threshold),
             Mode::Edges(threshold) => surface() && colour(threshold),
             Mode::Exact => surface(),
         }
+    }
+
+    /// Whether three pixels in a line among the 3 x 3 around a pixel have a second difference above a threshold.
+    fn bends(&self, [x, y]: [u32; 2], threshold: u8) -> bool {
+        const LINES: [[[i32; 2]; 3]; 8] = [
+            [[-1, -1], [0, -1], [1, -1]],
+            [[-1, 0], [0, 0], [1, 0]],
+            [[-1, 1], [0, 1], [1, 1]],
+            [[-1, -1], [-1, 0], [-1, 1]],
+            [[0, -1], [0, 0], [0, 1]],
+            [[1, -1], [1, 0], [1, 1]],
+            [[-1, -1], [0, 0], [1, 1]],
+            [[1, -1], [0, 0], [-1, 1]],
+        ];
+        let channels = |[dx, dy]: [i32; 2]| {
+            let x = x.saturating_add_signed(dx).min(self.width - 1);
+            let y = y.saturating_add_signed(dy).min(self.height - 1);
+            let code = self.colours[y as usize * self.width as usize + x as usize];
+            code.to_le_bytes().map(i32::from)
+        };
+        LINES.into_iter().any(|line| {
+            let [a, b, c] = line.map(channels);
+            (0..4).any(|i| (a[i] - 2 * b[i] + c[i]).abs() > i32::from(threshold))
+        })
     }
 }
 
@@ -125,6 +153,11 @@ pub fn superpixels(frame: &DetectionImage<'_>, mode: Mode) -> Vec<u32> {
                 mark(x, y);
                 mark(nx, ny);
             }
+        }
+        if let Mode::SecondDifferences(threshold) = mode
+            && frame.bends([x, y], threshold)
+        {
+            mark(x, y);
         }
     }
     mask

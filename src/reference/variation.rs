@@ -29,16 +29,20 @@ pub enum ShadedParts {
 /// With 65 to 256 samples, largest difference of code values with which parts are merged in pairs.
 const PAIRED_RANGE: u32 = 12;
 
+/// Number of samples from which on a triangle is shaded once only where the colours do not differ.
+const MANY_SAMPLES: u32 = 128;
+
 /// Parts in which `triangle` is shaded, in a superpixel of `samples` samples.
 ///
 /// Two triangles around the pixel are examined: that of its centre, and the first other one. The rules are, in order:
 ///
 /// - If 4 or more centres see the triangle and their colours differ by at most a quarter of `alike` code values, it is
 ///   shaded once.
-/// - Otherwise, if 3 or more centres see its material, the difference of their colours decides: up to `alike`, it is
-///   shaded once; up to four times that, in parts merged in fours; above, in all parts. All parts are merged in pairs
-///   if the triangle's own colours differ by at most a quarter of `alike`, though only 2 or 3 centres see it. With 65
-///   to 256 samples, they are also merged in pairs if the material's colours differ by at most 12.
+/// - Otherwise, if 3 or more centres see its material, the difference of their colours decides: up to `alike`, or from
+///   128 samples on up to 0, it is shaded once; up to four times `alike`, in parts merged in fours; above, in all parts.
+///   All parts are merged in pairs if the triangle's own colours differ by at most a quarter of `alike`, though only 2
+///   or 3 centres see it. With 65 to 256 samples, they are also merged in pairs if the material's colours differ by at
+///   most 12.
 /// - If fewer centres see it, or the triangle is neither of the two and has neither of their materials, parts are
 ///   merged in pairs.
 ///
@@ -79,7 +83,7 @@ pub fn parts(
         return ShadedParts::Pairs;
     }
     match range(around, seen) {
-        range if range <= alike => ShadedParts::One,
+        range if range <= if samples < MANY_SAMPLES { alike } else { 0 } => ShadedParts::One,
         range if range <= 4 * alike => ShadedParts::Fours,
         _ if even => ShadedParts::Pairs,
         range if alike != 0 && (65..=256).contains(&samples) && range <= PAIRED_RANGE => {

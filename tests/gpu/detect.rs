@@ -193,6 +193,73 @@ fn masks_of_blended_scenes_are_the_twins() {
     });
 }
 
+/// Squares as large as pixels, whose colours or alphas differ at random.
+fn squares(seed: u64, size: [u32; 2], alpha_mode: AlphaMode) -> Stage {
+    let mut random = Random::new(seed);
+    let mut stage = Stage::new(vec![flat([1.0; 4], alpha_mode)]);
+    let half = size.map(|side| f64::from(side) / 2.0);
+    for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+        let [left, top] = [f64::from(x) - half[0], f64::from(y) - half[1]];
+        let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
+        let place = |[right, down]: [f64; 2]| seen_at([left + right, top + down], 1.0, size[1]);
+        let first = stage.triangles.len();
+        stage.add_quad(0, corners.map(place));
+        let mut code = || 100 + (random.below(20) == 0) as u8 * random.below(10) as u8;
+        let color = if alpha_mode == AlphaMode::Blend {
+            [0.0, 0.0, 0.0, f32::from(code()) / 255.0]
+        } else {
+            let [r, g, b] = [code(), code(), code()].map(|code| decode_u8(code) as f32);
+            [r, g, b, 1.0]
+        };
+        for triangle in &mut stage.triangles[first..] {
+            triangle.color = color;
+        }
+    }
+    stage
+}
+
+/// From 128 samples on, second differences count as well, but not with detection of edges.
+#[test]
+fn masks_of_second_differences_are_the_twins() {
+    on_gpu(|gpu| {
+        for (seed, size) in SIZES.into_iter().enumerate() {
+            for alpha_mode in [AlphaMode::Opaque, AlphaMode::Blend] {
+                let stage = squares(seed as u64, size, alpha_mode);
+                let base = stage.render(gpu, &once(size));
+                let (codes, doubtful) = codes(&base);
+                assert!(!doubtful.contains(&true));
+                let ids = ids(&base);
+                let blend = vec![0; ids.len()];
+                let mut render = |samples, detection| {
+                    let options = SuperpixelOptions::new(samples)
+                        .growths(Some(0))
+                        .thin(false)
+                        .contrast(Some(6))
+                        .detection(detection);
+                    stage.render(gpu, &once(size).method(options))
+                };
+                let mut sums = Vec::new();
+                for (samples, mode) in [(127, Mode::Contrast(6)), (128, Mode::SecondDifferences(6))]
+                {
+                    let rendered = render(samples, Detection::Contrast);
+                    let found = rendered
+                        .attributes
+                        .iter()
+                        .map(|pixel| pixel.superpixel == 1);
+                    assert!(
+                        found.eq(expected(size, &ids, &blend, &codes, mode)),
+                        "{size:?}, {alpha_mode:?}, {mode:?}"
+                    );
+                    sums.push(rendered.statistics.superpixels);
+                }
+                let edges = render(128, Detection::Edges).statistics.superpixels;
+                assert!(edges <= sums[0], "{edges}, {sums:?}");
+                assert!(size[0] < 37 || sums[0] < sums[1], "{sums:?}");
+            }
+        }
+    });
+}
+
 /// Alpha alone distinguishes a black surface from a transparent background.
 #[test]
 fn black_contrasts_with_a_transparent_background() {
@@ -258,67 +325,76 @@ fn unseen_wires_make_superpixels() {
     });
 }
 
-/// Specks that no centre sees stand on a wall, at random angles to it. The wall consists of triangles as small as pixels. From
-/// 128 samples on, the superpixels are the pixels whose speck and wall are a fold.
-#[test]
-fn specks_at_an_angle_to_the_wall_make_superpixels() {
-    const SIDE: u32 = 64;
-    on_gpu(|gpu| {
-        let mut stage = Stage::new(vec![
-            flat([1.0; 4], AlphaMode::Opaque),
-            flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-        ]);
-        let mut random = Random::new(5);
-        let half = f64::from(SIDE) / 2.0;
-        let place = |x: u32, y: u32| [x, y].map(|v| f64::from(v) - half);
-        let position = |at: [f64; 2], distance: f64| seen_at(at, distance, SIDE);
-        let cells = (0..=SIDE).flat_map(|y| (0..=SIDE).map(move |x| (x, y)));
-        let wall = |x: u32, y: u32| {
-            let [x, y] = place(x, y);
-            let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
-            corners.map(|[right, down]| position([x + right, y + down], 5.0))
-        };
-        for (x, y) in cells {
-            stage.add_quad(1, wall(x, y));
-        }
-        let mut cosines = vec![1.0; (SIDE * SIDE) as usize];
-        for (x, y) in (2..SIDE)
-            .step_by(3)
-            .flat_map(|y| (2..SIDE).step_by(3).map(move |x| (x, y)))
-        {
-            let [left, top] = place(x, y);
-            let lifts = [0, 1, 2].map(|_| random.below(1000) as f64 * 3e-4);
-            let least = lifts.into_iter().fold(f64::INFINITY, f64::min);
-            let corners = [[0.6, 0.6], [0.9, 0.65], [0.7, 0.9]];
-            let corners = [0, 1, 2].map(|corner| {
-                let [right, down] = corners[corner];
-                position([left + right, top + down], 4.999 - lifts[corner] + least)
-            });
-            stage.add(0, corners);
-            let exact = |corner: [f32; 3]| DVec3::from(corner.map(f64::from));
-            let [a, b, c, _] = wall(x, y).map(exact);
-            cosines[(y * SIDE + x) as usize] = cosine(corners.map(exact), [a, b, c], DVec3::ZERO);
-        }
-        for samples in [64, 128] {
-            let settings = once([SIDE; 2]).method(SuperpixelOptions::new(samples).growths(Some(0)));
-            let rendered = stage.render(gpu, &settings);
-            let mut folds = 0;
-            for (pixel, (attributes, cosine)) in
-                rendered.attributes.iter().zip(&cosines).enumerate()
-            {
-                let fold = samples >= 128 && *cosine < FOLD;
-                folds += u32::from(fold);
-                assert!(
-                    (attributes.superpixel == 1) == fold || (cosine - FOLD).abs() < 0.01,
-                    "{samples} samples, pixel {pixel}, cosine {cosine}"
-                );
-            }
-            let expected = if samples >= 128 { 100..350 } else { 0..1 };
+/// Specks that no centre sees stand on a wall, at random angles to it, in an image of `side` x `side` pixels. The wall
+/// consists of triangles as small as pixels. For each pixel there is the cosine of the angle between speck and wall; 1
+/// without a speck.
+pub fn specks(side: u32) -> (Stage, Vec<f64>) {
+    let mut stage = Stage::new(vec![
+        flat([1.0; 4], AlphaMode::Opaque),
+        flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
+    ]);
+    let mut random = Random::new(5);
+    let half = f64::from(side) / 2.0;
+    let place = |x: u32, y: u32| [x, y].map(|v| f64::from(v) - half);
+    let position = |at: [f64; 2], distance: f64| seen_at(at, distance, side);
+    let cells = (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));
+    let wall = |x: u32, y: u32| {
+        let [x, y] = place(x, y);
+        let corners = [[-0.1, -0.3], [-0.1, 0.7], [0.9, 0.7], [0.9, -0.3]];
+        corners.map(|[right, down]| position([x + right, y + down], 5.0))
+    };
+    for (x, y) in cells {
+        stage.add_quad(1, wall(x, y));
+    }
+    let mut cosines = vec![1.0; (side * side) as usize];
+    for (x, y) in (2..side)
+        .step_by(3)
+        .flat_map(|y| (2..side).step_by(3).map(move |x| (x, y)))
+    {
+        let [left, top] = place(x, y);
+        let lifts = [0, 1, 2].map(|_| random.below(1000) as f64 * 3e-4);
+        let least = lifts.into_iter().fold(f64::INFINITY, f64::min);
+        let corners = [[0.6, 0.6], [0.9, 0.65], [0.7, 0.9]];
+        let corners = [0, 1, 2].map(|corner| {
+            let [right, down] = corners[corner];
+            position([left + right, top + down], 4.999 - lifts[corner] + least)
+        });
+        stage.add(0, corners);
+        let exact = |corner: [f32; 3]| DVec3::from(corner.map(f64::from));
+        let [a, b, c, _] = wall(x, y).map(exact);
+        cosines[(y * side + x) as usize] = cosine(corners.map(exact), [a, b, c], DVec3::ZERO);
+    }
+    (stage, cosines)
+}
+
+/// Checks that the superpixels are the pixels whose speck and wall are a fold, and none below 128 samples. `render`
+/// renders the specks in an image of `side` x `side` pixels.
+pub fn check_folds(side: u32, cosines: &[f64], mut render: impl FnMut(&Settings) -> Rendered) {
+    for samples in [64, 128] {
+        let settings = once([side; 2]).method(SuperpixelOptions::new(samples).growths(Some(0)));
+        let rendered = render(&settings);
+        let mut folds = 0;
+        for (pixel, (attributes, cosine)) in rendered.attributes.iter().zip(cosines).enumerate() {
+            let fold = samples >= 128 && *cosine < FOLD;
+            folds += u32::from(fold);
             assert!(
-                expected.contains(&folds),
-                "{samples} samples: {folds} folds"
+                (attributes.superpixel == 1) == fold || (cosine - FOLD).abs() < 0.01,
+                "{samples} samples, pixel {pixel}, cosine {cosine}"
             );
         }
+        let expected = if samples >= 128 { 100..350 } else { 0..1 };
+        assert!(
+            expected.contains(&folds),
+            "{samples} samples: {folds} folds"
+        );
+    }
+}
+
+#[test]
+fn specks_at_an_angle_to_the_wall_make_superpixels() {
+    on_gpu(|gpu| {
+        let (stage, cosines) = specks(64);
+        check_folds(64, &cosines, |settings| stage.render(gpu, settings));
     });
 }
 

@@ -18,6 +18,9 @@ pub(crate) enum DetectMode {
     Blended = spirv::DETECT_BLENDED,
     /// Every pixel is a superpixel.
     Every = spirv::DETECT_EVERY,
+    /// A neighbour with a contrasting colour, or three pixels in a line, around the pixel, whose colours have a second
+    /// difference above the threshold.
+    SecondDifferences = spirv::DETECT_SECOND_DIFFERENCES,
 }
 
 /// Options of the pass.

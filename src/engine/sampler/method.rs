@@ -70,7 +70,8 @@ impl fmt::Display for MethodKind {
 #[non_exhaustive]
 pub enum Detection {
     /// A neighbour with a contrasting colour, on the same or another triangle. With growth, the resolved colour of a
-    /// neighbouring superpixel is compared as well.
+    /// neighbouring superpixel is compared as well. From 128 samples on, three pixels in a line, among the pixel and its
+    /// 8 neighbours, are enough if their colours have a second difference above the threshold.
     Contrast,
     /// A neighbour with another triangle and a contrasting colour: the rule with which the method was published.
     Edges,
@@ -180,9 +181,9 @@ impl SuperpixelOptions {
     /// Largest number of growths. Each growth records further rounds.
     pub const MOST_GROWTHS: u8 = 8;
 
-    /// Number of samples from which on more pixels become superpixels: by a lower contrast, more growths, and thin
-    /// triangles at an angle to the surface around them.
-    pub(crate) const MANY_SAMPLES: u32 = 128;
+    /// Number of samples from which on more pixels become superpixels: by a lower contrast, second differences of
+    /// colours, more growths, and thin triangles at an angle to the surface around them.
+    const MANY_SAMPLES: u32 = 128;
 
     /// Default options with `samples` samples of a superpixel.
     #[must_use]
@@ -219,6 +220,11 @@ impl SuperpixelOptions {
             }
             _ => 0,
         }
+    }
+
+    /// Whether superpixels have so many samples that more pixels become superpixels.
+    pub(crate) fn has_many_samples(&self) -> bool {
+        self.cells.samples >= Self::MANY_SAMPLES
     }
 
     /// Contrast threshold in code values: two colours contrast if any channel differs by more.

@@ -34,8 +34,9 @@ pub(crate) struct PixelCells {
 
 impl DetectMode {
     /// Rule of `detect` for a setting.
-    pub(crate) fn of(detection: Detection) -> Self {
-        match detection {
+    pub(crate) fn of(options: &SuperpixelOptions) -> Self {
+        match options.detection {
+            Detection::Contrast if options.has_many_samples() => Self::SecondDifferences,
             Detection::Contrast => Self::Contrast,
             Detection::Edges => Self::Edges,
             Detection::Exact => Self::Exact,
@@ -48,9 +49,9 @@ impl PixelCells {
     /// Superpixels with these options.
     pub fn superpixels(options: &SuperpixelOptions) -> Self {
         Self {
-            mode: DetectMode::of(options.detection),
+            mode: DetectMode::of(options),
             thin: options.thin && options.detection != Detection::Every,
-            folds: options.cells.samples >= SuperpixelOptions::MANY_SAMPLES,
+            folds: options.has_many_samples(),
             depth_of_image: [1.0, 0.0],
             blend_ids: true,
             multisampled: false,

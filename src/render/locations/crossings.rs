@@ -28,7 +28,8 @@ pub(super) struct CrossingFinder {
 }
 
 impl CrossingFinder {
-    /// Makes the pipelines, and memory for the runs of a plan. Cells of `output` that are crossed are marked in `marks`.
+    /// Makes the pipelines, and memory for the runs of a plan. Cells of `output` that are crossed are marked in `marks`; with
+    /// `folds` also those in which a thin triangle lies at an angle to the surface that the location sees.
     ///
     /// # Safety
     /// `marks` outlives the execution of what is recorded, and has two words for each tile of the output.
@@ -38,6 +39,7 @@ impl CrossingFinder {
         settings: &ListSettings,
         plan: &LocationPlan,
         (output, marks): (MarkedOutput, &Buffer),
+        folds: bool,
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let offsets = Offsets {
@@ -63,7 +65,7 @@ impl CrossingFinder {
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
             crossings: unsafe {
-                crossings::pass(layout, scene, resources, (&seen, marks), output)
+                crossings::pass(layout, scene, resources, (&seen, marks), output, folds)
             }?,
             seen,
             counters: CounterLog::new(&run.memory, 1)?,

@@ -186,11 +186,13 @@ impl Headless {
             pixel: pixel_width(pinhole) as f32,
         };
         let marks = &detector.resources.marks;
+        let folds = detector.settings.superpixels().has_many_samples();
         let make = |capacity| {
             let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
             // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-            let finder =
-                unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks)) }?;
+            let finder = unsafe {
+                CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks), folds)
+            }?;
             Ok((plan, finder))
         };
         let first = band.seen.start * width;
@@ -304,7 +306,7 @@ impl BandDetector {
         let superpixels = settings.superpixels();
         let growths = superpixels.growth_count();
         let options = DetectOptions {
-            mode: DetectMode::of(superpixels.detection),
+            mode: DetectMode::of(&superpixels),
             blend_ids: scene.has_blend(),
             thin: superpixels.thin,
             transparent: true,

@@ -26,7 +26,8 @@ pub struct SeenLocation {
 pub use crate::engine::spirv::CrossingsPush as MarkedOutput;
 
 /// Marks crossed cells for `detect`, which makes them superpixels, after `bin` for lists of locations in a scene. `seen` has a
-/// [`SeenLocation`] for each location; cells of `output` are marked in `marks`, two words for each of its tiles.
+/// [`SeenLocation`] for each location; cells of `output` are marked in `marks`, two words for each of its tiles. `folds` says
+/// whether cells are marked in which a thin triangle lies at an angle to the surface that the location sees.
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
@@ -39,6 +40,7 @@ pub(crate) unsafe fn pass(
     resources: &Resources,
     (seen, marks): (&Buffer, &Buffer),
     output: MarkedOutput,
+    folds: bool,
 ) -> Result<Pass, VulkanError> {
     let shown = [
         (crossings_set::LOADS, (&resources.locations.loads).into()),
@@ -47,6 +49,7 @@ pub(crate) unsafe fn pass(
     ];
     let crossings = layout.kernel(&spirv::Crossings {
         blend_ids: scene.has_blend(),
+        folds,
         occluders: false,
         instanced: scene.is_instanced(),
     })?;

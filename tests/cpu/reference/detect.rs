@@ -48,6 +48,10 @@ impl Image {
 
     /// Whether a pixel is a superpixel by definition.
     fn is_superpixel(&self, x: i64, y: i64, mode: Mode) -> bool {
+        if let Mode::SecondDifferences(threshold) = mode {
+            return self.is_superpixel(x, y, Mode::Contrast(threshold))
+                || self.bends(x, y, threshold);
+        }
         let at = |x: i64, y: i64| (y * i64::from(self.width) + x) as usize;
         let inside = |x: i64, y: i64| {
             (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y)
@@ -74,8 +78,33 @@ impl Image {
                     Mode::Contrast(threshold) => largest > i64::from(threshold),
                     Mode::Edges(threshold) => other && largest > i64::from(threshold),
                     Mode::Exact => other,
+                    Mode::SecondDifferences(_) => unreachable!("see above"),
                 }
             })
+    }
+
+    /// Whether three pixels in a line, among the 9 around a pixel, have a second difference above the threshold.
+    fn bends(&self, x: i64, y: i64, threshold: u8) -> bool {
+        let (right, bottom) = (i64::from(self.width) - 1, i64::from(self.height) - 1);
+        let code = |x: i64, y: i64, channel: u32| {
+            let pixel = y.clamp(0, bottom) * i64::from(self.width) + x.clamp(0, right);
+            i64::from(self.colours[pixel as usize] >> (8 * channel) & 255)
+        };
+        // Every line has its middle in the 9 pixels, and its ends beside the middle on both sides.
+        let steps = [(1, 0), (0, 1), (1, 1), (1, -1)];
+        let middles = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)));
+        let lines = middles.flat_map(|middle| steps.map(|step| (middle, step)));
+        let mut within = lines.filter(|((mx, my), (dx, dy))| {
+            [mx - dx, my - dy, mx + dx, my + dy]
+                .iter()
+                .all(|place: &i64| place.abs() <= 1)
+        });
+        within.any(|((mx, my), (dx, dy))| {
+            (0..4).any(|channel| {
+                let at = |side: i64| code(x + mx + side * dx, y + my + side * dy, channel);
+                (at(-1) - 2 * at(0) + at(1)).abs() > i64::from(threshold)
+            })
+        })
     }
 }
 
@@ -88,8 +117,9 @@ fn mask_is_the_definition() {
         Mode::Contrast(255),
         Mode::Exact,
         Mode::Edges(12),
+        Mode::SecondDifferences(12),
     ];
-    let mut found = [[0_u32; 2]; 5];
+    let mut found = [[0_u32; 2]; 6];
     for (width, height) in [
         (1, 1),
         (1, 9),
@@ -151,6 +181,19 @@ fn one_surface_contrasts_with_itself_unless_edges_are_asked_for() {
     assert_eq!(mask([1, 1], Mode::Edges(12)), [0]);
     assert_eq!(mask([1, 2], Mode::Edges(12)), [3]);
     assert_eq!(mask([1, 1], Mode::Exact), [0]);
+}
+
+/// A gradient rises by one code every other pixel. A texture alternates between two codes at the end of the row.
+#[test]
+fn textures_bend_and_gradients_do_not() {
+    let codes = [10, 10, 11, 11, 12, 12, 13, 13, 14, 13, 14, 13];
+    let (ids, blend_ids) = ([1; 12], [0; 12]);
+    let colours = codes.map(|code| 0xFF00_0000 | (code * 0x01_0101));
+    let frame = DetectionImage::new(12, 1, &ids, &blend_ids, &colours).unwrap();
+    assert_eq!(superpixels(&frame, Mode::Contrast(1)), [0, 0]);
+    assert_eq!(superpixels(&frame, Mode::SecondDifferences(2)), [0, 0]);
+    // The pixels 8 to 10 are the middles of lines that bend.
+    assert_eq!(superpixels(&frame, Mode::SecondDifferences(1)), [0, 0b111]);
 }
 
 #[test]

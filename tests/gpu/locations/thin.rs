@@ -3,12 +3,13 @@
 use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
 use gpc::reference::crossings::{Mark, PinholeView};
+use gpc::reference::thin::{FOLD, cosine};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
 use super::{pinhole, planar};
-use crate::detect::wires;
+use crate::detect::{check_folds, specks, wires};
 use crate::meshes::Random;
 use crate::stage::{Stage, camera, flat, on_gpu, seen_at};
 
@@ -178,6 +179,18 @@ fn dense_meshes_make_no_superpixels() {
     });
 }
 
+#[test]
+fn specks_at_an_angle_to_the_wall_make_cells_superpixels() {
+    on_gpu(|gpu| {
+        let (stage, cosines) = specks(64);
+        let scene = stage.upload(gpu);
+        let rig = [(pinhole([64; 2]), planar([64; 2]))];
+        check_folds(64, &cosines, |settings| {
+            gpu.render_locations(&scene, &rig, settings).unwrap()
+        });
+    });
+}
+
 /// A wall, with slivers in front of it, on it, behind it and past the eye.
 fn slivers(random: &mut Random) -> Stage {
     let mut material = flat([1.0; 4], AlphaMode::Opaque);
@@ -216,8 +229,8 @@ fn slivers(random: &mut Random) -> Stage {
     stage
 }
 
-/// Cells of an output that become superpixels, compared with the twin: thin triangles in front of and on surfaces,
-/// cells of any shape, and perspective and parallel rays.
+/// Cells of an output that become superpixels, compared with the twin: thin triangles in front of, on and at an angle to
+/// surfaces, cells of any shape, and perspective and parallel rays.
 #[test]
 fn cells_are_marked_as_the_twin_has_it() {
     on_gpu(|gpu| {
@@ -232,8 +245,15 @@ fn cells_are_marked_as_the_twin_has_it() {
             },
             ..camera()
         };
-        let pinholes = [pinhole(SIZE), Pinhole::from_camera(&level, SIZE).unwrap()];
-        for pinhole in pinholes {
+        let level = Pinhole::from_camera(&level, SIZE).unwrap();
+        // Parallel rays are seen from very far away.
+        let far = level.eye() - 1e9 * level.direction();
+        for (pinhole, eye, samples) in [
+            (pinhole(SIZE), DVec3::ZERO, 64),
+            (pinhole(SIZE), DVec3::ZERO, 128),
+            (level, far, 64),
+            (level, far, 128),
+        ] {
             let locations: Vec<SampleLocation> = planar(SIZE)
                 .into_iter()
                 .map(|location| {
@@ -245,8 +265,13 @@ fn cells_are_marked_as_the_twin_has_it() {
                     }
                 })
                 .collect();
-            let settings = settings(Detection::Contrast, true)
-                .map_superpixels(|options| options.contrast(Some(255)));
+            // No colours differ by more than 255, and detection of edges leaves second differences out.
+            let settings = settings(Detection::Edges, true)
+                .map_superpixels(|options| options.samples(samples).contrast(Some(255)));
+            let corners = |id: u32| {
+                let corners = stage.triangles[id as usize - 1].corners;
+                corners.map(|corner| DVec3::from_array(corner.map(f64::from)))
+            };
             let rig = [(pinhole, locations)];
             let rendered = gpu.render_locations(&scene, &rig, &settings).unwrap();
             let [(_, locations)] = &rig;
@@ -255,20 +280,31 @@ fn cells_are_marked_as_the_twin_has_it() {
             let (mut marked, mut doubtful) = (0, 0);
             for (location, seen) in locations.iter().zip(&rendered.attributes) {
                 let (mut sure, mut unsure) = (false, false);
-                for (id, triangle) in (1..).zip(&stage.triangles) {
-                    let corners = triangle
-                        .corners
-                        .map(|corner| DVec3::from_array(corner.map(f64::from)));
-                    let Some(crossing) = view.crossing(corners, location) else {
+                for id in 1..=stage.triangles.len() as u32 {
+                    let Some(crossing) = view.crossing(corners(id), location) else {
                         continue;
                     };
-                    let marks = |by: f64| {
-                        let mark = crossing.mark(view.behind(f64::from(seen.depth)) + by);
+                    let other = seen.id != 0 && seen.id != id && samples >= 128;
+                    let cosine = if other {
+                        cosine(corners(id), corners(seen.id), eye)
+                    } else {
+                        1.0
+                    };
+                    let marks = |by: f64, cosine: f64| {
+                        let behind = view.behind(f64::from(seen.depth)) + by;
+                        let mark = crossing.mark(behind, cosine < FOLD);
                         let amid = || seen.id != id && amid(&ids, location.output, id);
                         mark == Mark::Apart || mark == Mark::Painted && amid()
                     };
-                    let same = marks(-1e-5) == marks(1e-5) && crossing.clearance > 0.01;
-                    sure |= same && marks(0.0);
+                    let found = marks(0.0, cosine);
+                    let about = [
+                        marks(-1e-5, cosine),
+                        marks(1e-5, cosine),
+                        marks(0.0, cosine - 0.01),
+                        marks(0.0, cosine + 0.01),
+                    ];
+                    let same = about == [found; 4] && crossing.clearance > 0.01;
+                    sure |= same && found;
                     unsure |= !same;
                 }
                 marked += u32::from(sure);
