@@ -175,7 +175,7 @@ void main() {
                 cell.at = vec2(subgroupShuffle(my_at.x, cell.member), subgroupShuffle(my_at.y, cell.member));
                 cell.half_side = vec2(subgroupShuffle(my_half.x, cell.member), subgroupShuffle(my_half.y, cell.member));
                 cell.location = subgroupShuffle(my_locations.x, cell.member);
-                cell.pixel = location_jacobian(cell.location);
+                if (!POINTS) cell.pixel = location_jacobian(cell.location);
             }
             if (POINTS) {
                 uint points = subgroupShuffle(my_locations.y, cell.member);

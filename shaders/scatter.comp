@@ -66,7 +66,9 @@ Cell located_cell(uint first, uint number, uint first_cell) {
     int at = int(2u * (first_cell + number));
     vec4 square = uintBitsToFloat(texelFetch(location_cells, at));
     uvec2 held = texelFetch(location_cells, at + 1).xy;
-    return Cell(owner_of(first, number, 0u), square.xy, square.zw, location_jacobian(held.x), held.x, POINTS ? held.y : frame.sample_count);
+    // The Jacobians of POINTS are those of their own locations, not of the cell.
+    mat2 pixel = POINTS ? mat2(1.0) : location_jacobian(held.x);
+    return Cell(owner_of(first, number, 0u), square.xy, square.zw, pixel, held.x, POINTS ? held.y : frame.sample_count);
 }
 
 // The runs of a cell's samples that a triangle may touch, a bit each.

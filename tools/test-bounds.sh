@@ -26,7 +26,8 @@ blend    |render assets/glass.glb --size 240x135
 shadows  |render assets/letters.glb --size 240x135 --shadows exact
 points   |render assets/fence.glb --size 240x135 --pattern sobol
 zoom     |zoom assets/letters.glb --size 240x135 --center 120,67 --radius 30 --multiplicity 0.4
-panorama |panorama assets/fence.glb --size 240x120
+panorama |panorama assets/fence.glb --size 240x120 --projection equirectangular
+list     |sample assets/fence.glb --size 480x270 --samples out/bounds/places.csv --aa none
 ssaa     |render assets/fence.glb --size 240x135 --aa ssaa --samples 4
 "
 
@@ -45,6 +46,8 @@ khronos_validation.validate_core = false
 khronos_validation.thread_safety = false
 khronos_validation.gpuav_enable = true
 SETTINGS
+awk 'BEGIN { OFS = ","; print "u,v,row,col"; for (y = 0; y < 90; y++) for (x = 0; x < 160; x++) print 3.1 * x, 2.9 * y, y, x }' \
+    >"$out/places.csv"
 cargo build --release --bin gpc || exit 1
 
 failed=0

@@ -20,7 +20,7 @@ struct Cell {
     float hidden;           // depth: a surface at this depth covers the whole cell, and hides what lies farther
     uint bit;               // the cell's bit in words of its tile
     vec2 at, half_side;     // its middle relative to the tile's centre, and half its sides
-    mat2 pixel;             // its axes, which offsets of samples are multiplied by
+    mat2 pixel;             // its axes, which offsets of samples are multiplied by; unused with POINTS
     uint location;          // index of its location; POINTS: place in the order where the block's locations begin
     uint samples;           // number of its samples in the block
 };
