@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks that no shader reads or writes beyond the end of a buffer. Drivers on CPUs answer such an access with zero or ignore it, so
-# their images do not show it. A GPU may return or overwrite whatever lies there.
+# Checks that no shader reads or writes beyond the end of a buffer. Drivers on CPUs answer such a read with zero and ignore such
+# a write, so their images do not show it. A GPU may return or overwrite whatever lies there.
 #
 #   tools/test-bounds.sh [NAME...]        only images with these names; see `images` below
 #
