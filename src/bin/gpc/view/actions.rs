@@ -28,6 +28,8 @@ impl Viewer {
     pub fn on_event(&mut self, event: &WindowEvent) -> anyhow::Result<()> {
         let response = self.interface.on_window_event(&self.window, event);
         self.is_dirty |= response.repaint;
+        // The panel's context knows that the panel is hidden only once the window is drawn again.
+        let is_taken = response.consumed && (self.shows_panel || self.shows_keys);
         match event {
             WindowEvent::CloseRequested => self.wants_to_quit = true,
             WindowEvent::Resized(size) => {
@@ -43,7 +45,7 @@ impl Viewer {
                 event,
                 is_synthetic: false,
                 ..
-            } => self.on_key(event, response.consumed)?,
+            } => self.on_key(event, is_taken)?,
             WindowEvent::Focused(false) => {
                 // Without the focus the window isn't told when a key is released.
                 if let Some(flight) = &mut self.flight {
@@ -61,10 +63,10 @@ impl Viewer {
                 }
             }
             WindowEvent::MouseInput { state, button, .. } => match state {
-                ElementState::Pressed if !response.consumed => self.press(*button),
+                ElementState::Pressed if !is_taken => self.press(*button),
                 _ => self.pointer.released(),
             },
-            WindowEvent::MouseWheel { delta, .. } if !response.consumed => {
+            WindowEvent::MouseWheel { delta, .. } if !is_taken => {
                 let pixels = match delta {
                     MouseScrollDelta::LineDelta(x, y) => {
                         self.pixels_of_notches(DVec2::new(f64::from(*x), f64::from(*y)))

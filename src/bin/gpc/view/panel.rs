@@ -420,7 +420,9 @@ fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
     if facts.notes.is_empty() && facts.loading.is_none() {
         return;
     }
-    overlay("notes", egui::Align2::LEFT_BOTTOM).show(ctx, |ui| {
+    // What is behind the notes can be dragged through them.
+    let area = overlay("notes", egui::Align2::LEFT_BOTTOM).interactable(false);
+    area.show(ctx, |ui| {
         ui.set_max_width(0.7 * ctx.content_rect().width());
         if let Some(loading) = &facts.loading {
             ui.label(format!("Loading {}: {}", loading.name, loading.step));
