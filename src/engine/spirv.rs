@@ -1296,6 +1296,86 @@ impl Compiled for Neighbours {
     }
 }
 
+/// What is pushed to `shaders/occlude.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct OccludePush {
+    pub first_place: u32,
+    pub light: u32,
+    pub size: [u32; 2],
+    pub probes: u32,
+}
+
+/// The set beside the frame's that `shaders/occlude.comp` binds.
+pub mod occlude_set {
+    use super::{Binding, Kind};
+
+    pub const WORDS: Binding = Binding::new(0, "words", Kind::STORAGE_BUFFER, 1);
+    pub const LEFT: Binding = Binding::new(1, "left", Kind::STORAGE_BUFFER, 1);
+    pub const MARKS_OF_PIXELS: Binding = Binding::new(2, "marks_of_pixels", Kind::STORAGE_BUFFER, 1);
+}
+
+/// Constants of `shaders/occlude.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Occlude {
+    pub local_size: u32,
+    pub lanes: u32,
+    pub has_mask: bool,
+    pub instanced: bool,
+    pub unsure: bool,
+}
+
+impl Default for Occlude {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            lanes: 8,
+            has_mask: false,
+            instanced: false,
+            unsure: false,
+        }
+    }
+}
+
+impl Specialized for Occlude {
+    type Push = OccludePush;
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "occlude",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 2, binding: occlude_set::WORDS, access: Access::ReadWrite },
+            Use { set: 2, binding: occlude_set::LEFT, access: Access::ReadWrite },
+            Use { set: 2, binding: occlude_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
+        ],
+        push_bytes: 20,
+        invocations: Invocations::Constant,
+        needs_subgroup_size: true,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.lanes)
+            .flag(2, self.has_mask)
+            .flag(23, self.instanced)
+            .flag(24, self.unsure)
+    }
+}
+
 /// Constants of `shaders/patch.frag`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PatchFragment {
@@ -2985,7 +3065,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 44] = [
+pub const INTERFACES: [&Interface; 45] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3006,6 +3086,7 @@ pub const INTERFACES: [&Interface; 44] = [
     Grow::INTERFACE,
     Multisample::INTERFACE,
     Neighbours::INTERFACE,
+    Occlude::INTERFACE,
     PatchFragment::INTERFACE,
     PatchVertex::INTERFACE,
     Points::INTERFACE,

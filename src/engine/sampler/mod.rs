@@ -21,6 +21,7 @@ pub(crate) mod plan;
 mod rounds;
 mod settings;
 mod statistics;
+mod tile_lists;
 pub(crate) mod uniform;
 
 pub use crate::vulkan::timings::PassTime;
@@ -38,6 +39,7 @@ pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference};
 pub(crate) use settings::{ImageRequest, SamplerSettings, check_image_size};
 pub use statistics::{Statistics, TriangleCounts};
+pub(crate) use tile_lists::TileLists;
 
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,

@@ -37,8 +37,8 @@ impl LightPlane {
 /// Places that are about to be shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Receiving {
-    /// Centres of a region's pixels; holds their number.
-    Pixels(u32),
+    /// Centres of a region's pixels; holds the region's width and height.
+    Pixels([u32; 2]),
     /// Visibility samples of a round.
     Records,
 }
@@ -100,7 +100,9 @@ impl Receivers {
         set.show(recorder);
         recorder.show(&self.own);
         match receiving {
-            Receiving::Pixels(count) => self.of_pixels.record(recorder, plane, count),
+            Receiving::Pixels([width, height]) => {
+                self.of_pixels.record(recorder, plane, width * height);
+            }
             Receiving::Records => {
                 self.of_records
                     .record_indirect(recorder, plane, Argument::Sort);
