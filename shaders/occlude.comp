@@ -2,7 +2,7 @@
 // light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`: those of
 // which the light reaches the centre but not the probe, or the reverse. A subgroup takes 64 receivers: those of a superpixel, or of
 // 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
-// Reads: locations (from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or marks_of_pixels.
+// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or marks_of_pixels.
 // Receivers in tiles without a list are counted as left.
 // Twin: `gpc::reference::shadow`.
 //
@@ -22,11 +22,16 @@ layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer S
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left, other_subgroups; };     // as in shadow.comp
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
+    mat4 to_plane;      // this and the next three members: as in receivers.comp
+    vec4 light;
+    vec4 cone;
+    float range;
+    uint step_;         // light and probe, see RECEIVERS_LIGHT
+    uint face;
     uint first_place;   // place of the first receiver
-    uint light;
-    uvec2 size;         // of the region whose pixels are the receivers, in pixels; 0 if these are records
-    uint probes;        // whether these are probes of the pixels
+    uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are records
 } push;
+#include "include/light_plane.glsl"
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
 
@@ -43,30 +48,36 @@ uint hidden = 0u;           // a bit for each
 // The receiver that row `g` of this invocation takes; ~0 for none.
 uint receiver_of(int g) {
     uint n = uint(g) * LANES + gl_SubgroupInvocationID, group = workgroup_number();
-    if (push.size.x == 0u) return group * 64u + n;
-    uvec2 pixel = split(group, (push.size.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
-    return all(lessThan(pixel, push.size)) ? pixel.y * push.size.x + pixel.x : ~0u;
+    if (push.region.x == 0u) return group * 64u + n;
+    uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
+    return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
 }
 
-// Loads the receivers. Returns a bit for each row whose place the light may reach.
+uint exists = 0u;           // a bit for each that has a surface
+uint turned = 0u;           // a bit for each whose surface is turned away from the light
+
+// Loads the receivers. Returns a bit for each that other triangles may hide from the light.
 uint load_receivers() {
-    uint receiving = 0u;
+    uint asked = 0u;
+    ivec2 first = ivec2(floor(frame.origin));
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         uint i = receiver_of(g);
-        bool exists = i != ~0u;
+        bool some = i != ~0u;
         receiver[g] = i;
-        i = exists ? i : 0u;
-        uvec4 at = texelFetch(locations, int(2u * i));
-        uvec2 surface = texelFetch(locations, int(2u * i + 1u)).xy;
-        uvec2 pixel = at.xy;
-        exists = exists && int(pixel.x) >= 0;
-        tile_of[g] = exists ? (pixel.y >> 2) * frame.tiles.x + (pixel.x >> 3) : ~0u;
-        place[g] = place_in_tile(at);
-        least[g] = uintBitsToFloat(surface.x);
-        own[g] = surface.y;
-        receiving |= exists ? 1u << g : 0u;
+        i = some ? i : 0u;
+        uvec4 at = texelFetch(locations, int(2u * i)), facing_ = texelFetch(locations, int(2u * i + 1u));
+        some = some && at.w != 0u;
+        Projected r = project(uintBitsToFloat(at.xyz), uintBitsToFloat(facing_.xyz), facing_.w != 0u, first, ivec2(frame.size));
+        tile_of[g] = some && r.asked ? (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3) : ~0u;
+        place[g] = place_in_tile(uvec4(r.pixel, floatBitsToUint(r.within)));
+        least[g] = r.least;
+        own[g] = at.w;
+        uint bit = 1u << g;
+        exists |= some ? bit : 0u;
+        turned |= some && r.turned ? bit : 0u;
+        asked |= some && r.asked ? bit : 0u;
     }
-    return receiving;
+    return asked;
 }
 
 // The pixel of its tile in which a place lies, as a bit.
@@ -169,15 +180,17 @@ void test_in(uint its, uint mine) {
     } while (more);
 }
 
-// Stores what was found for receiver `i`.
+// Stores whether the light is blocked at receiver `i`.
 void store(uint i, bool blocked) {
-    if (push.probes == 0u) {
-        if (blocked) words[push.first_place + i] |= 1u << push.light;
+    uint bit = 1u << (push.step_ & RECEIVERS_LIGHT);
+    if (push.step_ >> RECEIVERS_PROBE_SHIFT == 0u) {
+        uint place = push.first_place + i;
+        words[place] = ((push.step_ & RECEIVERS_BEGINS) != 0u ? 0u : words[place]) | (blocked ? bit : 0u);
         return;
     }
-    bool centre_blocked = (words[i] >> push.light & 1u) != 0u;
-    uvec2 pixel = split(i, push.size.x);
-    uint tile = (pixel.y >> 2) * ((push.size.x + 7u) >> 3) + (pixel.x >> 3);
+    bool centre_blocked = (words[i] & bit) != 0u;
+    uvec2 pixel = split(i, push.region.x);
+    uint tile = (pixel.y >> 2) * ((push.region.x + 7u) >> 3) + (pixel.x >> 3);
     if (blocked != centre_blocked) atomicOr(marks_of_pixels[tile], 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)));
 }
 
@@ -186,7 +199,7 @@ void main() {
         other_subgroups = 1u;
         return;
     }
-    uint receiving = load_receivers(), waits = receiving;
+    uint asked = load_receivers(), waits = asked;
     do {
         uint waiting = subgroupBallot(waits != 0u).x, my_next = 0u;
         [[unroll]] for (int g = ROWS - 1; g >= 0; g--) my_next = (waits >> g & 1u) != 0u ? tile_of[g] : my_next;
@@ -196,5 +209,8 @@ void main() {
         test_in(its, mine);
     } while (subgroupAny(waits != 0u) && trips <= MOST_TRIPS);
     if (trips > MOST_TRIPS && subgroupElect()) atomicAdd(left, 1u);
-    [[unroll]] for (int g = 0; g < ROWS; g++) if ((receiving >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
+    // Probes whose surface is turned away show nothing of the shadows of others.
+    uint stored = push.step_ >> RECEIVERS_PROBE_SHIFT == 0u ? exists : asked;
+    hidden |= turned;
+    [[unroll]] for (int g = 0; g < ROWS; g++) if ((stored >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
 }

@@ -1300,10 +1300,14 @@ impl Compiled for Neighbours {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct OccludePush {
+    pub to_plane: [f32; 16],
+    pub light: [f32; 4],
+    pub cone: [f32; 4],
+    pub range: f32,
+    pub step: u32,
+    pub face: u32,
     pub first_place: u32,
-    pub light: u32,
-    pub size: [u32; 2],
-    pub probes: u32,
+    pub region: [u32; 2],
 }
 
 /// The set beside the frame's that `shaders/occlude.comp` binds.
@@ -1361,7 +1365,7 @@ impl Specialized for Occlude {
             Use { set: 2, binding: occlude_set::LEFT, access: Access::ReadWrite },
             Use { set: 2, binding: occlude_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
         ],
-        push_bytes: 20,
+        push_bytes: 120,
         invocations: Invocations::Constant,
         needs_subgroup_size: true,
     };
@@ -1731,6 +1735,7 @@ pub mod receivers_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Receivers {
     pub pixels: bool,
+    pub looked_up: bool,
     pub locations: bool,
     pub occluders: bool,
     pub instanced: bool,
@@ -1742,6 +1747,7 @@ impl Default for Receivers {
     fn default() -> Self {
         Self {
             pixels: false,
+            looked_up: false,
             locations: false,
             occluders: false,
             instanced: false,
@@ -1779,6 +1785,7 @@ impl Specialized for Receivers {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.pixels)
+            .flag(1, self.looked_up)
             .flag(20, self.locations)
             .flag(22, self.occluders)
             .flag(23, self.instanced)

@@ -1,7 +1,7 @@
 //! occlude: finds the receivers of light that another triangle occludes, in the lists of the tiles of a light's plane. It is no
 //! [`Pass`](crate::engine::pipelines::Pass), because the lights, and what is shadowed, are known only when a frame is recorded.
 
-use super::{Receiving, ShadowTarget, Unshadowed};
+use super::{LightPlane, Receiving, Unshadowed};
 use crate::engine::data::{Argument, Content, Resources};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv::{self, occlude_set};
@@ -58,24 +58,28 @@ impl Occlude {
         })
     }
 
-    /// Records the pass for the lists of a plane, whose set passes use. The receivers are those of `resources`.
+    /// Records the pass for the lists of a plane, whose set passes use. The receivers are those of `resources`; the first one's
+    /// place is `first_place`.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
         (receiving, resources): (Receiving, &Resources),
-        target: ShadowTarget,
-        light: u32,
+        plane: &LightPlane,
+        first_place: u32,
     ) {
-        let (first_place, width) = target.pushed();
-        let size = match receiving {
+        let region = match receiving {
             Receiving::Pixels(size) => size,
             Receiving::Records => [0; 2],
         };
         let push = spirv::OccludePush {
+            to_plane: plane.to_plane,
+            light: plane.light,
+            cone: plane.cone,
+            range: plane.range,
+            step: plane.step,
+            face: plane.face,
             first_place,
-            light,
-            size,
-            probes: u32::from(width > 0),
+            region,
         };
         recorder.show(&self.own);
         match receiving {

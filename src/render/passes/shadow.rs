@@ -25,7 +25,7 @@ pub enum ShadowTarget {
 
 impl ShadowTarget {
     /// Place of the first receiver, and the width of the region whose pixels are probed; 0 without probes.
-    pub(super) fn pushed(self) -> (u32, u32) {
+    pub fn pushed(self) -> (u32, u32) {
         match self {
             Self::Words { first_place } => (first_place, 0),
             Self::Marks { width } => (0, width),

@@ -252,7 +252,7 @@ impl ShadowFinder {
             },
         };
         Ok(Self {
-            receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
+            receivers: Receivers::new(layout, scene, cells, shading, (&locations.buffer, plan.looks_up))?,
             search,
             unshadowed,
             pose: occluding
@@ -352,11 +352,7 @@ impl ShadowFinder {
                 Receiving::Records => shaded.pixels(),
             };
             let target = ShadowTarget::Words { first_place };
-            for (index, view) in shaded.views.iter().enumerate() {
-                let plane = (index, view, &view.plane);
-                self.record_view(recorder, shaded, receiving, plane, target);
-            }
-            shaded.set.show(recorder);
+            self.record_search(recorder, shaded, receiving, |plane| plane, target);
         });
     }
 
@@ -368,32 +364,35 @@ impl ShadowFinder {
             let target = ShadowTarget::Marks {
                 width: shaded.size[0],
             };
-            for (index, view) in shaded.views.iter().enumerate() {
-                for plane in view.plane.of_probes() {
-                    let plane = (index, view, &plane);
-                    self.record_view(recorder, shaded, receiving, plane, target);
-                }
+            for probe in LightPlane::probes() {
+                self.record_search(recorder, shaded, receiving, |plane| plane.of(probe), target);
             }
-            shaded.set.show(recorder);
         });
     }
 
-    fn record_view(
+    /// Records the search for all lights. `plane` is what `receivers` takes for the plane of a light.
+    fn record_search(
         &self,
         recorder: &Recorder<'_>,
         shaded: Shadowed<'_>,
         receiving: Receiving,
-        (index, view, plane): (usize, &LightView, &LightPlane),
+        plane: impl Fn(LightPlane) -> LightPlane,
         target: ShadowTarget,
     ) {
-        let shading = shaded.resources;
-        self.receivers
-            .record(recorder, shaded.set, receiving, plane);
         match &self.search {
             Search::Lists { occlude, .. } => {
-                if let Some(set) = self.planes.get(index).and_then(|plane| plane.set(0)) {
-                    set.show(recorder);
-                    occlude.record(recorder, (receiving, shading), target, view.bit);
+                let (first_place, _) = target.pushed();
+                let planes: Vec<_> = shaded.views.iter().map(|view| plane(view.plane)).collect();
+                if let Some(any) = planes.first() {
+                    self.receivers
+                        .record(recorder, shaded.set, receiving, any);
+                }
+                for (plane, resources) in planes.iter().zip(&self.planes) {
+                    if let Some(set) = resources.set(0) {
+                        set.show(recorder);
+                        let receivers = (receiving, shaded.resources);
+                        occlude.record(recorder, receivers, plane, first_place);
+                    }
                 }
             }
             Search::Samples {
@@ -410,29 +409,35 @@ impl ShadowFinder {
                 let (most, length) = match receiving {
                     Receiving::Pixels([width, height]) => (width * height, ListLength::Known),
                     Receiving::Records => {
+                        let shading = shaded.resources;
                         let length = ListLength::Counted(&shading.arguments, Argument::Sort);
                         (shading.sizes().record_capacity, length)
                     }
                 };
-                let uniform = self.uniform(view, sampler.samples(), resources);
-                resources.record_begin(recorder, set, &uniform);
-                let run = SamplerRun {
-                    resources,
-                    set,
-                    uniform: &uniform,
-                    list: (most, length),
-                    index: 0,
-                };
-                let occlusion = Occlusion {
-                    shade: shade.as_ref(),
-                    shadow,
-                    target,
-                    light: view.bit,
-                };
-                sampler.record(recorder, &run, &occlusion);
-                shadow.record_left(recorder);
+                for view in shaded.views {
+                    self.receivers
+                        .record(recorder, shaded.set, receiving, &plane(view.plane));
+                    let uniform = self.uniform(view, sampler.samples(), resources);
+                    resources.record_begin(recorder, set, &uniform);
+                    let run = SamplerRun {
+                        resources,
+                        set,
+                        uniform: &uniform,
+                        list: (most, length),
+                        index: 0,
+                    };
+                    let occlusion = Occlusion {
+                        shade: shade.as_ref(),
+                        shadow,
+                        target,
+                        light: view.bit,
+                    };
+                    sampler.record(recorder, &run, &occlusion);
+                    shadow.record_left(recorder);
+                }
             }
         }
+        shaded.set.show(recorder);
     }
 
     /// Adds the work that the last recording could not finish.
