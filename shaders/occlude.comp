@@ -147,7 +147,7 @@ void test_in(uint its, uint mine) {
         uint held = 0u, my_entry = 0u;
         do {
             uint entry = next + lane;
-            uvec4 last = texelFetch(candidates, int(header.y + min(entry, max(count, 1u) - 1u)) * 4 + 3);
+            uvec4 last = texelFetch(candidates, last_of_candidate(header.y, min(entry, max(count, 1u) - 1u), true));
             bool may = entry < count && (last.w & pixels) != 0u && uintBitsToFloat(last.x) > lowest;
             uint found = subgroupBallot(may).x;
             bool fresh = pending == 0u;
@@ -159,7 +159,9 @@ void test_in(uint its, uint mine) {
             pending = taken == uint(bitCount(pending)) ? 0u : pending & ~((1u << bit_of_cell(pending, taken)) - 1u);
             trips++;
         } while (held < LANES && (pending != 0u || next < count) && trips <= MOST_TRIPS);
-        Candidate k = load_candidate(header.y, min(my_entry, max(count, 1u) - 1u), center);
+        my_entry = min(my_entry, max(count, 1u) - 1u);
+        uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, my_entry, true));
+        Candidate k = unpack_candidate(candidate_at(header.y, my_entry, count, true), its_last);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool shows = lane < held && test.touches && test.near > lowest, masked = HAS_MASK && k.id > frame.first_mask;
         uint showing = subgroupBallot(shows && !masked).x;

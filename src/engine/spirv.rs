@@ -2328,12 +2328,14 @@ impl Compiled for Schedule {
 /// Constants of `shaders/setup.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
+    pub scanned: bool,
     pub instanced: bool,
 }
 
 impl Default for Setup {
     fn default() -> Self {
         Self {
+            scanned: false,
             instanced: false,
         }
     }
@@ -2363,6 +2365,7 @@ impl Specialized for Setup {
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .flag(0, self.scanned)
             .flag(23, self.instanced)
     }
 }

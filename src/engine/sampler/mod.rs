@@ -47,6 +47,7 @@ use crate::engine::data::{
 };
 use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
+use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{
     Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite,
     cull, groups, resolve, sample, schedule, setup, sort, tally,
@@ -193,7 +194,7 @@ impl Sampler {
                 if cells.are_locations() {
                     visibility.push(groups::pass(layout, &blocks)?);
                 }
-                visibility.push(setup::pass(layout, scene)?);
+                visibility.push(setup::pass(layout, scene, ListOrder::Whole)?);
                 let is_shaded = cells != Cells::Occluders || scene.has_blend();
                 let sort = || sort::pass(layout, scene, scene.bin_count() == 1);
                 let sort = is_shaded.then(sort).transpose()?;

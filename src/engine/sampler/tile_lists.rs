@@ -4,6 +4,7 @@ use super::{Capacity, CellOptions, ListCells, Load, SamplerContext};
 use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{Cells, Content, FrameUniform, ResourceSizes, Resources, SampleSet};
 use crate::engine::passes::cull::CullFilter;
+use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{SampleBlocks, bin, cull, schedule, setup, tally};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::MOST_CANDIDATES;
@@ -55,7 +56,7 @@ impl TileLists {
             bin::pass(layout, scene)?,
             tally::pass(layout, Cells::Occluders, load.pushed())?,
             schedule::pass(layout, Cells::Occluders, load.pushed())?,
-            setup::pass(layout, scene)?,
+            setup::pass(layout, scene, ListOrder::Scanned)?,
         ]))
     }
 
