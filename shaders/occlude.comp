@@ -1,14 +1,14 @@
-// occlude: finds the receivers of a light in front of which another triangle lies, in the lists of candidates that the tiles of the
-// light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`: those of
-// which the light reaches the centre but not the probe, or the reverse. A subgroup takes 64 receivers: those of a superpixel, or of
-// 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
-// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or marks_of_pixels.
-// Receivers in tiles without a list are counted as left.
+// occlude: finds the receivers of a light in front of which another triangle lies, in the lists of candidates that the tiles of
+// the light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`:
+// those of which the light reaches the centre but not the probe, or the reverse. A subgroup takes 64 receivers: those of a
+// superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
+// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or
+// marks_of_pixels. Receivers in tiles without a list are counted as left.
 // Twin: `gpc::reference::shadow`.
 //
-// In each trip of the outer loop, the receivers in one tile are tested. The subgroup searches the tile's list for candidates that
-// may touch a pixel with receivers and may lie in front of one. As soon as each invocation holds such a candidate, it tests it
-// against the rectangle around the receivers. Candidates that pass are shown to the receivers, one after the other.
+// In each trip of the outer loop, the receivers in one tile are tested. The subgroup searches the tile's list for candidates
+// that may touch a pixel with receivers and may lie in front of one. As soon as each invocation holds such a candidate, it
+// tests it against the rectangle around the receivers. Candidates that pass are shown to the receivers, one after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -19,7 +19,7 @@
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = OCCLUDE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
-layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left, other_subgroups; };     // as in shadow.comp
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
     mat4 to_plane;      // this and the next three members: as in receivers.comp
@@ -174,7 +174,8 @@ void test_in(uint its, uint mine) {
             showing = subgroupBallot(shows && masked).x;
             trips += uint(bitCount(showing));
             do {
-                show_masked_to(shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u), showing != 0u ? mine : 0u, center);
+                Candidate t = shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u);
+                show_masked_to(t, showing != 0u ? mine : 0u, center);
                 showing &= showing - 1u;
             } while (showing != 0u);
         }

@@ -63,6 +63,14 @@ impl Capacity {
         }
     }
 
+    /// This capacity for an owner whose memory may be limited. The lists in which receivers of light are looked up take much memory.
+    pub fn within(self, max_memory: Option<u64>) -> Self {
+        Self {
+            looks_up_occluders: self.looks_up_occluders && max_memory.is_none(),
+            ..self
+        }
+    }
+
     /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
     /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
     /// because testing every triangle takes long.

@@ -13,6 +13,11 @@ use crate::vulkan::{Recorder, VulkanError};
 /// Passes that list the triangles of all tiles of a plane. Tiles with too many triangles get no list.
 pub(crate) struct TileLists([Pass; 5]);
 
+/// Numbers of pairs of a triangle and a tile for which a plane has room: for each triangle, for each tile, and at least.
+const PAIRS_OF_TRIANGLE: u64 = 4;
+const PAIRS_OF_TILE: u64 = 8;
+const FEWEST_PAIRS: u64 = 1 << 14;
+
 /// Kind of the cells for which the passes are made. A tile has one cell, which stands for all places that are looked up.
 const PLACES: ListCells = ListCells {
     cells: Cells::Occluders,
@@ -31,12 +36,14 @@ impl TileLists {
         capacity: Capacity,
     ) -> ResourceSizes {
         let sizes = PLACES.sizes(layout, scene, options, (1, region), capacity);
+        let [triangles, tiles] = [scene.triangle_slots().into(), tile_count(region)];
         // All lists are in memory at once.
-        let pairs = u64::from(sizes.pair_capacity).min(MOST_CANDIDATES) as u32;
+        let pairs = (PAIRS_OF_TRIANGLE * triangles + PAIRS_OF_TILE * tiles)
+            .clamp(FEWEST_PAIRS, MOST_CANDIDATES) as u32;
         ResourceSizes {
             pair_capacity: pairs,
             list_capacity: pairs,
-            record_capacity: sizes.record_capacity.max(tile_count(region) as u32),
+            record_capacity: sizes.record_capacity.max(tiles as u32),
             ..sizes
         }
     }

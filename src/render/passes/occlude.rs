@@ -1,5 +1,6 @@
-//! occlude: finds the receivers of light that another triangle occludes, in the lists of the tiles of a light's plane. It is no
-//! [`Pass`](crate::engine::pipelines::Pass), because the lights, and what is shadowed, are known only when a frame is recorded.
+//! occlude: finds the receivers of light that another triangle occludes, in the lists of the tiles of a light's plane.
+//! It is no [`Pass`](crate::engine::pipelines::Pass), because the lights, and what is shadowed, are known only when a
+//! frame is recorded.
 
 use super::{LightPlane, Receiving, Unshadowed};
 use crate::engine::data::{Argument, Content, Resources};

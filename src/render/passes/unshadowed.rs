@@ -6,8 +6,8 @@ use ash::vk;
 /// Number of words of the count.
 const WORDS: usize = 2;
 
-/// Count of the receivers and tiles that the passes of a frame's shadows could not finish, on the device and in a copy that the host
-/// reads.
+/// Count of the receivers and tiles that the passes of a frame's shadows could not finish, on the device and in a copy
+/// that the host reads.
 pub struct Unshadowed {
     counted: Buffer,
     kept: Buffer,

@@ -2,7 +2,9 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, most_planes, views};
-use crate::engine::data::{Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet};
+use crate::engine::data::{
+    Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet,
+};
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
@@ -13,7 +15,8 @@ use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, Unshadowed, shade,
+    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget,
+    Unshadowed, shade,
 };
 use crate::scene::Moment;
 use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
@@ -52,10 +55,12 @@ enum Search {
     },
 }
 
-/// Numbers of pixels of a plane for each place: where receivers are looked up, and where they are sampled. More pixels make the
-/// lists of tiles shorter, and their making longer. Lists are made once a frame, but candidates of samples anew for each round.
-const LISTED: f64 = 8.0;
-const SAMPLED: f64 = 2.0;
+/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer.
+/// Receivers before BLEND casters are always sampled, for which lists are made anew in each round. In other scenes, the
+/// result must not depend on whether receivers are looked up or sampled.
+fn pixels_per_place(casters: &GpuScene) -> f64 {
+    if casters.has_blend() { 2.0 } else { 8.0 }
+}
 
 /// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
 #[derive(Clone, Copy)]
@@ -105,7 +110,7 @@ const OCCLUDERS: ListCells = ListCells {
 };
 
 /// Number of bytes that the lists of all planes of the lights may take. With more, receivers are sampled.
-const MOST_LIST_BYTES: u64 = 512 << 20;
+const MOST_LIST_BYTES: u64 = 768 << 20;
 
 /// Plan of a search: the memory of a plane, and the number of planes in memory at once.
 struct SearchPlan {
@@ -124,19 +129,21 @@ impl SearchPlan {
         (places, shading): (u64, &ResourceSizes),
     ) -> Self {
         let (scene, options) = (&*casters.scene, &settings.cells);
-        let region = |per_place| [LightView::side(places, per_place); 2];
+        let region = [LightView::side(places, pixels_per_place(scene)); 2];
         let listed = Self {
-            sizes: TileLists::sizes(layout, scene, options, region(LISTED), capacity),
+            sizes: TileLists::sizes(layout, scene, options, region, capacity),
             planes: most_planes(&casters.lit, casters.scene.moves()).max(1),
             looks_up: true,
         };
-        let fits = listed.sizes.check("the lists of a light", layout.gpu.limits());
+        let fits = listed
+            .sizes
+            .check("the lists of a light", layout.gpu.limits());
         // Opacities of casters are known only where they are sampled.
         let looks_up = capacity.looks_up_occluders && !scene.has_blend() && fits.is_ok();
         if looks_up && u64::from(listed.planes) * listed.sizes.bytes() <= MOST_LIST_BYTES {
             return listed;
         }
-        let room = (shading.receivers(), region(SAMPLED));
+        let room = (shading.receivers(), region);
         Self {
             sizes: OCCLUDERS.sizes(layout, scene, options, room, capacity),
             planes: 1,
@@ -252,7 +259,13 @@ impl ShadowFinder {
             },
         };
         Ok(Self {
-            receivers: Receivers::new(layout, scene, cells, shading, (&locations.buffer, plan.looks_up))?,
+            receivers: Receivers::new(
+                layout,
+                scene,
+                cells,
+                shading,
+                (&locations.buffer, plan.looks_up),
+            )?,
             search,
             unshadowed,
             pose: occluding
@@ -283,10 +296,7 @@ impl ShadowFinder {
 
     /// Views of the lights onto the visible part of the scene.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
-        let per_place = match self.search {
-            Search::Lists { .. } => LISTED,
-            Search::Samples { .. } => SAMPLED,
-        };
+        let per_place = pixels_per_place(&self.casters.scene);
         views(&self.lit, sight, per_place)
     }
 
@@ -384,8 +394,7 @@ impl ShadowFinder {
                 let (first_place, _) = target.pushed();
                 let planes: Vec<_> = shaded.views.iter().map(|view| plane(view.plane)).collect();
                 if let Some(any) = planes.first() {
-                    self.receivers
-                        .record(recorder, shaded.set, receiving, any);
+                    self.receivers.record(recorder, shaded.set, receiving, any);
                 }
                 for (plane, resources) in planes.iter().zip(&self.planes) {
                     if let Some(set) = resources.set(0) {
