@@ -6,6 +6,8 @@
 // DIFFUSE_TRANSMISSION, which lets light from behind through.
 // A probe is another place in a pixel, if the pixel's triangle covers it, too. `shadow` compares it with the pixel's centre. No
 // shadow words are written for probes.
+// If receivers are LOOKED_UP, the pass runs once for all lights. It stores the surfaces: (position, triangle ID or 0 if there is
+// none to ask for), (normal, 1 if light from behind shines through).
 // Reads: ids or records, the geometry. Writes: a location for each place, and the words of `include/shadows.glsl`.
 // Twin: `gpc::reference::shadow`.
 #version 460
@@ -20,6 +22,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = RECEIVERS_CONSTANT_PIXELS) const bool PIXELS = false;
 layout(constant_id = RECEIVERS_CONSTANT_DIFFUSE_TRANSMISSION) const bool DIFFUSE_TRANSMISSION = false;   // some material has it
+layout(constant_id = RECEIVERS_CONSTANT_LOOKED_UP) const bool LOOKED_UP = false;      // `occlude` projects the surfaces and writes words
 layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_LOCATIONS_OUT) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // those of OCCLUDERS
 layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_WORDS) buffer ShadowWords { uint words[]; };
 layout(push_constant) uniform Push {
@@ -36,18 +39,7 @@ layout(push_constant) uniform Push {
 // shadow. Of a shadow that is a line a fifth of a pixel wide, it misses 1 % on average over all directions of the line, and 14 %
 // in the worst direction. With centres alone it would miss 22 % and 78 %.
 const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), vec2(0.46875, -0.296875));
-// Casters have to be nearer to the light than the receiver by at least this share of the receiver's distance or, for distant
-// lights, of the scene's depth. This keeps a surface from shadowing itself.
-const float BIAS = 1.0 / 131072.0;
-
-// The plane of a cube that a direction belongs to, by the nearest axis: x, -x, y, -y, z, -z. Of equally near axes the first wins.
-uint face_of(vec3 way) {
-    vec3 size = abs(way);
-    float largest = max(size.x, max(size.y, size.z));
-    uint axis = size.x == largest ? 0u : size.y == largest ? 1u : 2u;
-    float along = axis == 0u ? way.x : axis == 1u ? way.y : way.z;
-    return 2u * axis + (along < 0.0 ? 1u : 0u);
-}
+#include "include/light_plane.glsl"
 
 void main() {
     uint i = invocation_number();
@@ -75,28 +67,20 @@ void main() {
     vec3 to_eye = frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : frame.eye.xyz - a;
     normal = dot(normal, to_eye) < 0.0 ? -normal : normal;
 
-    bool local = push.light.w != 0.0;
-    vec3 to_light = local ? push.light.xyz - position : push.light.xyz;
-    float distance_ = length(to_light);
-    bool reached = receives && (!local || (distance_ <= push.range && dot(-to_light, push.cone.xyz) >= push.cone.w * distance_));
     bool backlit = DIFFUSE_TRANSMISSION && diffuse_transmission_of(material_of(k.word)).factor > 0.0;
-    bool turned = reached && !backlit && dot(normal, to_light) < 0.0;
+    if (LOOKED_UP) {
+        locations_out[2u * i] = uvec4(floatBitsToUint(position), receives ? id : 0u);
+        locations_out[2u * i + 1u] = uvec4(floatBitsToUint(normal), backlit ? 1u : 0u);
+        return;
+    }
+    Projected r = project(position, normal, backlit, push.low, ivec2(push.size));
+    bool turned = receives && r.turned, asked = receives && r.asked;
     if (i < count && probe == 0u) {
         uint place = (PIXELS ? i : place_of_record(i)) * SHADOW_WORDS, light = push.step_ & RECEIVERS_LIGHT;
         uint word = (push.step_ & RECEIVERS_BEGINS) != 0u ? 0u : words[place];
         words[place] = word | (turned ? 1u << light : 0u);
         if (SHADOW_WORDS > 1u && turned) words[place + 1u + light] = 0u;
     }
-
-    vec4 at = to_clip(push.to_plane, vec4(position, 1.0));
-    vec2 uv = at.xy / at.w, low = floor(uv);
-    bool asked = reached && !turned && at.w > 0.0 && (push.face == SINGLE_PLANE || face_of(-to_light) == push.face);
-    // Rounding may move a place on the border of the part of the plane outside. Up to a pixel outside it is moved back.
-    ivec2 pixel = ivec2(clamp(low, -8388608.0, 8388607.0)) - push.low, last = ivec2(push.size) - 1;
-    vec2 within = uv - low;
-    within = mix(mix(within, vec2(0.0), lessThan(pixel, ivec2(0))), vec2(1.0), greaterThan(pixel, last));
-    asked = asked && all(greaterThanEqual(pixel, ivec2(-1))) && all(lessThanEqual(pixel, last + 1));
-    float depth = at.z / at.w, least = local ? depth * (1.0 + BIAS) : depth + BIAS;
-    locations_out[2u * i] = uvec4(asked ? clamp(pixel, ivec2(0), last) : ivec2(-1), floatBitsToUint(within));
-    locations_out[2u * i + 1u] = uvec4(floatBitsToUint(least), id, 0u, 0u);
+    locations_out[2u * i] = uvec4(asked ? ivec2(r.pixel) : ivec2(-1), floatBitsToUint(r.within));
+    locations_out[2u * i + 1u] = uvec4(floatBitsToUint(r.least), id, 0u, 0u);
 }

@@ -9,9 +9,11 @@
 #include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/touches.glsl"
+#include "include/candidate.glsl"
 #include "include/triangle.glsl"
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = SETUP_CONSTANT_SCANNED) const bool SCANNED = false;     // see candidate.glsl
 
 // Writes the candidate of pair `i`.
 void set_up(uint i) {
@@ -25,11 +27,12 @@ void set_up(uint i) {
     s.c = s.valid ? s.c : vec3(-3.4e38);
     uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;
     if ((tile.w & TILE_LISTED) == 0u) return;
-    int o = int(tile.y + pair_rank(pair)) * 4;
+    uint rank = pair_rank(pair);
+    int o = candidate_at(tile.y, rank, tile.w >> TILE_COUNT_SHIFT, SCANNED);
     candidates_out[o] = floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y));
     candidates_out[o + 1] = floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z));
     candidates_out[o + 2] = floatBitsToUint(vec4(s.c.z, s.depth));
-    candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, touches);
+    candidates_out[last_of_candidate(tile.y, rank, SCANNED)] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, touches);
 }
 
 // Each round looks at all pairs, and sets up those of its tiles. An invocation looks at several pairs before it sets up any,

@@ -14,15 +14,28 @@ struct Candidate {
     uint pixels;            // pixels of the tile that it may touch, a bit each
 };
 
-Candidate load_candidate(uint first, uint index, vec2 center) {
+// Where the first vector of candidate `index` of a list begins, and where its last vector lies. Lists that are SCANNED for the last
+// vectors have all of these before the others.
+int candidate_at(uint first, uint index, uint count, bool scanned) {
+    return scanned ? int(4u * first + count + 3u * index) : int(first + index) * 4;
+}
+
+int last_of_candidate(uint first, uint index, bool scanned) {
+    return scanned ? int(4u * first + index) : int(first + index) * 4 + 3;
+}
+
+Candidate unpack_candidate(int at, uvec4 last) {
     Candidate k;
-    int o = int(first + index) * 4;
-    uvec4 last = texelFetch(candidates, o + 3);
-    vec4 q0 = uintBitsToFloat(texelFetch(candidates, o)), q1 = uintBitsToFloat(texelFetch(candidates, o + 1));
-    vec4 q2 = uintBitsToFloat(texelFetch(candidates, o + 2)), q3 = uintBitsToFloat(last);
+    vec4 q0 = uintBitsToFloat(texelFetch(candidates, at)), q1 = uintBitsToFloat(texelFetch(candidates, at + 1));
+    vec4 q2 = uintBitsToFloat(texelFetch(candidates, at + 2)), q3 = uintBitsToFloat(last);
     k.a = vec3(q0.x, q0.w, q1.z); k.b = vec3(q0.y, q1.x, q1.w); k.c = vec3(q0.z, q1.y, q2.x);
     k.depth = q2.yzw; k.near = q3.x; k.far = q3.y; k.id = last.z; k.pixels = last.w;
     return k;
+}
+
+Candidate load_candidate(uint first, uint index, vec2 center) {
+    uvec4 last = texelFetch(candidates, last_of_candidate(first, index, false));
+    return unpack_candidate(candidate_at(first, index, 0u, false), last);
 }
 
 Candidate shuffle_candidate(Candidate k, uint lane) {

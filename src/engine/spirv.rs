@@ -1299,6 +1299,90 @@ impl Compiled for Neighbours {
     }
 }
 
+/// What is pushed to `shaders/occlude.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct OccludePush {
+    pub to_plane: [f32; 16],
+    pub light: [f32; 4],
+    pub cone: [f32; 4],
+    pub range: f32,
+    pub step: u32,
+    pub face: u32,
+    pub first_place: u32,
+    pub region: [u32; 2],
+}
+
+/// The set beside the frame's that `shaders/occlude.comp` binds.
+pub mod occlude_set {
+    use super::{Binding, Kind};
+
+    pub const WORDS: Binding = Binding::new(0, "words", Kind::STORAGE_BUFFER, 1);
+    pub const LEFT: Binding = Binding::new(1, "left", Kind::STORAGE_BUFFER, 1);
+    pub const MARKS_OF_PIXELS: Binding = Binding::new(2, "marks_of_pixels", Kind::STORAGE_BUFFER, 1);
+}
+
+/// Constants of `shaders/occlude.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Occlude {
+    pub local_size: u32,
+    pub lanes: u32,
+    pub has_mask: bool,
+    pub instanced: bool,
+    pub unsure: bool,
+}
+
+impl Default for Occlude {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            lanes: 8,
+            has_mask: false,
+            instanced: false,
+            unsure: false,
+        }
+    }
+}
+
+impl Specialized for Occlude {
+    type Push = OccludePush;
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "occlude",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
+            Use { set: 2, binding: occlude_set::WORDS, access: Access::ReadWrite },
+            Use { set: 2, binding: occlude_set::LEFT, access: Access::ReadWrite },
+            Use { set: 2, binding: occlude_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
+        ],
+        push_bytes: 120,
+        invocations: Invocations::Constant,
+        needs_subgroup_size: true,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.lanes)
+            .flag(2, self.has_mask)
+            .flag(23, self.instanced)
+            .flag(24, self.unsure)
+    }
+}
+
 /// Constants of `shaders/patch.frag`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PatchFragment {
@@ -1654,6 +1738,7 @@ pub mod receivers_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Receivers {
     pub pixels: bool,
+    pub looked_up: bool,
     pub locations: bool,
     pub occluders: bool,
     pub instanced: bool,
@@ -1665,6 +1750,7 @@ impl Default for Receivers {
     fn default() -> Self {
         Self {
             pixels: false,
+            looked_up: false,
             locations: false,
             occluders: false,
             instanced: false,
@@ -1702,6 +1788,7 @@ impl Specialized for Receivers {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.pixels)
+            .flag(1, self.looked_up)
             .flag(20, self.locations)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
@@ -2244,12 +2331,14 @@ impl Compiled for Schedule {
 /// Constants of `shaders/setup.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
+    pub scanned: bool,
     pub instanced: bool,
 }
 
 impl Default for Setup {
     fn default() -> Self {
         Self {
+            scanned: false,
             instanced: false,
         }
     }
@@ -2279,6 +2368,7 @@ impl Specialized for Setup {
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .flag(0, self.scanned)
             .flag(23, self.instanced)
     }
 }
@@ -2988,7 +3078,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 44] = [
+pub const INTERFACES: [&Interface; 45] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3009,6 +3099,7 @@ pub const INTERFACES: [&Interface; 44] = [
     Grow::INTERFACE,
     Multisample::INTERFACE,
     Neighbours::INTERFACE,
+    Occlude::INTERFACE,
     PatchFragment::INTERFACE,
     PatchVertex::INTERFACE,
     Points::INTERFACE,

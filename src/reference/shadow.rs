@@ -48,8 +48,8 @@ pub const PROBES: [[f64; 2]; 3] = [
 /// the receiver itself.
 const BIAS: f64 = 1.0 / 131_072.0;
 
-/// Whether the place lies in shadow, as the passes `receivers`, `sample` and `shadow` decide it. `None` if the
-/// decision is closer than `doubt`, a fraction of the lengths and of the triangles' sides.
+/// Whether the place lies in shadow, as the passes `receivers` and `occlude`, or `receivers`, `sample` and `shadow`, decide it.
+/// `None` if the decision is closer than `doubt`, a fraction of the lengths and of the triangles' sides.
 #[must_use]
 pub fn is_in_shadow(
     triangles: &[[DVec3; 3]],

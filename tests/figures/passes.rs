@@ -64,7 +64,7 @@ pub fn image() -> String {
     draw(&[looks, grows].concat())
 }
 
-/// Passes by which a frame finds the shadows of one light on the pixels' centres.
+/// Passes by which a frame lists the casters of one light, and finds its shadows on the pixels' centres.
 pub fn shadows() -> String {
     let (mut headless, scene, camera) = stage("fence", Shadows::Exact);
     let settings = Settings::new(SIZE[0], SIZE[1]).shadows(Shadows::Exact);
@@ -72,10 +72,10 @@ pub fn shadows() -> String {
     // The first rendering finds how much memory the frame needs.
     headless.render(&mut frame, &camera).unwrap();
     let passes = headless.passes(&mut frame, &camera).unwrap().passes;
-    let first = passes.iter().position(|pass| pass.name == "receivers");
-    let of_light = &passes[first.unwrap()..];
-    let last = of_light.iter().position(|pass| pass.name == "shadow");
-    draw(&of_light[..=last.unwrap()])
+    let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();
+    let lists = &passes[place("cull")..=place("setup")];
+    let looks = &passes[place("receivers")..=place("occlude")];
+    draw(&[lists, looks].concat())
 }
 
 fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {

@@ -7,8 +7,9 @@
 //! - `prefilter` runs once for a scene with an environment, before the scene's first frame.
 //! - If the frame samples a list of locations, `distribute` replaces the passes from `raster` to `detect`, and `crossings` replaces
 //!   `thin`. `groups` runs after `enlist`, and `points` may replace `resolve`.
-//! - For each light that may be hidden, `receivers` runs before `shade` and lists the locations that the light may illuminate. `shadow`
-//!   runs after the `sample` pass of that list.
+//! - If lights may be hidden, `receivers` runs before `shade` and finds the places that lights may reach. `occlude` looks them up in the
+//!   lists of a light's plane. Scenes without such lists have `receivers` for each plane, and `shadow` after the `sample` pass of its
+//!   list.
 //!
 //! The file of a pass declares it as a [`Pass`](super::pipelines::Pass), or has a type and says why it can't be declared.
 //! A pass reads the results of the passes before it from device memory, which is in [`super::data`].

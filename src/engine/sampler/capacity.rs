@@ -26,6 +26,9 @@ pub(crate) struct Capacity {
     pub long_lists: LongLists,
     /// Whether tiles without a list of candidates are sampled.
     pub samples_unlisted: bool,
+    /// Whether receivers of light are looked up in the lists of the tiles of a light's plane. Otherwise they are sampled, which takes
+    /// several times as long, but does not need the lists.
+    pub looks_up_occluders: bool,
 }
 
 impl Capacity {
@@ -60,12 +63,22 @@ impl Capacity {
         }
     }
 
+    /// This capacity for an owner whose memory may be limited. The lists in which receivers of light are looked up take much memory.
+    pub fn within(self, max_memory: Option<u64>) -> Self {
+        Self {
+            looks_up_occluders: self.looks_up_occluders && max_memory.is_none(),
+            ..self
+        }
+    }
+
     /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
     /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
     /// because testing every triangle takes long.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
-        let unshadowed = shortfall.unshadowed > 0;
+        let looks_up_occluders = self.looks_up_occluders && shortfall.unshadowed == 0;
+        // If receivers could not be looked up, they are sampled with the capacity that there is.
+        let unshadowed = shortfall.unshadowed > 0 && !self.looks_up_occluders;
         // The counters don't say what passes of lights lacked. Rounds are raised first, as long as there are few.
         let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0;
@@ -87,6 +100,7 @@ impl Capacity {
             },
             samples_unlisted: self.samples_unlisted
                 || (shortfall.unlisted_tiles > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
+            looks_up_occluders,
             ..self.with_lists(lists.max(shortfall.rooms))
         }
     }
@@ -109,6 +123,7 @@ impl Default for Capacity {
             rounds: None,
             long_lists: LongLists::default(),
             samples_unlisted: true,
+            looks_up_occluders: true,
         }
     }
 }
@@ -252,6 +267,8 @@ mod tests {
             rounds: Some(2),
             ..Capacity::default()
         };
+        let few = few.more(unshadowed);
+        assert_eq!((few.rounds, few.looks_up_occluders), (Some(2), false));
         let more = few.more(unshadowed);
         let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
         assert_eq!(unlike(&more), (Some(8), 1, LongLists::SeveralCells));

@@ -21,6 +21,7 @@ pub(crate) mod plan;
 mod rounds;
 mod settings;
 mod statistics;
+mod tile_lists;
 pub(crate) mod uniform;
 
 pub use crate::vulkan::timings::PassTime;
@@ -38,6 +39,7 @@ pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference};
 pub(crate) use settings::{ImageRequest, SamplerSettings, check_image_size};
 pub use statistics::{Statistics, TriangleCounts};
+pub(crate) use tile_lists::TileLists;
 
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,
@@ -45,6 +47,7 @@ use crate::engine::data::{
 };
 use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
+use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{
     Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite,
     cull, groups, resolve, sample, schedule, setup, sort, tally,
@@ -191,7 +194,7 @@ impl Sampler {
                 if cells.are_locations() {
                     visibility.push(groups::pass(layout, &blocks)?);
                 }
-                visibility.push(setup::pass(layout, scene)?);
+                visibility.push(setup::pass(layout, scene, ListOrder::Whole)?);
                 let is_shaded = cells != Cells::Occluders || scene.has_blend();
                 let sort = || sort::pass(layout, scene, scene.bin_count() == 1);
                 let sort = is_shaded.then(sort).transpose()?;

@@ -73,6 +73,7 @@ impl Frame {
     ) -> Result<Self, RenderError> {
         let settings = &settings.clone().with_shadowed_samples();
         let sampler = settings.sampler();
+        let capacity = capacity.within(settings.scene.max_memory);
         let casters = match settings.scene.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),

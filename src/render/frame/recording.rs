@@ -150,6 +150,9 @@ impl Recording<'_> {
                 .drawn()
                 .map(|place| place.map(|pixels| pixels * side)),
         );
+        if let Some(shadows) = self.shadows {
+            shadows.record_planes(recorder, &views, main);
+        }
         if let Some(PixelShading { spans, shade }) = &passes.pixels {
             let background = whole.background;
             recorder.section(PassTime::BACKGROUND, || {
@@ -158,7 +161,7 @@ impl Recording<'_> {
             });
             spans.record_for(recorder, width.div_ceil(8) * height);
             if let Some(shadows) = self.shadows {
-                shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
+                shadows.record(recorder, shadowed(main), Receiving::Pixels(whole.size));
             }
             shade.record(recorder);
         }

@@ -46,6 +46,7 @@ impl LocationPlan {
         may_stop: bool,
         capacity: Capacity,
     ) -> Result<Self, RenderError> {
+        let capacity = capacity.within(settings.scene.max_memory);
         let (limits, scene) = (layout.gpu.limits(), &*prepared.gpu_scene);
         let casters = match settings.scene.shadows {
             Shadows::None => None,

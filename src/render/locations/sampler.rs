@@ -155,6 +155,9 @@ impl LocationSampler {
             }
             let views = shadows.as_ref().map(|shadows| shadows.views(sight));
             let views = views.unwrap_or_default();
+            if let Some(shadows) = &*shadows {
+                shadows.record_planes(recorder, &views, set);
+            }
             let shadowed = Shadowed {
                 resources,
                 set,

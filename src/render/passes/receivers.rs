@@ -23,22 +23,26 @@ impl LightPlane {
         [0.46875, -0.296875],
     ];
 
-    /// Copies of this plane, one for each probe.
-    pub fn of_probes(self) -> impl Iterator<Item = Self> {
+    /// Numbers of the probes.
+    pub fn probes() -> impl Iterator<Item = u32> {
+        1..=Self::PROBES.len() as u32
+    }
+
+    /// This plane for the probe with this number, for which no shadow words are written.
+    pub fn of(self, probe: u32) -> Self {
         let light = self.step & spirv::RECEIVERS_LIGHT;
-        let numbers = 1..=Self::PROBES.len() as u32;
-        numbers.map(move |number| Self {
-            step: light | number << spirv::RECEIVERS_PROBE_SHIFT,
+        Self {
+            step: light | probe << spirv::RECEIVERS_PROBE_SHIFT,
             ..self
-        })
+        }
     }
 }
 
 /// Places that are about to be shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Receiving {
-    /// Centres of a region's pixels; holds their number.
-    Pixels(u32),
+    /// Centres of a region's pixels; holds the region's width and height.
+    Pixels([u32; 2]),
     /// Visibility samples of a round.
     Records,
 }
@@ -52,7 +56,8 @@ pub struct Receivers {
 
 impl Receivers {
     /// Makes the pipelines for cells of a scene. The pass writes the receivers' locations to `locations`, two vectors
-    /// each, and initialises the shadow words of the resources.
+    /// each, and initialises the shadow words of the resources. If receivers are `looked_up`, it writes their surfaces
+    /// instead, for all lights, and no words.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -61,7 +66,7 @@ impl Receivers {
         scene: &GpuScene,
         cells: Cells,
         resources: &Resources,
-        locations: &Buffer,
+        (locations, looked_up): (&Buffer, bool),
     ) -> Result<Self, VulkanError> {
         let shown = [
             (receivers_set::LOCATIONS_OUT, locations.into()),
@@ -73,6 +78,7 @@ impl Receivers {
         let kernel = |pixels: bool| {
             let shader = spirv::Receivers {
                 pixels,
+                looked_up,
                 locations: cells.are_locations(),
                 occluders: cells.are_occluders(),
                 instanced: scene.is_instanced(),
@@ -100,7 +106,9 @@ impl Receivers {
         set.show(recorder);
         recorder.show(&self.own);
         match receiving {
-            Receiving::Pixels(count) => self.of_pixels.record(recorder, plane, count),
+            Receiving::Pixels([width, height]) => {
+                self.of_pixels.record(recorder, plane, width * height);
+            }
             Receiving::Records => {
                 self.of_records
                     .record_indirect(recorder, plane, Argument::Sort);

@@ -5,10 +5,8 @@ use crate::engine::data::{Argument, Resources};
 use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Kernel};
 use crate::engine::spirv::{self, shadow_set};
-use crate::vulkan::{
-    Buffer, DescriptorSets, Memory, MemoryUse, Recorder, Specialized, VulkanError,
-};
-use ash::vk;
+use crate::render::passes::Unshadowed;
+use crate::vulkan::{DescriptorSets, Recorder, Specialized, VulkanError};
 
 /// Use of the occluders that were found between a light and its receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,36 +23,36 @@ pub enum ShadowTarget {
     },
 }
 
-/// Number of words in the counters of unfinished work.
-const LEFT_WORDS: usize = 2;
+impl ShadowTarget {
+    /// Place of the first receiver, and the width of the region whose pixels are probed; 0 without probes.
+    pub fn pushed(self) -> (u32, u32) {
+        match self {
+            Self::Words { first_place } => (first_place, 0),
+            Self::Marks { width } => (0, width),
+        }
+    }
+}
 
 /// Writes the shadow words of receivers, and counts what the passes before it could not finish.
 pub struct Shadow {
     sizes: Dispatch,
     kernel: Kernel<spirv::Shadow>,
     own: DescriptorSets,
-    left: Buffer,
-    kept: Buffer,
 }
 
 impl Shadow {
     /// Makes the pipelines, which write the shadow words of the receivers' resources.
     ///
     /// # Errors
-    /// If the driver refuses one, or memory runs out.
+    /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
-        memory: &Memory,
         receivers: &Resources,
+        unshadowed: &Unshadowed,
     ) -> Result<Self, VulkanError> {
-        let words = |name, usage, place| memory.buffer(name, 4 * LEFT_WORDS as u64, usage, place);
-        let transfer = vk::BufferUsageFlags::TRANSFER_DST;
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
-        let left = words("shadows left", storage | transfer, MemoryUse::Device)?;
-        let kept = words("shadows left, read back", transfer, MemoryUse::Readback)?;
         let shown = [
             (shadow_set::WORDS, (&receivers.shadow_words.buffer).into()),
-            (shadow_set::LEFT, (&left).into()),
+            (shadow_set::LEFT, unshadowed.buffer().into()),
             (shadow_set::MARKS_OF_PIXELS, (&receivers.marks).into()),
         ];
         let shadow_words = receivers.sizes().shadow_words;
@@ -63,23 +61,13 @@ impl Shadow {
             kernel: layout.kernel(&spirv::Shadow { shadow_words })?,
             // SAFETY: the buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Shadow::INTERFACE, &shown) }?,
-            left,
-            kept,
         })
-    }
-
-    /// Records the beginning of a frame.
-    pub fn record_begin(&self, recorder: &Recorder<'_>) {
-        recorder.clear(&self.left);
     }
 
     /// Records the pass for the occluders of a round, whose descriptor sets passes use.
     pub fn record(&self, recorder: &Recorder<'_>, target: ShadowTarget, light: u32) {
         self.sizes.record(recorder, 0);
-        let (first_place, width) = match target {
-            ShadowTarget::Words { first_place } => (first_place, 0),
-            ShadowTarget::Marks { width } => (0, width),
-        };
+        let (first_place, width) = target.pushed();
         let push = spirv::ShadowPush {
             first_place,
             light,
@@ -98,21 +86,5 @@ impl Shadow {
         };
         recorder.show(&self.own);
         self.kernel.record(recorder, &push, 1_u32);
-    }
-
-    /// Records the end of a frame.
-    pub fn record_end(&self, recorder: &Recorder<'_>) {
-        recorder.copy(&self.left, self.left.size(), &self.kept, 0);
-    }
-
-    /// Number of receivers and tiles that the last frame could not finish, and whether kernels ran with another
-    /// subgroup size than expected.
-    ///
-    /// # Errors
-    /// If the counters can't be read.
-    pub fn left(&self) -> Result<(u32, bool), VulkanError> {
-        let words: &[u32] = self.kept.read(LEFT_WORDS)?;
-        let word = |index: usize| words.get(index).copied().unwrap_or(0);
-        Ok((word(0), word(1) != 0))
     }
 }

@@ -1,19 +1,22 @@
 //! Passes and memory that find shadows.
 
 use super::casters::{Casters, Lit, caster_moment};
-use super::light::{LightView, Sight, views};
-use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Resources, SampleSet};
+use super::light::{LightView, Sight, most_planes, views};
+use crate::engine::data::{
+    Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet,
+};
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
     Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
-    Shortfall,
+    Shortfall, TileLists,
 };
 use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, shade,
+    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget,
+    Unshadowed, shade,
 };
 use crate::scene::Moment;
 use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
@@ -28,16 +31,35 @@ pub(in crate::render) struct ShadowFinder {
     moment: Option<Moment>,
     settings: SamplerSettings,
     receivers: Receivers,
-    sampler: Sampler,
-    /// Shading of casters that let light pass; `None` without such casters.
-    shade: Option<Pass>,
-    shadow: Shadow,
+    search: Search,
+    unshadowed: Unshadowed,
     pose: Option<PosePass>,
     geometry: FrameGeometry,
     look: FrameLook,
-    resources: Resources,
+    /// Memory for the casters that a plane shows: that of each plane, or of one after the other.
+    planes: Vec<Resources>,
     targets: RasterTargets,
     _locations: TexelBuffer,
+}
+
+/// Search for the occluders of receivers.
+enum Search {
+    /// The triangles of each tile of each plane are listed, and receivers are looked up in these lists.
+    Lists { lists: TileLists, occlude: Occlude },
+    /// Receivers are sampled, as other lists of locations are.
+    Samples {
+        sampler: Sampler,
+        /// Shading of casters that let light pass; `None` without such casters.
+        shade: Option<Pass>,
+        shadow: Shadow,
+    },
+}
+
+/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer.
+/// Receivers before BLEND casters are always sampled, for which lists are made anew in each round. In other scenes, the
+/// result must not depend on whether receivers are looked up or sampled.
+fn pixels_per_place(casters: &GpuScene) -> f64 {
+    if casters.has_blend() { 2.0 } else { 8.0 }
 }
 
 /// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
@@ -53,7 +75,8 @@ pub(in crate::render) struct Shadowed<'a> {
 
 /// Client of the sampler that finds occluders between a plane of a light and receivers.
 struct Occlusion<'a> {
-    finder: &'a ShadowFinder,
+    shade: Option<&'a Pass>,
+    shadow: &'a Shadow,
     target: ShadowTarget,
     /// Bit of the light in the words of receivers.
     light: u32,
@@ -68,14 +91,13 @@ impl Shadowed<'_> {
 impl RecordShading for Occlusion<'_> {
     /// Shades casters that let light pass, to get their opacities.
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
-        if let Some(shade) = &self.finder.shade {
+        if let Some(shade) = self.shade {
             shade.record(recorder);
         }
     }
 
     fn record_round_end(&self, recorder: &Recorder<'_>) {
-        let shadow = &self.finder.shadow;
-        shadow.record(recorder, self.target, self.light);
+        self.shadow.record(recorder, self.target, self.light);
     }
 }
 
@@ -87,15 +109,51 @@ const OCCLUDERS: ListCells = ListCells {
     lent: true,
 };
 
-fn sizes(
-    layout: &FrameLayout,
-    casters: &Casters,
-    settings: &SamplerSettings,
-    capacity: Capacity,
-    (places, shading): (u64, &ResourceSizes),
-) -> ResourceSizes {
-    let room = (shading.receivers(), [LightView::side(places); 2]);
-    OCCLUDERS.sizes(layout, &*casters.scene, &settings.cells, room, capacity)
+/// Number of bytes that the lists of all planes of the lights may take. With more, receivers are sampled.
+const MOST_LIST_BYTES: u64 = 768 << 20;
+
+/// Plan of a search: the memory of a plane, and the number of planes in memory at once.
+struct SearchPlan {
+    sizes: ResourceSizes,
+    planes: u32,
+    looks_up: bool,
+}
+
+impl SearchPlan {
+    /// Plan for an image or list of `places` places, whose owner has memory of the sizes `shading`.
+    fn new(
+        layout: &FrameLayout,
+        casters: &Casters,
+        settings: &SamplerSettings,
+        capacity: Capacity,
+        (places, shading): (u64, &ResourceSizes),
+    ) -> Self {
+        let (scene, options) = (&*casters.scene, &settings.cells);
+        let region = [LightView::side(places, pixels_per_place(scene)); 2];
+        let listed = Self {
+            sizes: TileLists::sizes(layout, scene, options, region, capacity),
+            planes: most_planes(&casters.lit, casters.scene.moves()).max(1),
+            looks_up: true,
+        };
+        let fits = listed
+            .sizes
+            .check("the lists of a light", layout.gpu.limits());
+        // Opacities of casters are known only where they are sampled.
+        let looks_up = capacity.looks_up_occluders && !scene.has_blend() && fits.is_ok();
+        if looks_up && u64::from(listed.planes) * listed.sizes.bytes() <= MOST_LIST_BYTES {
+            return listed;
+        }
+        let room = (shading.receivers(), region);
+        Self {
+            sizes: OCCLUDERS.sizes(layout, scene, options, room, capacity),
+            planes: 1,
+            looks_up: false,
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        u64::from(self.planes) * self.sizes.bytes()
+    }
 }
 
 impl ShadowFinder {
@@ -108,10 +166,10 @@ impl ShadowFinder {
         capacity: Capacity,
         (places, shading): (u64, &ResourceSizes),
     ) -> u64 {
-        let sizes = sizes(layout, casters, settings, capacity, (places, shading));
+        let plan = SearchPlan::new(layout, casters, settings, capacity, (places, shading));
         let list = 32 * u64::from(shading.receivers());
         let scene = &*casters.scene;
-        list + sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
+        list + plan.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 
     /// Makes pipelines and memory for cells of a scene that are shaded with `resources`, in an image or list of
@@ -129,13 +187,14 @@ impl ShadowFinder {
         places: u64,
     ) -> Result<Self, RenderError> {
         let occluding = &*casters.scene;
-        let sizes = sizes(
+        let plan = SearchPlan::new(
             layout,
             casters,
             settings,
             capacity,
             (places, shading.sizes()),
         );
+        let sizes = plan.sizes;
         sizes.check("the largest list of shadows", layout.gpu.limits())?;
         let (offsets, count) = OCCLUDERS.offsets(layout, &settings.cells)?;
         let offsets = Offsets {
@@ -156,15 +215,11 @@ impl ShadowFinder {
             MemoryUse::Device,
         )?;
         shown.push((frame_set::LOCATIONS, locations.texels().into()));
-        let resources = Resources::new(
-            layout,
-            memory,
-            occluding,
-            &shown,
-            &targets.views(),
-            sizes,
-            &[offsets],
-        )?;
+        let plane = |_| {
+            let views = targets.views();
+            Resources::new(layout, memory, occluding, &shown, &views, sizes, &[offsets])
+        };
+        let planes = (0..plan.planes).map(plane).collect::<Result<Vec<_>, _>>()?;
         let output = settings.color_constants(occluding);
         let context = SamplerContext {
             layout,
@@ -174,24 +229,45 @@ impl ShadowFinder {
             output: &output,
             sizes: &sizes,
             capacity: Capacity {
-                samples_unlisted: true,
+                samples_unlisted: !plan.looks_up,
                 ..capacity
             },
-            // `shadow` counts on the device, so that no runs are counted here.
+            // `shadow` and `occlude` count on the device, so that no runs are counted here.
             runs: 0,
         };
-        // SAFETY: the list lives as long as this, and has room for that many locations.
-        let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.texels())) }?;
-        let opacities = || {
-            let source = ShadeSource::Records {
-                cells: Cells::Occluders,
-            };
-            shade::pass(layout, occluding, (source, 0), &output)
+        let unshadowed = Unshadowed::new(memory)?;
+        let search = match planes.first() {
+            Some(resources) if !plan.looks_up => {
+                // SAFETY: the list lives as long as this, and has room for that many locations.
+                let sampler =
+                    unsafe { OCCLUDERS.sampler(&context, (resources, locations.texels())) }?;
+                let opacities = || {
+                    let source = ShadeSource::Records {
+                        cells: Cells::Occluders,
+                    };
+                    shade::pass(layout, occluding, (source, 0), &output)
+                };
+                Search::Samples {
+                    sampler,
+                    shade: occluding.has_blend().then(opacities).transpose()?,
+                    shadow: Shadow::new(layout, shading, &unshadowed)?,
+                }
+            }
+            _ => Search::Lists {
+                lists: TileLists::new(&context)?,
+                occlude: Occlude::new(layout, occluding, shading, &unshadowed)?,
+            },
         };
         Ok(Self {
-            shade: occluding.has_blend().then(opacities).transpose()?,
-            receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
-            shadow: Shadow::new(layout, memory, shading)?,
+            receivers: Receivers::new(
+                layout,
+                scene,
+                cells,
+                shading,
+                (&locations.buffer, plan.looks_up),
+            )?,
+            search,
+            unshadowed,
             pose: occluding
                 .moves()
                 .then(|| PosePass::new(layout))
@@ -200,10 +276,9 @@ impl ShadowFinder {
             moment: None,
             casters: casters.clone(),
             settings: settings.clone(),
-            sampler,
             geometry,
             look,
-            resources,
+            planes,
             targets,
             _locations: locations,
         })
@@ -213,13 +288,16 @@ impl ShadowFinder {
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         self.geometry.record_upload(recorder, &self.casters.scene);
         self.look.record_upload(recorder, &self.casters.scene);
-        self.resources.record_upload(recorder);
+        for plane in &self.planes {
+            plane.record_upload(recorder);
+        }
         self.targets.record_unused(recorder);
     }
 
     /// Views of the lights onto the visible part of the scene.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
-        views(&self.lit, sight)
+        let per_place = pixels_per_place(&self.casters.scene);
+        views(&self.lit, sight, per_place)
     }
 
     /// Shows another moment of the casters' motion, from the next recording on.
@@ -232,11 +310,10 @@ impl ShadowFinder {
 
     /// Records the beginning of a frame or run. The device must have finished the previous one.
     pub fn record_begin(&mut self, recorder: &Recorder<'_>) {
-        self.shadow.record_begin(recorder);
+        self.unshadowed.record_begin(recorder);
         self.look.record(recorder);
-        if let (Some(moment), Some(pose), Some(set)) =
-            (&self.moment, &self.pose, self.resources.set(0))
-        {
+        let set = self.planes.first().and_then(|plane| plane.set(0));
+        if let (Some(moment), Some(pose), Some(set)) = (&self.moment, &self.pose, set) {
             self.geometry.write_moment(moment);
             set.show(recorder);
             pose.record(recorder, &self.casters.scene, &self.geometry, moment);
@@ -245,7 +322,31 @@ impl ShadowFinder {
 
     /// Records the end of a frame or run.
     pub fn record_end(&self, recorder: &Recorder<'_>) {
-        self.shadow.record_end(recorder);
+        self.unshadowed.record_end(recorder);
+    }
+
+    /// Records what all searches of a region or list have in common. Passes use the sets `set` afterwards.
+    pub fn record_planes(&self, recorder: &Recorder<'_>, views: &[LightView], set: &SampleSet) {
+        let Search::Lists { lists, .. } = &self.search else {
+            return;
+        };
+        recorder.section(PassTime::SHADOWS, || {
+            for (view, resources) in views.iter().zip(&self.planes) {
+                if let Some(set) = resources.set(0) {
+                    let uniform = self.uniform(view, 1, resources);
+                    lists.record(recorder, (resources, set), &uniform);
+                }
+            }
+            set.show(recorder);
+        });
+    }
+
+    /// Uniform block of a plane, for cells of `samples` samples.
+    fn uniform(&self, view: &LightView, samples: u32, resources: &Resources) -> FrameUniform {
+        let (scene, settings, sizes) = (&*self.casters.scene, &self.settings, resources.sizes());
+        let cells = (Cells::Occluders, samples);
+        let window = &view.window;
+        window.uniform(scene, &view.pinhole, settings, cells, sizes)
     }
 
     /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
@@ -261,10 +362,7 @@ impl ShadowFinder {
                 Receiving::Records => shaded.pixels(),
             };
             let target = ShadowTarget::Words { first_place };
-            for view in shaded.views {
-                self.record_view(recorder, shaded, receiving, (view, &view.plane), target);
-            }
-            shaded.set.show(recorder);
+            self.record_search(recorder, shaded, receiving, |plane| plane, target);
         });
     }
 
@@ -272,58 +370,83 @@ impl ShadowFinder {
     /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.section(PassTime::SHADOWS, || {
-            let receiving = Receiving::Pixels(shaded.pixels());
+            let receiving = Receiving::Pixels(shaded.size);
             let target = ShadowTarget::Marks {
                 width: shaded.size[0],
             };
-            for view in shaded.views {
-                for plane in view.plane.of_probes() {
-                    self.record_view(recorder, shaded, receiving, (view, &plane), target);
-                }
+            for probe in LightPlane::probes() {
+                self.record_search(recorder, shaded, receiving, |plane| plane.of(probe), target);
             }
-            shaded.set.show(recorder);
         });
     }
 
-    fn record_view(
+    /// Records the search for all lights. `plane` is what `receivers` takes for the plane of a light.
+    fn record_search(
         &self,
         recorder: &Recorder<'_>,
         shaded: Shadowed<'_>,
         receiving: Receiving,
-        (view, plane): (&LightView, &LightPlane),
+        plane: impl Fn(LightPlane) -> LightPlane,
         target: ShadowTarget,
     ) {
-        let (scene, resources, shading) = (&*self.casters.scene, &self.resources, shaded.resources);
-        let Some(set) = resources.set(0) else {
-            return;
-        };
-        let (most, length) = match receiving {
-            Receiving::Pixels(count) => (count, ListLength::Known),
-            Receiving::Records => {
-                let length = ListLength::Counted(&shading.arguments, Argument::Sort);
-                (shading.sizes().record_capacity, length)
+        match &self.search {
+            Search::Lists { occlude, .. } => {
+                let (first_place, _) = target.pushed();
+                let planes: Vec<_> = shaded.views.iter().map(|view| plane(view.plane)).collect();
+                if let Some(any) = planes.first() {
+                    self.receivers.record(recorder, shaded.set, receiving, any);
+                }
+                for (plane, resources) in planes.iter().zip(&self.planes) {
+                    if let Some(set) = resources.set(0) {
+                        set.show(recorder);
+                        let receivers = (receiving, shaded.resources);
+                        occlude.record(recorder, receivers, plane, first_place);
+                    }
+                }
             }
-        };
-        let cells = (Cells::Occluders, self.sampler.samples());
-        let (pinhole, window) = (&view.pinhole, &view.window);
-        let uniform = window.uniform(scene, pinhole, &self.settings, cells, resources.sizes());
-        self.receivers
-            .record(recorder, shaded.set, receiving, plane);
-        resources.record_begin(recorder, set, &uniform);
-        let run = SamplerRun {
-            resources,
-            set,
-            uniform: &uniform,
-            list: (most, length),
-            index: 0,
-        };
-        let occlusion = Occlusion {
-            finder: self,
-            target,
-            light: view.bit,
-        };
-        self.sampler.record(recorder, &run, &occlusion);
-        self.shadow.record_left(recorder);
+            Search::Samples {
+                sampler,
+                shade,
+                shadow,
+            } => {
+                let Some(resources) = self.planes.first() else {
+                    return;
+                };
+                let Some(set) = resources.set(0) else {
+                    return;
+                };
+                let (most, length) = match receiving {
+                    Receiving::Pixels([width, height]) => (width * height, ListLength::Known),
+                    Receiving::Records => {
+                        let shading = shaded.resources;
+                        let length = ListLength::Counted(&shading.arguments, Argument::Sort);
+                        (shading.sizes().record_capacity, length)
+                    }
+                };
+                for view in shaded.views {
+                    self.receivers
+                        .record(recorder, shaded.set, receiving, &plane(view.plane));
+                    let uniform = self.uniform(view, sampler.samples(), resources);
+                    resources.record_begin(recorder, set, &uniform);
+                    let run = SamplerRun {
+                        resources,
+                        set,
+                        uniform: &uniform,
+                        list: (most, length),
+                        index: 0,
+                    };
+                    let occlusion = Occlusion {
+                        shade: shade.as_ref(),
+                        shadow,
+                        target,
+                        light: view.bit,
+                    };
+                    sampler.record(recorder, &run, &occlusion);
+                    shadow.record_left(recorder);
+                }
+            }
+        }
+        shaded.set.show(recorder);
     }
 
     /// Adds the work that the last recording could not finish.
@@ -331,7 +454,7 @@ impl ShadowFinder {
     /// # Errors
     /// If its counters can't be read.
     pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
-        let (left, other_subgroups) = self.shadow.left()?;
+        let (left, other_subgroups) = self.unshadowed.read()?;
         shortfall.unshadowed += u64::from(left);
         shortfall.other_subgroups |= other_subgroups;
         Ok(())

@@ -54,22 +54,32 @@ pub(in crate::render) struct LightView {
 }
 
 impl LightView {
-    /// Side in pixels of a plane for a number of pixels or locations. A plane with somewhat more pixels than places
-    /// keeps the lists of tiles short.
-    pub fn side(places: u64) -> u32 {
+    /// Side in pixels of a plane for a number of pixels or locations, with `per_place` pixels for each of them.
+    pub fn side(places: u64, per_place: f64) -> u32 {
         let [fewest, most] = SIDES;
-        let side = (2.0 * places as f64).sqrt().clamp(fewest, most);
+        let side = (per_place * places as f64).sqrt().clamp(fewest, most);
         // The side is a whole number of tiles.
         (side as u32).next_multiple_of(8)
     }
 }
 
-/// Views of all lights that together cover the visible part of the scene; empty for a scene without extent.
-pub(super) fn views(lit: &Lit, sight: &Sight) -> Vec<LightView> {
+/// Largest number of views that [`views`] makes, if lights have only one moment or may be changed by others.
+pub(super) fn most_planes(lit: &Lit, moves: bool) -> u32 {
+    let of_light = |light: &Light| match light.kind {
+        LightKind::Directional => 1,
+        LightKind::Spot { outer_angle, .. } if !moves && f64::from(outer_angle) <= WIDEST => 1,
+        LightKind::Spot { .. } | LightKind::Point => 6,
+    };
+    lit.lights.iter().map(of_light).sum()
+}
+
+/// Views of all lights that together cover the visible part of the scene; empty for a scene without extent. Planes have
+/// `per_place` pixels for each place.
+pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> {
     let Some(bounds) = lit.bounds else {
         return Vec::new();
     };
-    let side = LightView::side(sight.places);
+    let side = LightView::side(sight.places, per_place);
     let mut views = Vec::new();
     for (bit, light) in (0..).zip(&lit.lights) {
         let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();

@@ -1,8 +1,8 @@
 //! Exact shadows.
 //!
 //! The places at which surfaces are shaded, including those of every sample of a superpixel, are projected onto the
-//! image plane of each light. There they are a list of sampling locations, which the sampler of all lists samples: it
-//! finds the places that another triangle occludes. There is no depth map, which could alias.
+//! image plane of each light. There they are looked up in lists of the casters of each tile, or sampled as other lists of sample
+//! locations are. Either way the triangles are found that occlude a place. There is no depth map, which could alias.
 //!
 //! A place is in shadow in two cases. First, if another triangle, opaque or passing its alpha test, is nearer to the
 //! light by more than 2^-17 of the distance (of the scene's depth for a distant light). Second, if the visible side of
@@ -15,9 +15,11 @@
 //! from the centre, the pixel becomes a superpixel, so that shadows narrower than a pixel are found.
 //!
 //! ```text
-//! shaded next: pixels or records ─▶ receivers ─▶ a list on the light's plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each
-//!                                   └──────────────────────── for each plane of each light ────────────────────────┘      ▼
-//!                                                                                                                       shade
+//! casters ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ setup ─▶ lists of the tiles of a plane ─┐
+//! shaded next: pixels or records ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ a word for each ─▶ shade
+//!
+//! BLEND casters, or lists that do not fit into memory; for each plane:
+//! shaded next ─▶ receivers ─▶ a list on the plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each ─▶ shade
 //! ```
 
 mod casters;

@@ -22,6 +22,14 @@ impl Resources {
         set.show(recorder);
     }
 
+    /// Records that all pixels of the region are taken, by one cell in each tile.
+    pub(crate) fn record_all_tiles(&self, recorder: &Recorder<'_>) {
+        recorder.fill(&self.masks, vk::WHOLE_SIZE, u32::MAX);
+        recorder.fill(&self.locations.tile_loads, vk::WHOLE_SIZE, 1);
+        let tiles = 4 * Counter::Tiles as u64;
+        recorder.update(&self.counters, tiles, &1_u32.to_ne_bytes());
+    }
+
     /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.
     pub(crate) fn record_reach(&self, recorder: &Recorder<'_>, set: &SampleSet) {
         let region = vk::BufferCopy::default()

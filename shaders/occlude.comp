@@ -1,0 +1,219 @@
+// occlude: finds the receivers of a light in front of which another triangle lies, in the lists of candidates that the tiles of
+// the light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`:
+// those of which the light reaches the centre but not the probe, or the reverse. A subgroup takes 64 receivers: those of a
+// superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
+// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or
+// marks_of_pixels. Receivers in tiles without a list are counted as left.
+// Twin: `gpc::reference::shadow`.
+//
+// In each trip of the outer loop, the receivers in one tile are tested. The subgroup searches the tile's list for candidates
+// that may touch a pixel with receivers and may lie in front of one. As soon as each invocation holds such a candidate, it
+// tests it against the rectangle around the receivers. Candidates that pass are shown to the receivers, one after the other.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/workgroup.glsl"
+#include "include/work.glsl"
+#include "include/alpha.glsl"
+#include "include/candidate.glsl"
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = OCCLUDE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
+layout(push_constant) uniform Push {
+    mat4 to_plane;      // this and the next three members: as in receivers.comp
+    vec4 light;
+    vec4 cone;
+    float range;
+    uint step_;         // light and probe, see RECEIVERS_LIGHT
+    uint face;
+    uint first_place;   // place of the first receiver
+    uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are records
+} push;
+#include "include/light_plane.glsl"
+
+const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
+
+uint trips = 0u;                                        // MOST_TRIPS of workarounds.glsl
+
+// The receivers of an invocation.
+uint receiver[ROWS];        // index in the list
+uint tile_of[ROWS];
+vec2 place[ROWS];           // relative to its tile's centre
+float least[ROWS];          // depth from which on a triangle lies in front of it
+uint own[ROWS];             // the triangle that it lies on, which can't hide it
+uint hidden = 0u;           // a bit for each
+
+// The receiver that row `g` of this invocation takes; ~0 for none.
+uint receiver_of(int g) {
+    uint n = uint(g) * LANES + gl_SubgroupInvocationID, group = workgroup_number();
+    if (push.region.x == 0u) return group * 64u + n;
+    uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
+    return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
+}
+
+uint exists = 0u;           // a bit for each that has a surface
+uint turned = 0u;           // a bit for each whose surface is turned away from the light
+
+// Loads the receivers. Returns a bit for each that other triangles may hide from the light.
+uint load_receivers() {
+    uint asked = 0u;
+    ivec2 first = ivec2(floor(frame.origin));
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        uint i = receiver_of(g);
+        bool some = i != ~0u;
+        receiver[g] = i;
+        i = some ? i : 0u;
+        uvec4 at = texelFetch(locations, int(2u * i)), facing_ = texelFetch(locations, int(2u * i + 1u));
+        some = some && at.w != 0u;
+        Projected r = project(uintBitsToFloat(at.xyz), uintBitsToFloat(facing_.xyz), facing_.w != 0u, first, ivec2(frame.size));
+        tile_of[g] = some && r.asked ? (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3) : ~0u;
+        place[g] = place_in_tile(uvec4(r.pixel, floatBitsToUint(r.within)));
+        least[g] = r.least;
+        own[g] = at.w;
+        uint bit = 1u << g;
+        exists |= some ? bit : 0u;
+        turned |= some && r.turned ? bit : 0u;
+        asked |= some && r.asked ? bit : 0u;
+    }
+    return asked;
+}
+
+// The pixel of its tile in which a place lies, as a bit.
+uint pixel_at(vec2 p) {
+    uvec2 pixel = uvec2(clamp(ivec2(floor(p + vec2(4.0, 2.0))), ivec2(0), ivec2(7, 3)));
+    return 1u << (pixel.y * 8u + pixel.x);
+}
+
+// Shows a candidate to the receivers `rows` of this invocation.
+void show_to(Candidate t, uint rows) {
+    vec3 inner = thresholds(t);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        float d;
+        bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
+        hidden |= there ? rows & 1u << g : 0u;
+    }
+}
+
+// Shows an alpha-tested candidate to them. The alpha test is expensive: rows in which it decides nothing are left out.
+void show_masked_to(Candidate t, uint rows, vec2 center) {
+    vec3 inner = thresholds(t);
+    AlphaTest alpha = alpha_test(max(t.id, 1u) - 1u, center, place[0], mat2(0.0));
+    uint asked = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        float d;
+        bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
+        asked |= there ? rows & ~hidden & 1u << g : 0u;
+    }
+    uint pending = lanes_or(asked);
+    trips += uint(bitCount(pending));
+    do {
+        uint row = pending == 0u ? 0u : uint(findLSB(pending));
+        vec2 p = place[0];
+        [[unroll]] for (int g = 1; g < ROWS; g++) p = row == uint(g) ? place[g] : p;
+        hidden |= alpha_passes(alpha, p) ? asked & pending & 1u << row : 0u;
+        pending &= pending - 1u;
+    } while (pending != 0u);
+}
+
+// Tests the receivers of tile `its`: those with a bit in `mine`.
+void test_in(uint its, uint mine) {
+    uint lane = gl_SubgroupInvocationID;
+    uvec4 header = tiles[its];
+    bool listed = (header.w & TILE_LISTED) != 0u;
+    uint count = listed ? header.w >> TILE_COUNT_SHIFT : 0u;
+    if (mine != 0u && !listed) atomicAdd(left, 1u);
+    vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
+    float lowest = 3.4e38;
+    uint pixels = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        bool is_mine = (mine >> g & 1u) != 0u;
+        low = is_mine ? min(low, place[g]) : low;
+        high = is_mine ? max(high, place[g]) : high;
+        lowest = is_mine ? min(lowest, least[g]) : lowest;
+        pixels |= is_mine ? pixel_at(place[g]) : 0u;
+    }
+    low = vec2(lanes_min(low.x), lanes_min(low.y));
+    high = vec2(lanes_max(high.x), lanes_max(high.y));
+    lowest = lanes_min(lowest);
+    pixels = lanes_or(pixels);
+    vec2 middle = 0.5 * (low + high), half_side = 0.5 * (high - low) + ROUNDING;
+
+    uint next = 0u;             // the first entry of the list that has not been looked at
+    uint pending = 0u;          // a bit for each of the LANES entries before `next` that is still to be taken
+    bool more;
+    do {
+        uint held = 0u, my_entry = 0u;
+        do {
+            uint entry = next + lane;
+            uvec4 last = texelFetch(candidates, last_of_candidate(header.y, min(entry, max(count, 1u) - 1u), true));
+            bool may = entry < count && (last.w & pixels) != 0u && uintBitsToFloat(last.x) > lowest;
+            uint found = subgroupBallot(may).x;
+            bool fresh = pending == 0u;
+            pending = fresh ? found : pending;
+            next += fresh ? LANES : 0u;
+            uint number = lane - held, bit = bit_of_cell(pending, number), taken = min(uint(bitCount(pending)), LANES - held);
+            my_entry = number < taken ? next - LANES + bit : my_entry;
+            held += taken;
+            pending = taken == uint(bitCount(pending)) ? 0u : pending & ~((1u << bit_of_cell(pending, taken)) - 1u);
+            trips++;
+        } while (held < LANES && (pending != 0u || next < count) && trips <= MOST_TRIPS);
+        my_entry = min(my_entry, max(count, 1u) - 1u);
+        uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, my_entry, true));
+        Candidate k = unpack_candidate(candidate_at(header.y, my_entry, count, true), its_last);
+        RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
+        bool shows = lane < held && test.touches && test.near > lowest, masked = HAS_MASK && k.id > frame.first_mask;
+        uint showing = subgroupBallot(shows && !masked).x;
+        trips += 3u + uint(bitCount(showing));
+        do {
+            show_to(shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u), showing != 0u ? mine : 0u);
+            showing &= showing - 1u;
+        } while (showing != 0u);
+        if (HAS_MASK) {
+            showing = subgroupBallot(shows && masked).x;
+            trips += uint(bitCount(showing));
+            do {
+                Candidate t = shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u);
+                show_masked_to(t, showing != 0u ? mine : 0u, center);
+                showing &= showing - 1u;
+            } while (showing != 0u);
+        }
+        more = (pending != 0u || next < count) && subgroupAny((mine & ~hidden) != 0u) && trips <= MOST_TRIPS;
+    } while (more);
+}
+
+// Stores whether the light is blocked at receiver `i`.
+void store(uint i, bool blocked) {
+    uint bit = 1u << (push.step_ & RECEIVERS_LIGHT);
+    if (push.step_ >> RECEIVERS_PROBE_SHIFT == 0u) {
+        uint place = push.first_place + i;
+        words[place] = ((push.step_ & RECEIVERS_BEGINS) != 0u ? 0u : words[place]) | (blocked ? bit : 0u);
+        return;
+    }
+    bool centre_blocked = (words[i] & bit) != 0u;
+    uvec2 pixel = split(i, push.region.x);
+    uint tile = (pixel.y >> 2) * ((push.region.x + 7u) >> 3) + (pixel.x >> 3);
+    if (blocked != centre_blocked) atomicOr(marks_of_pixels[tile], 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)));
+}
+
+void main() {
+    if (in_other_subgroups(LANES)) {
+        other_subgroups = 1u;
+        return;
+    }
+    uint asked = load_receivers(), waits = asked;
+    do {
+        uint waiting = subgroupBallot(waits != 0u).x, my_next = 0u;
+        [[unroll]] for (int g = ROWS - 1; g >= 0; g--) my_next = (waits >> g & 1u) != 0u ? tile_of[g] : my_next;
+        uint its = waiting != 0u ? subgroupShuffle(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
+        [[unroll]] for (int g = 0; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
+        waits &= ~mine;
+        test_in(its, mine);
+    } while (subgroupAny(waits != 0u) && trips <= MOST_TRIPS);
+    if (trips > MOST_TRIPS && subgroupElect()) atomicAdd(left, 1u);
+    // Probes whose surface is turned away show nothing of the shadows of others.
+    uint stored = push.step_ >> RECEIVERS_PROBE_SHIFT == 0u ? exists : asked;
+    hidden |= turned;
+    [[unroll]] for (int g = 0; g < ROWS; g++) if ((stored >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
+}

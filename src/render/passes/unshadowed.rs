@@ -1,0 +1,56 @@
+//! Count of the shadows that passes could not find.
+
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+
+/// Number of words of the count.
+const WORDS: usize = 2;
+
+/// Count of the receivers and tiles that the passes of a frame's shadows could not finish, on the device and in a copy
+/// that the host reads.
+pub struct Unshadowed {
+    counted: Buffer,
+    kept: Buffer,
+}
+
+impl Unshadowed {
+    /// Makes the buffers.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(memory: &Memory) -> Result<Self, VulkanError> {
+        let words = |name, usage, place| memory.buffer(name, 4 * WORDS as u64, usage, place);
+        let transfer = vk::BufferUsageFlags::TRANSFER_DST;
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        Ok(Self {
+            counted: words("shadows left", storage | transfer, MemoryUse::Device)?,
+            kept: words("shadows left, read back", transfer, MemoryUse::Readback)?,
+        })
+    }
+
+    /// Buffer with the count, as `shaders/shadow.comp` describes it.
+    pub fn buffer(&self) -> &Buffer {
+        &self.counted
+    }
+
+    /// Records the beginning of a frame.
+    pub fn record_begin(&self, recorder: &Recorder<'_>) {
+        recorder.clear(&self.counted);
+    }
+
+    /// Records the end of a frame.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        recorder.copy(&self.counted, self.counted.size(), &self.kept, 0);
+    }
+
+    /// Number of receivers and tiles that the last frame could not finish, and whether kernels ran with another
+    /// subgroup size than expected.
+    ///
+    /// # Errors
+    /// If the count can't be read.
+    pub fn read(&self) -> Result<(u32, bool), VulkanError> {
+        let words: &[u32] = self.kept.read(WORDS)?;
+        let word = |index: usize| words.get(index).copied().unwrap_or(0);
+        Ok((word(0), word(1) != 0))
+    }
+}
