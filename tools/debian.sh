@@ -1,7 +1,12 @@
-# Mesa's drivers of another Debian release, without installing them. Scripts source this file, and set `folder`, where packages
-# are unpacked.
+# Mesa's drivers of another Debian release, without installing them. Scripts source this file in the project's folder.
 #
-# apt fetches the packages from where the machine gets its own. This needs no root.
+# apt fetches the packages from where the machine gets its own. This needs no root. They are unpacked in `folder`. `gpc` is the
+# command, which scripts build.
+
+folder="${CARGO_TARGET_DIR:-target}/drivers"
+mkdir -p "$folder"
+folder="$(realpath "$folder")"
+gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
 
 release="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
 

@@ -10,10 +10,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-folder="${CARGO_TARGET_DIR:-target}/drivers"
-mkdir -p "$folder" out/bounds
-folder="$(realpath "$folder")"
-gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
+mkdir -p out/bounds
 out="$(realpath out/bounds)"
 . tools/debian.sh
 

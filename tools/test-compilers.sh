@@ -13,10 +13,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-folder="${CARGO_TARGET_DIR:-target}/drivers"
-mkdir -p "$folder" out/compilers
-folder="$(realpath "$folder")"
-gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
+mkdir -p out/compilers
 . tools/debian.sh
 
 # Name, Debian release of the driver, the driver's name in Mesa, variables that make it compile for the hardware, description.
@@ -37,6 +34,7 @@ fence-1024   |render assets/fence.glb --samples 1024
 foliage-64   |render assets/foliage.glb --samples 64
 glass-64     |render assets/glass.glb --samples 64
 shadows-64   |render assets/fence.glb --samples 64 --shadows exact
+shadows-glass|render assets/glass.glb --samples 64 --shadows exact
 points-16    |render assets/foliage.glb --samples 16 --pattern sobol
 points-64    |render assets/foliage.glb --samples 64 --pattern sobol
 environment  |render assets/spheres.glb --environment out/compilers/image.exr

@@ -9,10 +9,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-folder="${CARGO_TARGET_DIR:-target}/drivers"
-mkdir -p "$folder" out/drivers
-folder="$(realpath "$folder")"
-gpc="$(realpath "${CARGO_TARGET_DIR:-target}")/release/gpc"
+mkdir -p out/drivers
 scene=assets/fence.glb
 
 # Name, and description. Lavapipe's subgroups have an invocation for each 32 bits of a vector.

@@ -384,6 +384,9 @@
 // The number of the plane of a light that needs only one. Smaller numbers are faces of a cube of planes around a light.
 #define SINGLE_PLANE 6u
 
+// Number of samples from which on more pixels become superpixels, and a triangle is shaded once only where colours do not differ.
+#define MANY_SAMPLES 128u
+
 // What `receivers` takes in a word: the number of the light; a flag of the first step of all, which clears the shadow words; and,
 // shifted, the number of the probe, from 1 on, or 0 for none.
 #define RECEIVERS_LIGHT 31u

@@ -15,9 +15,6 @@ const uint FEWER_PARTS = PART == 1u ? PARTS_PAIRS : PARTS_FOURS, SOME_PARTS = PA
 // error would rise more, and with more samples, too.
 const float PAIRED_RANGE = 12.0;
 
-// With so many samples or more, triangles are shaded once only where colours do not differ at all.
-const uint MANY_SAMPLES = 128u;
-
 // Number of samples of a part.
 uint part_length(uint parts) { return PART << parts; }
 
@@ -54,6 +51,7 @@ float variation_range(uint codes[9], uint among) {
 uint variation_parts(float range) {
     float alike = float(frame.alike);
     bool pairs = frame.alike != 0u && frame.sample_count > 64u && frame.sample_count <= 256u && range <= PAIRED_RANGE;
+    // With many samples, triangles are shaded once only where colours do not differ at all.
     bool even = range <= (frame.sample_count < MANY_SAMPLES ? alike : 0.0);
     return even ? PARTS_ONE : range <= 4.0 * alike ? FEWER_PARTS : pairs ? SOME_PARTS : PARTS_ALL;
 }

@@ -3333,6 +3333,7 @@ pub const WRAP_REPEAT: u32 = 0;
 pub const WRAP_MIRRORED_REPEAT: u32 = 1;
 pub const WRAP_CLAMP_TO_EDGE: u32 = 2;
 pub const SINGLE_PLANE: u32 = 6;
+pub const MANY_SAMPLES: u32 = 128;
 pub const RECEIVERS_LIGHT: u32 = 31;
 pub const RECEIVERS_BEGINS: u32 = 32;
 pub const RECEIVERS_PROBE_SHIFT: u32 = 6;

@@ -1,6 +1,7 @@
 //! Methods of antialiasing.
 
 use super::EngineError;
+use crate::engine::spirv;
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 use ash::vk;
@@ -181,10 +182,6 @@ impl SuperpixelOptions {
     /// Largest number of growths. Each growth records further rounds.
     pub const MOST_GROWTHS: u8 = 8;
 
-    /// Number of samples from which on more pixels become superpixels: by a lower contrast, second differences of
-    /// colours, more growths, and thin triangles at an angle to the surface around them.
-    const MANY_SAMPLES: u32 = 128;
-
     /// Default options with `samples` samples of a superpixel.
     #[must_use]
     pub fn new(samples: u32) -> Self {
@@ -201,13 +198,13 @@ impl SuperpixelOptions {
     /// superpixels have a larger part in the error, so the threshold is lower.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        if samples < Self::MANY_SAMPLES { 6 } else { 1 }
+        if samples < spirv::MANY_SAMPLES { 6 } else { 1 }
     }
 
     /// Default number of growths for `samples` samples.
     #[must_use]
     pub fn default_growths(samples: u32) -> u8 {
-        if samples < Self::MANY_SAMPLES { 1 } else { 4 }
+        if samples < spirv::MANY_SAMPLES { 1 } else { 4 }
     }
 
     /// Number of growths; 0 unless [`Self::detection`] is [`Detection::Contrast`].
@@ -222,9 +219,10 @@ impl SuperpixelOptions {
         }
     }
 
-    /// Whether superpixels have so many samples that more pixels become superpixels.
+    /// Whether superpixels have so many samples that more pixels become superpixels: by a lower contrast, second
+    /// differences of colours, more growths, and thin triangles at an angle to the surface around them.
     pub(crate) fn has_many_samples(&self) -> bool {
-        self.cells.samples >= Self::MANY_SAMPLES
+        self.cells.samples >= spirv::MANY_SAMPLES
     }
 
     /// Contrast threshold in code values: two colours contrast if any channel differs by more.

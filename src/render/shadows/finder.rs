@@ -48,7 +48,7 @@ enum Search {
     Lists { lists: TileLists, occlude: Occlude },
     /// Receivers are sampled, as other lists of locations are.
     Samples {
-        sampler: Sampler,
+        sampler: Box<Sampler>,
         /// Shading of casters that let light pass; `None` without such casters.
         shade: Option<Pass>,
         shadow: Shadow,
@@ -248,7 +248,7 @@ impl ShadowFinder {
                     shade::pass(layout, occluding, (source, 0), &output)
                 };
                 Search::Samples {
-                    sampler,
+                    sampler: Box::new(sampler),
                     shade: occluding.has_blend().then(opacities).transpose()?,
                     shadow: Shadow::new(layout, shading, &unshadowed)?,
                 }
