@@ -31,7 +31,7 @@ help:
 	@echo "make test-compilers compile the kernels for GPUs that are not there, and check what their compilers say"
 	@echo "make test-bounds    check that no shader reads or writes beyond the end of a buffer"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
-	@echo "make measure        write docs/bench/*.csv of this machine's driver again (hours); KINDS='...' are some of them"
+	@echo "make measure        write docs/bench/*.csv of this machine's driver again (an hour); KINDS='...' are some of them"
 	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
 	@echo "make pictures       render the pictures of the documents again"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes hours.
+# Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes an hour.
 #
 #   tools/measure.sh [KIND...]        quality, speed, motion, variants, choices, growth, hosts; all if none is named
 #
