@@ -1,10 +1,10 @@
 //! Detection: which pixels alias and become superpixels.
 //!
 //! A pixel is a superpixel if any of its 8 neighbours inside the image differs in colour; with [`Mode::Edges`], only
-//! if that neighbour shows another surface too. With [`Mode::SecondDifferences`], colours around it that bend make it one,
-//! too. Two pixels show different surfaces if the IDs of their nearest opaque
-//! triangles differ, or the IDs of their nearest blended triangles. Colours are compared as displayed, channel by
-//! channel and including alpha, because alpha alone distinguishes a black object from a transparent background.
+//! if that neighbour shows another surface too. With [`Mode::SecondDifferences`], a second difference of the colours
+//! around it is enough. Two pixels show different surfaces if the IDs of their nearest opaque triangles differ, or the
+//! IDs of their nearest blended triangles. Colours are compared as displayed, channel by channel and including alpha,
+//! because alpha alone distinguishes a black object from a transparent background.
 
 use thiserror::Error;
 
