@@ -92,8 +92,6 @@ const VARIANTS: &[Variant] = &[
     ("sample_4", "sample.comp", &[("ROWS", "4")]),
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
     ("sample_16", "sample.comp", &[("ROWS", "16")]),
-    ("sample_masks_16", "sample_masks.comp", &[("SAMPLES", "16")]),
-    ("sample_masks_64", "sample_masks.comp", &[("SAMPLES", "64")]),
     ("sample_lines", "sample_lines.comp", &[]),
     (
         "sample_layered_1",
@@ -172,8 +170,6 @@ const VARIANTS: &[Variant] = &[
     ),
     ("sort", "sort.comp", &[]),
     ("receivers", "receivers.comp", &[]),
-    ("occlude_2", "occlude.comp", &[("ROWS", "2")]),
-    ("occlude_4", "occlude.comp", &[("ROWS", "4")]),
     ("occlude_8", "occlude.comp", &[("ROWS", "8")]),
     ("occlude_16", "occlude.comp", &[("ROWS", "16")]),
     ("shadow", "shadow.comp", &[]),

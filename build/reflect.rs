@@ -811,9 +811,9 @@ fn of_shader(
     };
     writeln!(
         code,
-        "        ],\n        push_bytes: {},\n        invocations: {invocations},\n        needs_subgroup_size: {},\n    }};",
+        "        ],\n        push_bytes: {},\n        invocations: {invocations},\n        by_teams: {},\n    }};",
         push.unwrap_or(0),
-        interface.constants.values().any(|constant| constant.name == "unsure")
+        interface.local_size.is_none() && interface.constants.values().any(|constant| constant.name == "team")
     )
     .expect("a string");
     let values: String = interface

@@ -6,12 +6,13 @@
 #include "include/frame.glsl"
 #include "include/owners.glsl"
 #include "include/pairs.glsl"
+#include "include/work.glsl"
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push {
     uint after;             // one of AFTER_
-    uint subgroups_first;   // as in load.glsl
-    uint subgroups;
-    uint subgroups_unlisted;
+    uint teams_first;       // this and the next two: as in load.glsl
+    uint teams;
+    uint teams_unlisted;
 } push;
 
 void main() {
@@ -19,24 +20,25 @@ void main() {
         bool any_tile = counters[COUNTER_TILES] != 0u;
         counters[COUNTER_WAITING] = counters[COUNTER_TILES];
         arguments[ARGUMENT_CULL] = any_tile ? groups((frame.triangle_count + 511u) / 512u) : uvec4(0u);
-        arguments[ARGUMENT_TALLY] = any_tile ? groups((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH) : uvec4(0u);
+        arguments[ARGUMENT_TALLY] = any_tile ? groups(workgroups_of((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH)) : uvec4(0u);
     } else if (push.after == AFTER_CULL) {
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]);
     } else if (push.after == AFTER_SAMPLE) {
         uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
         counters[COUNTER_RECORDS_TOTAL] += n;
-        arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
+        arguments[ARGUMENT_RECORDS] = groups((n + 63u) / 64u);
+        arguments[ARGUMENT_SORT] = groups(workgroups_of((n + 63u) / 64u));
     } else if (push.after == AFTER_GROUPS) {
-        for (uint list = 0u; list < TILE_LISTS; list++)
-            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < TILE_LIST_BLENDED ? push.subgroups_first : list < TILE_LIST_UNLISTED ? push.subgroups : push.subgroups_unlisted));
+        uvec4 entries = uvec4(counters[COUNTER_PLAIN_TILES], counters[COUNTER_MASKED_TILES], counters[COUNTER_BLENDED_TILES], counters[COUNTER_UNLISTED_TILES]);
+        size_of_lists(entries, uvec3(push.teams_first, push.teams, push.teams_unlisted));
         arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(counters[COUNTER_UNLISTED_TILES]);
     } else if (push.after == AFTER_SCATTER) {
         uint layers = min(counters[COUNTER_LAYERS], owners_room());
         arguments[ARGUMENT_LAYERS] = groups((layers - min(counters[COUNTER_OWNERS], layers) + 63u) / 64u);
-    } else if (push.after == AFTER_PROBE) {
-        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * push.subgroups);
-        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);
+    } else if (push.after == AFTER_LINES) {
+        arguments[ARGUMENT_PLAIN_LEFT] = groups(workgroups_of(counters[COUNTER_PLAIN_LEFT] * push.teams));
+        arguments[ARGUMENT_MASKED_LEFT] = groups(workgroups_of(counters[COUNTER_MASKED_LEFT] * push.teams));
     } else if (push.after == AFTER_THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
         arguments[ARGUMENT_THIN_LONG] = groups(counters[COUNTER_THIN_LONG]);

@@ -32,7 +32,7 @@ void main() {
     uint columns = uint(high.x - low.x + 1), count = exists ? columns * uint(high.y - low.y + 1) : 0u;
     float inverse_columns = 1.0 / float(columns);
     uint k = large ? gl_LocalInvocationID.x : 0u;
-    // Invocations stay in the loop as long as one of the subgroup has a tile left, as `append` requires.
+    // Invocations stay in the loop as long as one of the subgroup has a tile left, so that they append together.
     do {
         uint kk = min(k, max(count, 1u) - 1u);
         uint row = uint((float(kk) + 0.5) * inverse_columns);

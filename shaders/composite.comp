@@ -1,30 +1,28 @@
-// composite: computes the colour of each list of layers, and stores it as that of the list's leaf. A subgroup takes 64 records.
-// Its invocations first look which of these are leaves, since CPU devices also execute code that no invocation needs.
+// composite: computes the colour of each list of layers, and stores it as that of the list's leaf. A team takes 64 records.
+// Its members first look which of these are leaves, since CPU devices also execute code that no invocation needs.
 // Reads: records, shaded. Writes: shaded.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/workgroup.glsl"
-#include "include/lanes.glsl"
+#include "include/team.glsl"
 #include "include/color.glsl"
 #include "include/composite.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
 void main() {
-    if (in_other_subgroups(LANES)) return;
-    uint first = workgroup_number() * 64u + gl_SubgroupInvocationID;
+    uint first = team_number() * 64u + member();
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint leaves = 0u;
-    [[unroll]] for (uint r = 0u; r < 64u / LANES; r++) {
-        uint i = first + r * LANES;
+    [[unroll]] for (uint r = 0u; r < 64u / TEAM; r++) {
+        uint i = first + r * TEAM;
         leaves |= i < count && texelFetch(records, int(i)).y == 0u ? 1u << r : 0u;
     }
     do {
         bool exists = leaves != 0u;
-        uint i = first + (exists ? uint(findLSB(leaves)) : 0u) * LANES;
+        uint i = first + (exists ? uint(findLSB(leaves)) : 0u) * TEAM;
         uint nearest = exists ? farther(i) : ~0u;
         vec4 color = composite(nearest);
         if (nearest != ~0u) shaded_out[i] = color;
         leaves &= leaves - 1u;
-    } while (lanes_or(leaves) != 0u);
+    } while (team_or(leaves) != 0u);
 }

@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
-#include "include/lanes.glsl"
+#include "include/team.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
@@ -53,21 +53,21 @@ bool may_cover_centre(Triangle k) {
 }
 
 void main() {
-    uint part = workgroup_number(), begin = part * FILTER_TRIANGLES, end = min(begin + FILTER_TRIANGLES, push.triangle_count);
+    uint part = team_number(), begin = part * FILTER_TRIANGLES, end = min(begin + FILTER_TRIANGLES, push.triangle_count);
     if (begin >= end) return;
-    uint i = begin + gl_SubgroupInvocationID, listed = 0u, steps = (end - begin + LANES - 1u) / LANES;
+    uint i = begin + member(), listed = 0u, steps = (end - begin + TEAM - 1u) / TEAM;
     do {
         uint t = push.first_triangle + i;
         Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool lists = i < end && k.exists && !f.outside && !hidden && (f.unprojected || may_cover_centre(k));
-        uint at = 3u * (push.first_triangle + begin + listed + lanes_before(uint(lists)));
+        uint at = 3u * (push.first_triangle + begin + listed + team_before(uint(lists)));
         for (uint corner = 0u; corner < 3u && lists; corner++) corners_out[at + corner] = 3u * (i - begin) + corner;
-        listed += lanes_add(uint(lists));
-        i += LANES;
+        listed += team_add(uint(lists));
+        i += TEAM;
     } while (--steps > 0u);
-    if (gl_SubgroupInvocationID == 0u) {
+    if (member() == 0u) {
         uint first = 3u * (push.first_triangle + begin);
         indexed_draws_out[push.first_draw + part] = IndexedDraw(3u * listed, 1u, first, first, 0u);
     }

@@ -1,25 +1,24 @@
 // occlude: finds the receivers of a light in front of which another triangle lies, in the lists of candidates that the tiles of
 // the light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`:
-// those of which the light reaches the centre but not the probe, or the reverse. A subgroup takes 64 receivers: those of a
+// those of which the light reaches the centre but not the probe, or the reverse. A team takes 64 receivers: those of a
 // superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
 // Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or
 // marks_of_pixels. Receivers in tiles without a list are counted as left.
 // Twin: `gpc::reference::shadow`.
 //
-// In each trip of the outer loop, the receivers in one tile are tested. The subgroup searches the tile's list for candidates
-// that may touch a pixel with receivers and may lie in front of one. As soon as each invocation holds such a candidate, it
+// In each trip of the outer loop, the receivers in one tile are tested. The team searches the tile's list for candidates
+// that may touch a pixel with receivers and may lie in front of one. As soon as each member holds such a candidate, it
 // tests it against the rectangle around the receivers. Candidates that pass are shown to the receivers, one after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/workgroup.glsl"
 #include "include/work.glsl"
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = OCCLUDE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
-layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left; };
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
     mat4 to_plane;      // this and the next three members: as in receivers.comp
@@ -47,7 +46,7 @@ uint hidden = 0u;           // a bit for each
 
 // The receiver that row `g` of this invocation takes; ~0 for none.
 uint receiver_of(int g) {
-    uint n = uint(g) * LANES + gl_SubgroupInvocationID, group = workgroup_number();
+    uint n = uint(g) * TEAM + member(), group = team_number();
     if (push.region.x == 0u) return group * 64u + n;
     uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
     return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
@@ -106,7 +105,7 @@ void show_masked_to(Candidate t, uint rows, vec2 center) {
         bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
         asked |= there ? rows & ~hidden & 1u << g : 0u;
     }
-    uint pending = lanes_or(asked);
+    uint pending = team_or(asked);
     trips += uint(bitCount(pending));
     do {
         uint row = pending == 0u ? 0u : uint(findLSB(pending));
@@ -119,7 +118,7 @@ void show_masked_to(Candidate t, uint rows, vec2 center) {
 
 // Tests the receivers of tile `its`: those with a bit in `mine`.
 void test_in(uint its, uint mine) {
-    uint lane = gl_SubgroupInvocationID;
+    uint lane = member();
     uvec4 header = tiles[its];
     bool listed = (header.w & TILE_LISTED) != 0u;
     uint count = listed ? header.w >> TILE_COUNT_SHIFT : 0u;
@@ -134,14 +133,14 @@ void test_in(uint its, uint mine) {
         lowest = is_mine ? min(lowest, least[g]) : lowest;
         pixels |= is_mine ? pixel_at(place[g]) : 0u;
     }
-    low = vec2(lanes_min(low.x), lanes_min(low.y));
-    high = vec2(lanes_max(high.x), lanes_max(high.y));
-    lowest = lanes_min(lowest);
-    pixels = lanes_or(pixels);
+    low = vec2(team_min(low.x), team_min(low.y));
+    high = vec2(team_max(high.x), team_max(high.y));
+    lowest = team_min(lowest);
+    pixels = team_or(pixels);
     vec2 middle = 0.5 * (low + high), half_side = 0.5 * (high - low) + ROUNDING;
 
     uint next = 0u;             // the first entry of the list that has not been looked at
-    uint pending = 0u;          // a bit for each of the LANES entries before `next` that is still to be taken
+    uint pending = 0u;          // a bit for each of the TEAM entries before `next` that is still to be taken
     bool more;
     do {
         uint held = 0u, my_entry = 0u;
@@ -149,29 +148,29 @@ void test_in(uint its, uint mine) {
             uint entry = next + lane;
             uvec4 last = texelFetch(candidates, last_of_candidate(header.y, min(entry, max(count, 1u) - 1u), true));
             bool may = entry < count && (last.w & pixels) != 0u && uintBitsToFloat(last.x) > lowest;
-            uint found = subgroupBallot(may).x;
+            uint found = team_ballot(may);
             bool fresh = pending == 0u;
             pending = fresh ? found : pending;
-            next += fresh ? LANES : 0u;
-            uint number = lane - held, bit = bit_of_cell(pending, number), taken = min(uint(bitCount(pending)), LANES - held);
-            my_entry = number < taken ? next - LANES + bit : my_entry;
+            next += fresh ? TEAM : 0u;
+            uint number = lane - held, bit = bit_of_cell(pending, number), taken = min(uint(bitCount(pending)), TEAM - held);
+            my_entry = number < taken ? next - TEAM + bit : my_entry;
             held += taken;
             pending = taken == uint(bitCount(pending)) ? 0u : pending & ~((1u << bit_of_cell(pending, taken)) - 1u);
             trips++;
-        } while (held < LANES && (pending != 0u || next < count) && trips <= MOST_TRIPS);
+        } while (held < TEAM && (pending != 0u || next < count) && trips <= MOST_TRIPS);
         my_entry = min(my_entry, max(count, 1u) - 1u);
         uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, my_entry, true));
         Candidate k = unpack_candidate(candidate_at(header.y, my_entry, count, true), its_last);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool shows = lane < held && test.touches && test.near > lowest, masked = HAS_MASK && k.id > frame.first_mask;
-        uint showing = subgroupBallot(shows && !masked).x;
+        uint showing = team_ballot(shows && !masked);
         trips += 3u + uint(bitCount(showing));
         do {
             show_to(shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u), showing != 0u ? mine : 0u);
             showing &= showing - 1u;
         } while (showing != 0u);
         if (HAS_MASK) {
-            showing = subgroupBallot(shows && masked).x;
+            showing = team_ballot(shows && masked);
             trips += uint(bitCount(showing));
             do {
                 Candidate t = shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u);
@@ -179,7 +178,7 @@ void test_in(uint its, uint mine) {
                 showing &= showing - 1u;
             } while (showing != 0u);
         }
-        more = (pending != 0u || next < count) && subgroupAny((mine & ~hidden) != 0u) && trips <= MOST_TRIPS;
+        more = (pending != 0u || next < count) && team_any((mine & ~hidden) != 0u) && trips <= MOST_TRIPS;
     } while (more);
 }
 
@@ -198,20 +197,16 @@ void store(uint i, bool blocked) {
 }
 
 void main() {
-    if (in_other_subgroups(LANES)) {
-        other_subgroups = 1u;
-        return;
-    }
     uint asked = load_receivers(), waits = asked;
     do {
-        uint waiting = subgroupBallot(waits != 0u).x, my_next = 0u;
+        uint waiting = team_ballot(waits != 0u), my_next = 0u;
         [[unroll]] for (int g = ROWS - 1; g >= 0; g--) my_next = (waits >> g & 1u) != 0u ? tile_of[g] : my_next;
-        uint its = waiting != 0u ? subgroupShuffle(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
+        uint its = waiting != 0u ? of_member(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
         [[unroll]] for (int g = 0; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
         waits &= ~mine;
         test_in(its, mine);
-    } while (subgroupAny(waits != 0u) && trips <= MOST_TRIPS);
-    if (trips > MOST_TRIPS && subgroupElect()) atomicAdd(left, 1u);
+    } while (team_any(waits != 0u) && trips <= MOST_TRIPS);
+    if (trips > MOST_TRIPS && member() == 0u) atomicAdd(left, 1u);
     // Probes whose surface is turned away show nothing of the shadows of others.
     uint stored = push.step_ >> RECEIVERS_PROBE_SHIFT == 0u ? exists : asked;
     hidden |= turned;

@@ -1,5 +1,5 @@
-// resolve: computes the colour of each superpixel from its shaded records. A subgroup takes an entry of a work list, and an
-// invocation a cell of it.
+// resolve: computes the colour of each superpixel from its shaded records. A team takes an entry of a work list, and a
+// member a cell of it.
 // The colours of records are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, if asked for, display and marks.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
@@ -8,7 +8,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
 #include "include/layer_list.glsl"
@@ -22,7 +21,7 @@ layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
 layout(constant_id = RESOLVE_CONSTANT_LAYERED) const bool LAYERED = false;
 layout(constant_id = RESOLVE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = RESOLVE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = false;
-layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // only marked cells have more than one block
+layout(constant_id = RESOLVE_CONSTANT_BY_LINES) const bool BY_LINES = false;   // only cells that `sample_lines` left, which are marked, have more than one block
 layout(constant_id = RESOLVE_CONSTANT_GROWS) const bool GROWS = false;       // neighbours are marked for `grow`
 
 void write(uvec2 pixel, vec4 c) {
@@ -39,10 +38,9 @@ void write(uvec2 pixel, vec4 c) {
 }
 
 void main() {
-    if (in_other_subgroups(LANES)) return;
-    uint number = workgroup_number();
+    uint number = team_number();
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
-    uint lane = gl_SubgroupInvocationID;
+    uint lane = member();
     uint entry = tile_lists[first_entry(LIST) + number], item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
@@ -53,12 +51,12 @@ void main() {
     float share = 1.0 / float(frame.sample_count);
 
     // The cell of this invocation.
-    uint first = entry_part(entry) * LANES, cell = first + lane;
+    uint first = entry_part(entry) * TEAM, cell = first + lane;
     uint bit = LOCATIONS ? lane : bit_of_cell(word, cell);
     bool mine = cell < (LOCATIONS ? location_group.z : bitCount(word));
     vec4 sum = vec4(0.0);
     float covered = 0.0;
-    uint filled = PROBED && (marks[item] >> bit & 1u) == 0u ? 1u : blocks;
+    uint filled = BY_LINES && (marks[item] >> bit & 1u) == 0u ? 1u : blocks;
     uint block = 0u;
     do {
         uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);

@@ -1,21 +1,13 @@
 // sample: finds the nearest triangle of every sub-sample of the superpixels in a work list. No colours are read or computed.
-// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets.
-// Writes: records, headers; PROBE: also marks, and lists of the cells that are left to REST.
+// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets. Writes: records, headers.
 //
-// A subgroup takes up to LANES cells of a tile. In the first loop an invocation holds a cell, and all candidates of the tile are
+// A team takes up to TEAM cells of a tile. In the first loop a member holds a cell, and all candidates of the tile are
 // tested against it. The tests are conservative: `setup` has tested the candidate's bounding box and edges, and here its edges
 // are tested against the cell's square. Candidates that pass make the cell's short list, unless they lie behind a triangle that
-// covers the whole square. Then the subgroup takes the cells one after the other, in blocks of samples: an invocation holds ROWS
+// covers the whole square. Then the team takes the cells one after the other, in blocks of samples: a member holds ROWS
 // samples, with their depths and IDs in registers, and the short list is tested against these. If a short list outgrows its
 // room, all candidates of the tile are tested instead. If depths are equal, the smaller ID wins, so that the order of candidates
 // does not matter. For samples of UNLISTED tiles, `scatter` has already found what they see.
-//
-// Coverage. A triangle that owns all samples that it covers is taken to be wholly visible, and its weight is the exact
-// area of its part of the cell. What is left of the cell is shared by the other surfaces in proportion to their samples.
-// Small triangles are weighted by samples: with exact areas for those that samples meet, those that samples miss would be lost.
-// If cells have many samples, a first run (PROBE) takes few of them. If at most one surface is left to share the rest, the
-// result is exact. Only other cells get all samples, in a second run (REST), as do cells with HIGH_FREQUENCY triangles, which
-// are shaded at the samples.
 //
 // Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
 //   merged: weight as a float, in samples; one record for each visible triangle of a block, at the centroid of its samples
@@ -31,31 +23,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = SAMPLE_CONSTANT_PER_SAMPLE) const bool PER_SAMPLE = false;
 layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;           // which of the tile lists
-layout(constant_id = SAMPLE_CONSTANT_RUN) const uint RUN = 0u;
+layout(constant_id = SAMPLE_CONSTANT_LEFT_CELLS) const bool LEFT_CELLS = false;   // takes the cells that `sample_lines` left, not all
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // triangles may have a record for each part
-#ifdef UNLISTED
-const bool EXACT_AREAS = false;
-#else
-layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // only if a block has all samples of a cell
-#endif
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
-layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
+layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a team takes one block of one cell, not some of several
 layout(constant_id = SAMPLE_CONSTANT_LONG) const bool LONG = false;         // APART: lists are long for the device's loops
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
-const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
+const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : TEAM;
 #ifndef UNLISTED
-const uint ROOM = LONG && LANES < 32u ? 3072u : 1024u;  // words of `kept`: small subgroups take more trips if it is too small
-const uint KEPT = APART ? ROOM : 2u * ROOM / LANES;     // room for candidates in the short list of a cell
+const uint ROOM = LONG && TEAMS == 1u ? 3072u : 1024u;  // words of `kept` for a team, which takes more trips if it is too small
+const uint KEPT = APART ? ROOM : 2u * ROOM / TEAM;     // room for candidates in the short list of a cell
 
 // The short lists, cell by cell: numbers of candidates, two in a word, since 16 bits can count the tile's list; APART: one.
-shared uint kept[ROOM];
+shared uint kept[ROOM * TEAMS];
 #endif
 
 #include "include/alpha.glsl"
@@ -68,38 +54,37 @@ shared uint kept[ROOM];
 #endif
 
 void main() {
-    if (in_other_subgroups(LANES)) return;
-    uint samples = RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count;
-    uint first_sample = RUN == RUN_PROBE ? frame.sample_count : 0u;
-    uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
-    // Several subgroups share an entry of the work list. `work.y` is the entry. `share.x` and `share.y` say which blocks and
-    // which cells of it this subgroup takes.
-    uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
-    uvec2 work = split(workgroup_number(), spans * (LANES / CELLS_AT_ONCE));
-    if (work.y >= counters[RUN == RUN_REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
+    uint headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
+    // Several teams share an entry of the work list. `work.y` is the entry. `share.x` and `share.y` say which blocks and which cells
+    // of it this team takes.
+    uint spans = (headers_a_cell + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
+    uvec2 work = split(team_number(), spans * (TEAM / CELLS_AT_ONCE));
+    bool exists = work.y < counters[LEFT_CELLS ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST];
+    if (TEAMS == 1u && !exists) return;
     uvec2 share = split(work.x, spans);
-    uint lane = gl_SubgroupInvocationID;
+    uint lane = member();
     // The work item: a tile or a group. It has a word of marks for its pixels or cells.
-    uint entry = tile_lists[first_entry(RUN == RUN_REST ? LIST + LEFT : LIST) + work.y], item = entry_item(entry);
+    uint entry = exists ? tile_lists[first_entry(LEFT_CELLS ? LIST + LEFT : LIST) + work.y] : 0u, item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     uint cells_word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint word = RUN == RUN_REST ? cells_word & marks[item] : cells_word;
+    uint word = LEFT_CELLS ? cells_word & marks[item] : cells_word;
     uint cells = bitCount(word);
-    uint first_cell = entry_part(entry) * LANES + share.y * CELLS_AT_ONCE;
+    uint first_cell = entry_part(entry) * TEAM + share.y * CELLS_AT_ONCE;
     uint first_block = share.x * BLOCKS_AT_ONCE;
-    if (first_cell >= cells) return;
-    uint group = min(cells - first_cell, CELLS_AT_ONCE);
-    blocks = min(blocks, first_block + BLOCKS_AT_ONCE);
+    exists = exists && first_cell < cells;
+    if (TEAMS == 1u && !exists) return;
+    uint group = exists ? min(cells - first_cell, CELLS_AT_ONCE) : 0u;
+    uint blocks = min(headers_a_cell, first_block + BLOCKS_AT_ONCE);
 
     Cell cell;
     cell.center = tile_center(tile_at);
     cell.first = header.y;
 
-    // The cell of each invocation, and what it keeps of the tile's candidates.
-    uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
+    // The cell of each member, and what it keeps of the tile's candidates.
+    uint my_bit = bit_of_cell(word, min(first_cell + lane, max(cells, 1u) - 1u));
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.5 + ROUNDING);
     uvec2 my_locations = uvec2(0u);     // the cell's first location, and how many it has
     if (LOCATIONS) {
@@ -112,39 +97,39 @@ void main() {
 #ifndef LAYERED
     if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
 #endif
-    uint cell_bit = subgroupShuffle(my_bit, 0u);
-    vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
-    vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
+    uint cell_bit = of_member(my_bit, 0u);
+    vec2 cell_at = vec2(of_member(my_at.x, 0u), of_member(my_at.y, 0u));
+    vec2 cell_half = vec2(of_member(my_half.x, 0u), of_member(my_half.y, 0u));
     trips = 0u;
 #ifndef UNLISTED
     float my_hidden = 0.0;          // depth: what lies farther is hidden in the whole cell
-    uint count = header.w >> TILE_COUNT_SHIFT;
+    uint first_kept = ROOM * team_in_workgroup(), count = exists ? header.w >> TILE_COUNT_SHIFT : 0u;
     uint my_count = 0u, my_last = 0u;   // number of candidates in the cell's short list, and the list's last word
-    uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
+    uint chunks = max((count + TEAM - 1u) / TEAM, 1u), chunk = 0u;
     do {
-        Candidate k = load_candidate(cell.first, min(chunk * LANES + lane, max(count, 1u) - 1u), cell.center);
-        uint chunk_count = min(count - min(count, chunk * LANES), LANES);
+        Candidate k = load_candidate(cell.first, min(chunk * TEAM + lane, max(count, 1u) - 1u), cell.center);
+        uint chunk_count = min(count - min(count, chunk * TEAM), TEAM);
         if (APART) {
-            // There is only one cell, so each invocation tests a candidate.
+            // There is only one cell, so each member tests a candidate.
             RectangleTest test = test_rectangle(k, cell_at, cell_half, HAS_MASK);
-            bool exists = lane < chunk_count && may_touch(k, cell_bit);
-            my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
-            bool keeps = exists && test.touches && test.near >= my_hidden;
-            uvec4 keeping = subgroupBallot(keeps);
-            if (keeps) kept[min(my_count + subgroupBallotExclusiveBitCount(keeping), KEPT - 1u)] = chunk * LANES + lane;
-            my_count += subgroupBallotBitCount(keeping);
+            bool may = lane < chunk_count && may_touch(k, cell_bit);
+            my_hidden = max(my_hidden, team_max(may ? test.hides : 0.0));
+            bool keeps = may && test.touches && test.near >= my_hidden;
+            uint keeping = team_ballot(keeps);
+            if (keeps) kept[first_kept + min(my_count + bits_before(keeping), KEPT - 1u)] = chunk * TEAM + lane;
+            my_count += uint(bitCount(keeping));
         } else {
             uint j = 0u;
             do {
                 [[unroll]] for (uint u = 0u; u < 4u; u++) {
                     Candidate t = shuffle_candidate(k, j + u);
                     RectangleTest test = test_rectangle(t, my_at, my_half, HAS_MASK);
-                    bool exists = j + u < chunk_count && may_touch(t, my_bit);
-                    my_hidden = max(my_hidden, exists ? test.hides : 0.0);
-                    if (test.touches && test.near >= my_hidden && exists) {
-                        uint entry = min(my_count, KEPT - 1u), candidate = chunk * LANES + j + u;
+                    bool may = j + u < chunk_count && may_touch(t, my_bit);
+                    my_hidden = max(my_hidden, may ? test.hides : 0.0);
+                    if (test.touches && test.near >= my_hidden && may) {
+                        uint entry = min(my_count, KEPT - 1u), candidate = chunk * TEAM + j + u;
                         my_last = (entry & 1u) == 0u ? candidate : my_last & 0xffffu | candidate << 16;
-                        kept[(lane * KEPT + entry) / 2u] = my_last;
+                        kept[first_kept + (lane * KEPT + entry) / 2u] = my_last;
                         my_count++;
                     }
                 }
@@ -152,18 +137,19 @@ void main() {
             } while (j < chunk_count);
         }
     } while (++chunk < chunks);
-    subgroupBarrier();
+    team_barrier();
 
     trips = (APART ? 1u : 4u) * chunks;
 #endif
-    uint unsettled = 0u, block = first_block;
+    if (!exists) return;
+    uint block = first_block;
     do {
-        load_offsets(first_sample + block * BLOCK, first_sample + samples - 1u);
-        cell.samples = min(samples - block * BLOCK, BLOCK);
-        uvec2 my_header = uvec2(0u);    // header of this invocation's cell
+        load_offsets(block * BLOCK, frame.sample_count - 1u);
+        cell.samples = min(frame.sample_count - block * BLOCK, BLOCK);
+        uvec2 my_header = uvec2(0u);    // header of this member's cell
         cell.member = 0u;
         do {
-            uint bit = subgroupShuffle(my_bit, cell.member);
+            uint bit = of_member(my_bit, cell.member);
             vec2 in_tile = vec2(bit & 7u, bit >> 3);
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
             uint cell_id = pixel.x | pixel.y << 16;
@@ -172,13 +158,13 @@ void main() {
             cell.bit = bit;
             cell.pixel = mat2(1.0);
             if (LOCATIONS) {
-                cell.at = vec2(subgroupShuffle(my_at.x, cell.member), subgroupShuffle(my_at.y, cell.member));
-                cell.half_side = vec2(subgroupShuffle(my_half.x, cell.member), subgroupShuffle(my_half.y, cell.member));
-                cell.location = subgroupShuffle(my_locations.x, cell.member);
+                cell.at = vec2(of_member(my_at.x, cell.member), of_member(my_at.y, cell.member));
+                cell.half_side = vec2(of_member(my_half.x, cell.member), of_member(my_half.y, cell.member));
+                cell.location = of_member(my_locations.x, cell.member);
                 if (!POINTS) cell.pixel = location_jacobian(cell.location);
             }
             if (POINTS) {
-                uint points = subgroupShuffle(my_locations.y, cell.member);
+                uint points = of_member(my_locations.y, cell.member);
                 uint passed = min(points, block * BLOCK);
                 cell.samples = min(points - passed, BLOCK);
                 cell.location += cell.samples == 0u ? 0u : passed;
@@ -188,11 +174,11 @@ void main() {
 #ifdef UNLISTED
             see_owners(cell, owner_of(cell.first, number, block * BLOCK));
 #else
-            cell.hidden = subgroupShuffle(my_hidden, cell.member);
-            uint listed = subgroupShuffle(my_count, cell.member);
+            cell.hidden = of_member(my_hidden, cell.member);
+            uint listed = of_member(my_count, cell.member);
             cell.complete = listed <= KEPT;
             bool out_of_trips = trips > MOST_TRIPS;
-            if (out_of_trips && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], 1u);
+            if (out_of_trips && member() == 0u) atomicAdd(counters[COUNTER_STALLED], 1u);
             cell.entries = out_of_trips ? 0u : cell.complete ? listed : count;
 
             begin_cell(cell);
@@ -208,9 +194,7 @@ void main() {
             } else if (PER_SAMPLE) {
                 records_made = record_samples(cell, cell_id);
             } else {
-                bool settled;
-                records_made = record_surfaces(cell, cell_id, settled);
-                unsettled |= settled ? 0u : 1u << bit;
+                records_made = record_surfaces(cell, cell_id);
             }
 #endif
             my_header = lane == cell.member ? records_made : my_header;
@@ -218,9 +202,4 @@ void main() {
         uint number = location_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
         if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;
     } while (++block < blocks);
-
-    if (RUN == RUN_PROBE && unsettled != 0u && subgroupElect()) {
-        atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(unsettled)));
-        leave_cells(LIST, item, unsettled);
-    }
 }

@@ -1,10 +1,10 @@
 // sample_lines: finds the same as sample.comp, for cells with opaque or alpha-tested triangles whose samples lie on straight
-// lines (include/lines.glsl). A subgroup takes the cells of an entry of a work list one after the other, or one of them (APART);
-// an invocation holds some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
+// lines (include/lines.glsl). A team takes the cells of an entry of a work list one after the other, or one of them (APART);
+// a member holds some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
 // location's Jacobian. Lines run along these sides.
 // Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that see more than SLOTS triangles or one that
-// crosses the near plane, or that take too many trips of loops, and cells of tiles with more than INDEX candidates, are marked
-// and listed for sample.comp.
+// crosses the near plane, or that take too many trips of loops, are marked and listed for sample.comp. No cell is so because of other
+// cells of its tile, since a picture must not depend on how cells are grouped.
 //
 // On a line, a triangle covers a run of samples between the crossings of its edges. Candidates are taken in the order of their
 // nearest depth in the cell, the nearest first. Each sample has at most one owner: the slot of the triangle that it sees, whose
@@ -15,25 +15,24 @@
 //
 // For a common edge, two triangles compute the same crossings to the bit, so that each sample is on one side of it.
 //
-// Invocations of a subgroup differ only in their own samples. Loops end for all of them at once, and have one body for all kinds
+// Members of a team differ only in their own samples. Loops end for all of them at once, and have one body for all kinds
 // of trips, since lavapipe executes both sides of a branch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // this and the following three: as in sample.comp
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
-layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one cell, not those of an entry
+layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a team takes one cell, not those of an entry
 layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples of a block of sample.comp
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
 const uint SLOT_BITS = 5u, SLOTS = (1u << SLOT_BITS) - 1u;  // slots are numbered from 1 on; 0 is no owner
-const uint CELLS_AT_ONCE = APART ? 1u : LANES;          // cells that a subgroup takes
-const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an invocation holds
+const uint CELLS_AT_ONCE = APART ? 1u : TEAM;           // cells that a team takes
+const uint HELD = (SLOTS + TEAM - 1u) / TEAM;           // slots whose data a member holds
 
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
@@ -43,12 +42,15 @@ const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots whose data an i
 #include "include/lines.glsl"
 #include "include/order.glsl"
 
-shared uint touched[32u * CELLS_AT_ONCE];   // for each 32 candidates a word for each cell: a bit for each candidate that touches it
+// For each 32 candidates of the tile a word for each cell: a bit for each candidate that touches it. Words of longer lists are found anew
+// each time.
+const uint STORED_WORDS = 32u;
+shared uint touched[STORED_WORDS * CELLS_AT_ONCE * TEAMS];
 
-uint trips;                         // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
-uint owner[SLOT_BITS * WORDS];      // owners of this invocation's samples: WORDS words for each bit of a slot's number
+uint trips;                         // trips of this team's loops so far: MOST_TRIPS of workarounds.glsl
+uint owner[SLOT_BITS * WORDS];      // owners of this member's samples: WORDS words for each bit of a slot's number
 
-// The samples in a word of this invocation that a slot owns.
+// The samples in a word of this member that a slot owns.
 uint owned_by(uint slot, uint own) {
     uint bits = ~0u;
     [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) bits &= (slot >> b & 1u) != 0u ? owner[b * WORDS + own] : ~owner[b * WORDS + own];
@@ -61,7 +63,7 @@ uint owned(uint own) {
     return bits;
 }
 
-// The data of a slot. Invocation (s - 1) % LANES holds that of slot s.
+// The data of a slot. Member (s - 1) % TEAM holds that of slot s.
 struct Slot {
     vec4 plane;             // slope of its depth along and across lines, depth in the cell's middle, farthest depth in the cell
     uint id;
@@ -151,26 +153,20 @@ Crossings crossings_of(Candidate k, bool columns) {
     return r;
 }
 
-vec2 shuffled(vec2 v, uint lane) { return vec2(subgroupShuffle(v.x, lane), subgroupShuffle(v.y, lane)); }
-vec3 shuffled(vec3 v, uint lane) { return vec3(shuffled(v.xy, lane), subgroupShuffle(v.z, lane)); }
-vec4 shuffled(vec4 v, uint lane) { return vec4(shuffled(v.xy, lane), shuffled(v.zw, lane)); }
-uvec2 shuffled(uvec2 v, uint lane) { return uvec2(subgroupShuffle(v.x, lane), subgroupShuffle(v.y, lane)); }
-uvec3 lanes_add(uvec3 v) { return uvec3(lanes_add(v.x), lanes_add(v.y), lanes_add(v.z)); }
-
-AlphaTest shuffled(AlphaTest t, uint lane) {
+AlphaTest of_member(AlphaTest t, uint lane) {
     AlphaTest r;
-    r.weight = shuffled(t.weight, lane);
-    r.u = shuffled(t.u, lane);
-    r.v = shuffled(t.v, lane);
-    r.opacity = shuffled(t.opacity, lane);
-    r.first = shuffled(t.first, lane);
-    r.size_low = shuffled(t.size_low, lane);
-    r.size_high = shuffled(t.size_high, lane);
-    r.level_blend = subgroupShuffle(t.level_blend, lane);
-    uint flags = subgroupShuffle(t.flags | (t.nearest ? 1u << 31 : 0u), lane);
+    r.weight = of_member(t.weight, lane);
+    r.u = of_member(t.u, lane);
+    r.v = of_member(t.v, lane);
+    r.opacity = of_member(t.opacity, lane);
+    r.first = of_member(t.first, lane);
+    r.size_low = of_member(t.size_low, lane);
+    r.size_high = of_member(t.size_high, lane);
+    r.level_blend = of_member(t.level_blend, lane);
+    uint flags = of_member(t.flags | (t.nearest ? 1u << 31 : 0u), lane);
     r.nearest = flags >> 31 != 0u;
     r.flags = flags & 0x7fffffffu;
-    r.cutoff = subgroupShuffle(t.cutoff, lane);
+    r.cutoff = of_member(t.cutoff, lane);
     return r;
 }
 
@@ -206,16 +202,32 @@ void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS
             left |= pending[r];
         }
         trips++;
-    } while (lanes_or(left) != 0u);
+    } while (team_or(left) != 0u);
+}
+
+// The candidates that touch a cell, of the 32 from number `from` on, a bit each.
+uint touching_word(uint first, uint from, uint count, vec2 center, vec2 at, vec2 half_side, uint bit) {
+    uint word = 0u, j = 0u;
+    do {
+        [[unroll]] for (uint k = 0u; k < 4u; k++) {
+            uint candidate = from + j + k, known = min(candidate, count - 1u);
+            bool touches = LOCATIONS ? test_rectangle(load_candidate(first, known, center), at, half_side, HAS_MASK).touches
+                : (texelFetch(candidates, int(first + known) * 4 + 3).w >> bit & 1u) != 0u;
+            word |= touches && candidate < count ? 1u << (j + k) : 0u;
+        }
+        j += 4u;
+        trips++;
+    } while (j < 32u);
+    return word;
 }
 
 void main() {
-    if (in_other_subgroups(LANES)) return;
-    // Several subgroups share an entry of the work list. `work.y` is the entry, `work.x` is this subgroup's share of it.
-    uvec2 work = split(workgroup_number(), LANES / CELLS_AT_ONCE);
-    if (work.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
-    uint lane = gl_SubgroupInvocationID;
-    uint entry = tile_lists[first_entry(LIST) + work.y], item = entry_item(entry);
+    // Several teams share an entry of the work list. `work.y` is the entry, `work.x` is this team's share of it.
+    uvec2 work = split(team_number(), TEAM / CELLS_AT_ONCE);
+    bool busy = work.y < counters[COUNTER_PLAIN_TILES + LIST];
+    if (TEAMS == 1u && !busy) return;
+    uint lane = member();
+    uint entry = busy ? tile_lists[first_entry(LIST) + work.y] : 0u, item = entry_item(entry);
     uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
     uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
@@ -223,9 +235,10 @@ void main() {
     vec2 center = tile_center(tile_at);
     uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
     uint word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint first_cell = entry_part(entry) * LANES + work.x * CELLS_AT_ONCE;
-    if (first_cell >= uint(bitCount(word))) return;
-    uint cells = min(uint(bitCount(word)) - first_cell, CELLS_AT_ONCE);
+    uint first_cell = entry_part(entry) * TEAM + work.x * CELLS_AT_ONCE;
+    busy = busy && first_cell < uint(bitCount(word));
+    if (TEAMS == 1u && !busy) return;
+    uint cells = busy ? min(uint(bitCount(word)) - first_cell, CELLS_AT_ONCE) : 1u;
     uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u)), my_location = 0u;
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.0);
     if (LOCATIONS) {
@@ -237,39 +250,41 @@ void main() {
     }
     if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
     uint headers_a_cell = (frame.sample_count + HEADER - 1u) / HEADER;
-    bool listable = count <= INDEX;
-    count = listable ? count : 0u;
-    uint last_candidate = max(count, 1u) - 1u;
+    bool listable = count < 1u << KEY_NUMBER_BITS && frame.triangle_count < 1u << KEY_ID_BITS;
+    count = listable && busy ? count : 0u;
+    uint last_candidate = max(count, 1u) - 1u, words = max((count + 31u) / 32u, 1u);
 
-    // Finds the candidates that touch the cell of each invocation. For pixels, `setup` has stored them.
-    uint words = 0u;
+    // Finds the candidates that touch the cell of each member. For pixels, `setup` has stored them.
+    uint first_touched = STORED_WORDS * CELLS_AT_ONCE * team_in_workgroup(), w = 0u;
     trips = 0u;
     do {
         uint touching = 0u;
-        [[unroll]] for (uint part = 0u; part < 32u; part += LANES) {
-            uint candidate = words * 32u + part + lane;
+        [[unroll]] for (uint part = 0u; part < 32u; part += TEAM) {
+            uint candidate = w * 32u + part + lane;
             if (LOCATIONS) {
                 Candidate k = load_candidate(first, min(candidate, last_candidate), center);
                 uint j = 0u;
                 do {
-                    bool touches = candidate < count && test_rectangle(k, shuffled(my_at, j), shuffled(my_half, j), HAS_MASK).touches;
-                    uint together = subgroupBallot(touches).x;
+                    bool touches = candidate < count && test_rectangle(k, of_member(my_at, j), of_member(my_half, j), HAS_MASK).touches;
+                    uint together = team_ballot(touches);
                     touching |= lane == j ? together << part : 0u;
                 } while (++j < cells);
                 trips += cells;
             } else {
                 uint touches = candidate < count ? texelFetch(candidates, int(first + candidate) * 4 + 3).w : 0u;
                 if (APART) {
-                    touching |= subgroupBallot((touches >> my_bit & 1u) != 0u).x << part;
+                    touching |= (touches >> my_bit & 1u) << (part + lane);
                 } else {
-                    [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+                    [[unroll]] for (uint j = 0u; j < TEAM; j++) touching |= (of_member(touches, j) >> my_bit & 1u) << (part + j);
                 }
             }
         }
-        if (lane < CELLS_AT_ONCE) touched[words * CELLS_AT_ONCE + lane] = touching;
+        if (APART && !LOCATIONS) touching = team_or(touching);
+        if (lane < CELLS_AT_ONCE) touched[first_touched + w * CELLS_AT_ONCE + lane] = touching;
         trips++;
-    } while (++words * 32u < count);
-    subgroupBarrier();
+    } while (++w < min(words, STORED_WORDS));
+    team_barrier();
+    if (!busy) return;
 
     float lines[OWN_LINES], phases[OWN_LINES];
     [[unroll]] for (uint l = 0u; l < OWN_LINES; l++) {
@@ -280,8 +295,9 @@ void main() {
     uint left = 0u;                     // cells that are left to sample.comp
     uint cell = 0u;
     do {
-        uint bit = subgroupShuffle(my_bit, cell), location = subgroupShuffle(my_location, cell);
-        Square square = Square(shuffled(my_at, cell), LOCATIONS ? location_jacobian(location) : mat2(1.0));
+        uint bit = of_member(my_bit, cell), location = of_member(my_location, cell);
+        Square square = Square(of_member(my_at, cell), LOCATIONS ? location_jacobian(location) : mat2(1.0));
+        vec2 half_of_cell = of_member(my_half, cell);
         // Sets of samples: settled ones; those of the current candidate; those of it that are still to be compared.
         uint settled[WORDS], shown[WORDS], open_[WORDS];
         [[unroll]] for (uint b = 0u; b < SLOT_BITS * WORDS; b++) owner[b] = 0u;
@@ -297,46 +313,59 @@ void main() {
         bool failed = !listable, done = failed, directed = false, columns = false, more;
         Key limit = Key(~0u, 0u);       // candidates up to this key are done
         do {
-            // Finds the next 2 x LANES candidates in order: the first LANES of them in `nearer`, one in each invocation, the
-            // others in `farther`.
+            // Finds the next 2 x TEAM candidates in order: the first TEAM of them in `nearer`, one in each member, the others in
+            // `farther`.
             Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
             uint word_ = 0u;
             do {
-                uint mine = word_ + lane < words ? touched[(word_ + lane) * CELLS_AT_ONCE + cell] : 0u;
-                uint own = uint(bitCount(mine)), before = lanes_before(own), all = lanes_add(own), read = 0u;
+                uint mine = 0u, at_word = word_ + lane;
+                if (words <= STORED_WORDS) {
+                    mine = at_word < words ? touched[first_touched + at_word * CELLS_AT_ONCE + cell] : 0u;
+                } else {
+                    mine = touching_word(first, min(at_word, words) * 32u, count, center, square.at, half_of_cell, bit);
+                }
+                uint own = uint(bitCount(mine)), before = team_before(own), all = team_add(own), read = 0u;
                 do {
                     uint wanted = read + lane, of = 0u;
-                    [[unroll]] for (uint j = 1u; j < LANES; j++) of += subgroupShuffle(before, j) <= wanted ? 1u : 0u;
-                    uint candidate = min((word_ + of) * 32u + bit_of_cell(subgroupShuffle(mine, of), wanted - subgroupShuffle(before, of)), last_candidate);
+                    [[unroll]] for (uint j = 1u; j < TEAM; j++) of += of_member(before, j) <= wanted ? 1u : 0u;
+                    uint candidate = min((word_ + of) * 32u + bit_of_cell(of_member(mine, of), wanted - of_member(before, of)), last_candidate);
                     int o = int(first + candidate) * 4;
                     uvec4 last = texelFetch(candidates, o + 3);
                     vec3 plane = plane_in(square, uintBitsToFloat(texelFetch(candidates, o + 2)).yzw);
                     float depth = plane.z + (0.5 + ROUNDING) * (abs(plane.x) + abs(plane.y));
                     depth = min(max(depth, 1e-30), max(uintBitsToFloat(last.x), 1e-30));
-                    Key key = Key(floatBitsToUint(depth) & ~INDEX | candidate, last.z);
+                    Key key = make_key(depth, last.z, candidate);
                     key.depth = wanted < all && comes_before(limit, key) ? key.depth : 0u;
                     sort_keys(key, 2u, true);
                     merge_keys(farther, key);
                     farther = reversed_keys(farther);
                     merge_keys(nearer, farther);
                     trips++;
-                    read += LANES;
+                    read += TEAM;
                 } while (read < all);
-                word_ += LANES;
+                word_ += TEAM;
             } while (word_ < words);
-            limit = Key(subgroupShuffle(farther.depth, LANES - 1u), subgroupShuffle(farther.id, LANES - 1u));
+            limit = key_of_member(farther, TEAM - 1u);
             more = limit.depth != 0u;
             uint batch = 0u;
             do {
-                uint key = batch == 0u ? nearer.depth : farther.depth;
-                float nearest = nearest_from(key), after = nearest_from(batch == 0u ? subgroupShuffle(farther.depth, 0u) : limit.depth);
-                Candidate k = candidate_in(square, load_candidate(first, min(key & INDEX, last_candidate), center));
-                bool exists = key != 0u;
+                Key key = Key(batch == 0u ? nearer.depth : farther.depth, batch == 0u ? nearer.id : farther.id);
+                float nearest = nearest_from(key), after = nearest_from(batch == 0u ? key_of_member(farther, 0u) : limit);
+                Candidate k = candidate_in(square, load_candidate(first, min(number_in(key), last_candidate), center));
+                bool exists = key.depth != 0u;
                 vec2 range = depth_range(k);
-                // Lines are columns or rows: whichever the edges of the first eight candidates cross more often.
-                vec2 reach = exists && lane < 8u ? reach_of_edges(k) : vec2(0.0);
-                columns = directed ? columns : lanes_add(reach.x) > lanes_add(reach.y);
-                directed = true;
+                if (!directed) {
+                    // Lines are columns or rows: whichever the edges of the first eight candidates cross more often.
+                    vec2 reach = exists ? reach_of_edges(k) : vec2(0.0);
+                    reach = vec2(team_add(reach.x), team_add(reach.y));
+                    if (TEAM < 8u) {
+                        Candidate later = candidate_in(square, load_candidate(first, min(number_in(farther), last_candidate), center));
+                        vec2 more_reach = farther.depth != 0u ? reach_of_edges(later) : vec2(0.0);
+                        reach += vec2(team_add(more_reach.x), team_add(more_reach.y));
+                    }
+                    columns = reach.x > reach.y;
+                    directed = true;
+                }
                 Crossings c = crossings_of(k, columns);
                 bool tested = HAS_MASK && exists && k.id > frame.first_mask;
                 bool usable = c.usable && range.y <= 1.0 && range.x > 0.0;
@@ -345,16 +374,16 @@ void main() {
                 AlphaTest alpha;
                 if (HAS_MASK) alpha = alpha_test(tested ? k.id - 1u : 0u, center, square.at, frame.sample_footprint * square.axes);
 
-                uint j = 0u, entries = lanes_add(exists ? 1u : 0u), id = 0u;
+                uint j = 0u, entries = team_add(exists ? 1u : 0u), id = 0u;
                 bool comparing = false;
                 vec4 own = vec4(0.0);   // plane of the current candidate
                 float near = 0.0;
                 do {
                     bool takes = !comparing;
-                    uint from = min(j, LANES - 1u);
-                    vec4 its_plane = shuffled(plane, from);
-                    float its_nearest = subgroupShuffle(nearest, from);
-                    uint its_kind = subgroupShuffle(kind, from), its_id = subgroupShuffle(k.id, from);
+                    uint from = min(j, TEAM - 1u);
+                    vec4 its_plane = of_member(plane, from);
+                    float its_nearest = of_member(nearest, from);
+                    uint its_kind = of_member(kind, from), its_id = of_member(k.id, from);
                     bool valid = takes && j < entries;
                     id = takes ? its_id : id;
                     own = takes ? its_plane : own;
@@ -370,12 +399,12 @@ void main() {
                         [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) slot |= (owner[b * WORDS + r] & lowest) != 0u ? 1u << b : 0u;
                         rival = lowest != 0u ? min(rival, slot) : rival;
                     }
-                    rival = min(takes ? settling + 1u : lanes_min(rival), SLOTS);
-                    uint keeper = (rival - 1u) % LANES, level = (rival - 1u) / LANES, other_id = 0u;
+                    rival = min(takes ? settling + 1u : team_min(rival), SLOTS);
+                    uint keeper = (rival - 1u) % TEAM, level = (rival - 1u) / TEAM, other_id = 0u;
                     vec4 other = vec4(0.0);
                     [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                        vec4 kept_plane = shuffled(slots[h].plane, keeper);
-                        uint kept_id = subgroupShuffle(slots[h].id, keeper);
+                        vec4 kept_plane = of_member(slots[h].plane, keeper);
+                        uint kept_id = of_member(slots[h].id, keeper);
                         other = level == h ? kept_plane : other;
                         other_id = level == h ? kept_id : other_id;
                     }
@@ -391,9 +420,9 @@ void main() {
                     bool loses_all = behind || (alike && !smaller), wins_all = alike && smaller;
                     vec2 low = loses_all ? BEYOND_ALL : wins_all ? BEFORE_ALL : wins_beyond ? where : BEFORE_ALL;
                     vec2 high = loses_all || wins_all || wins_beyond ? BEYOND_ALL : where;
-                    low = takes ? shuffled(c.begin, from) : low;
-                    high = takes ? shuffled(c.end, from) : high;
-                    vec2 third = takes ? shuffled(c.third, from) : BEFORE_ALL;
+                    low = takes ? of_member(c.begin, from) : low;
+                    high = takes ? of_member(c.end, from) : high;
+                    vec2 third = takes ? of_member(c.third, from) : BEFORE_ALL;
                     bool third_begins = !takes || (its_kind & 1u) != 0u;
 
                     // Finds the samples of a new candidate, or removes those that the current one loses to the slot.
@@ -416,7 +445,7 @@ void main() {
                         uint passing[WORDS];
                         bool tests = valid && (its_kind & 4u) != 0u;
                         [[unroll]] for (uint r = 0u; r < WORDS; r++) passing[r] = tests ? shown[r] : 0u;
-                        test_alpha(shuffled(alpha, from), square, columns, passing);
+                        test_alpha(of_member(alpha, from), square, columns, passing);
                         [[unroll]] for (uint r = 0u; r < WORDS; r++) shown[r] = tests ? passing[r] : shown[r];
                     }
                     uint some = 0u, some_open = 0u, some_free = 0u;
@@ -427,8 +456,8 @@ void main() {
                         some_open |= open_[r];
                         some_free |= ~(by_some | shown[r]);
                     }
-                    comparing = lanes_or(some_open) != 0u;
-                    bool shows = !comparing && lanes_or(some) != 0u;
+                    comparing = team_or(some_open) != 0u;
+                    bool shows = !comparing && team_or(some) != 0u;
                     failed = failed || (shows && used == SLOTS);
 
                     // When no comparison is left, the candidate becomes the owner of its remaining samples.
@@ -438,17 +467,17 @@ void main() {
                             owner[b * WORDS + r] = (used + 1u >> b & 1u) != 0u ? owner[b * WORDS + r] | taken : owner[b * WORDS + r] & ~taken;
                     }
                     [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                        bool here = shows && used == h * LANES + lane;
+                        bool here = shows && used == h * TEAM + lane;
                         slots[h].plane = here ? own : slots[h].plane;
                         slots[h].id = here ? id : slots[h].id;
                     }
                     used += shows ? 1u : 0u;
                     deepest = shows ? min(deepest, own.w) : deepest;
                     j += comparing ? 0u : 1u;
-                    float next = j < LANES ? subgroupShuffle(nearest, min(j, LANES - 1u)) : after;
-                    done = done || failed || (!comparing && next < deepest && lanes_or(some_free) == 0u);
+                    float next = j < TEAM ? of_member(nearest, min(j, TEAM - 1u)) : after;
+                    done = done || failed || (!comparing && next < deepest && team_or(some_free) == 0u);
                 } while (!done && (comparing || j < entries));
-                done = done || entries < LANES;
+                done = done || entries < TEAM;
                 batch++;
             } while (!done && batch < 2u);
         } while (!done && more);
@@ -459,7 +488,7 @@ void main() {
             Variation around;
             if (!LOCATIONS) around = variation_of(cell);
             [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                bool some = h * LANES + lane < used && high_frequency_triangle(slots[h].id);
+                bool some = h * TEAM + lane < used && high_frequency_triangle(slots[h].id);
                 slots[h].parts = !some ? PARTS_ONE : LOCATIONS ? PARTS_ALL : parts_around(around, slots[h].id);
             }
         }
@@ -467,15 +496,15 @@ void main() {
         do {
             uint parts = PARTS_ONE, bits[WORDS];
             [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                uint its = subgroupShuffle(slots[h].parts, slot % LANES);
-                parts = slot / LANES == h ? its : parts;
+                uint its = of_member(slots[h].parts, slot % TEAM);
+                parts = slot / TEAM == h ? its : parts;
             }
             uvec3 sums = uvec3(0u);
             [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                 bits[r] = owned_by(slot + 1u, r);
                 sums += sums_of_word(r, bits[r]);
             }
-            sums = lanes_add(sums);
+            sums = team_add(sums);
             uint records_ = min(sums.x, 1u);
             if (BY_PART) {
                 Grid grid = grid_of(parts, columns);
@@ -486,12 +515,12 @@ void main() {
                     own += uint(bitCount(found[r]));
                     some |= rest[r];
                 }
-                own = lanes_add((lane & sharing_lanes(grid)) == 0u ? own : 0u) + (lanes_or(some) != 0u ? 1u : 0u);
+                own = team_add((lane & sharing_lanes(grid)) == 0u ? own : 0u) + (team_or(some) != 0u ? 1u : 0u);
                 records_ = parts == PARTS_ONE ? records_ : own;
             }
             uint place = place_of_bits(sums, columns, false);
             [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                bool here = slot == h * LANES + lane && slot < used;
+                bool here = slot == h * TEAM + lane && slot < used;
                 slots[h].count = here ? sums.x : slots[h].count;
                 slots[h].place = here ? place : slots[h].place;
                 slots[h].records = here ? records_ : slots[h].records;
@@ -499,41 +528,42 @@ void main() {
         } while (++slot < used);
         uint single_records = 0u, several = 0u;
         [[unroll]] for (uint h = 0u; h < HELD; h++) all += slots[h].records;
-        all = lanes_add(all);
+        all = team_add(all);
         // If there is no room for the records of all parts, each triangle is shaded once.
         bool too_many = all > frame.sample_count + MORE_RECORDS;
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool single = too_many || slots[h].parts == PARTS_ONE, some = slots[h].count != 0u;
-            single_records += single && some ? 1u : 0u;
-            several |= !single && some ? 1u << (h * LANES + lane) : 0u;
+            single_records |= single && some ? 1u << (h * TEAM + lane) : 0u;
+            several |= !single && some ? 1u << (h * TEAM + lane) : 0u;
             slots[h].parts = single ? PARTS_ONE : slots[h].parts;
         }
-        uint singles = lanes_add(single_records), at_single = lanes_before(single_records);
+        single_records = team_or(single_records);
+        uint singles = uint(bitCount(single_records));
         all = failed ? 0u : too_many ? singles : all;
         bool fits;
         uint base = allocate_records(all, fits);
         fits = fits && !failed;
         uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
         uint cell_id = LOCATIONS ? location : pixel.x | pixel.y << 16;
-        if (lane == 0u && !failed) headers[min(header.z + (location_group.w + first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
+        if (!failed && lane == 0u) headers[min(header.z + (location_group.w + first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
         left |= failed ? 1u << bit : 0u;
         float weight = float(frame.sample_count) * (1.0 / float(ALL_BITS));
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool single = slots[h].parts == PARTS_ONE && slots[h].count != 0u;
-            if (fits && single) records_out[base + at_single] = uvec4(cell_id, slots[h].id, slots[h].place, floatBitsToUint(float(slots[h].count) * weight));
-            at_single += single ? 1u : 0u;
+            uint before = uint(bitCount(single_records & ((1u << (h * TEAM + lane)) - 1u)));
+            if (fits && single) records_out[base + before] = uvec4(cell_id, slots[h].id, slots[h].place, floatBitsToUint(float(slots[h].count) * weight));
         }
         if (BY_PART) {
-            several = fits ? lanes_or(several) : 0u;
+            several = fits ? team_or(several) : 0u;
             uint at_record = base + singles;
             do {
                 bool exists = several != 0u;
                 uint s = exists ? uint(findLSB(several)) : 0u, parts = PARTS_FOURS, id = 0u;
                 several &= several - 1u;
                 [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                    uvec2 its = uvec2(subgroupShuffle(slots[h].parts, s % LANES), subgroupShuffle(slots[h].id, s % LANES));
-                    parts = s / LANES == h && exists ? its.x : parts;
-                    id = s / LANES == h ? its.y : id;
+                    uvec2 its = uvec2(of_member(slots[h].parts, s % TEAM), of_member(slots[h].id, s % TEAM));
+                    parts = s / TEAM == h && exists ? its.x : parts;
+                    id = s / TEAM == h ? its.y : id;
                 }
                 Grid grid = grid_of(parts, columns);
                 bool wide = part_is_wide(max(frame.sample_count, 4u * part_length(parts)), parts);
@@ -548,14 +578,14 @@ void main() {
                     sums += sums_of_word(r, rest[r]);
                     own += uint(bitCount(pending[r]));
                 }
-                sums = lanes_add(sums);
+                sums = team_add(sums);
                 bool writes = (lane & sharing_lanes(grid)) == 0u;
                 own = writes ? own : 0u;
                 if (lane == 0u && sums.x != 0u) records_out[at_record] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
                 at_record += sums.x != 0u ? 1u : 0u;
-                uint at_own = at_record + lanes_before(own), step = 0u, steps;
-                at_record += lanes_add(own);
-                steps = uint(lanes_max(float(own)));
+                uint at_own = at_record + team_before(own), step = 0u, steps;
+                at_record += team_add(own);
+                steps = team_max(own);
                 do {
                     // The first part that has no record yet.
                     uint r = WORDS - 1u, fields = pending[WORDS - 1u];
@@ -575,7 +605,7 @@ void main() {
                     [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
                         uint span = 1u << log, apart = span * HALVES / WORDS;
                         if (span >= OWN_LINES && span < LINES) {
-                            uvec3 others = uvec3(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart), subgroupShuffleXor(sums.z, apart));
+                            uvec3 others = of_partner(sums, apart);
                             sums += grid.lines > span ? others : uvec3(0u);
                         }
                     }
@@ -585,7 +615,7 @@ void main() {
         }
     } while (++cell < cells);
 
-    if (left != 0u && subgroupElect()) {
+    if (left != 0u && member() == 0u) {
         atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(left)));
         leave_cells(LIST, item, left);
     }

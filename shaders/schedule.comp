@@ -3,7 +3,7 @@
 // Reads: loads of stretches (see load.glsl), tiles, masks. Writes: loads of the round's stretches, arguments of the round,
 // counters.
 // LOCATIONS: `groups` then lists groups of cells instead of tiles.
-// One subgroup takes all tiles in their order, so that the content of a round is the same in every run. An invocation takes a
+// One team takes all tiles in their order, so that the content of a round is the same in every run. A member takes a
 // stretch or, of a stretch that does not fit as a whole, a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,13 +12,13 @@
 #include "include/pairs.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
-// The sum of needs over the invocations up to and including this one.
+// The sum of needs over the members up to and including this one.
 uvec4 sums_up_to(uvec4 needs) {
-    uint lane = gl_SubgroupInvocationID;
-    [[unroll]] for (uint log = 0u; log < 5u; log++) {
+    uint lane = member();
+    [[unroll]] for (uint log = 0u; log < 3u; log++) {
         uint apart = 1u << log;
-        if (apart < LANES) {
-            uvec4 before = subgroupShuffle(needs, (lane - apart) & (LANES - 1u));
+        if (apart < TEAM) {
+            uvec4 before = of_member(needs, (lane - apart) & (TEAM - 1u));
             needs = add(needs, lane >= apart ? before : uvec4(0u));
         }
     }
@@ -26,8 +26,9 @@ uvec4 sums_up_to(uvec4 needs) {
 }
 
 void main() {
-    uint lane = gl_SubgroupInvocationID;
-    bool any_tile = counters[COUNTER_TILES] != 0u && !in_other_subgroups(LANES);
+    uint lane = member();
+    if (team_number() != 0u) return;
+    bool any_tile = counters[COUNTER_TILES] != 0u;
     uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count();
     begin_loads();
     Load taken = no_load();
@@ -47,26 +48,26 @@ void main() {
         uvec4 sums = sums_up_to(exists ? min(load.needs, room + 1u) : uvec4(0u));
         // The first tile of a round is always taken. If it does not fit, `sample` counts what is missing.
         bool fits = all(lessThanEqual(add(taken.needs, sums), room)) || (!whole && next == start && lane == 0u);
-        uvec4 refused = subgroupBallot(exists && !fits);
-        bool any_refused = subgroupBallotBitCount(refused) != 0u;
-        uint count = any_refused ? subgroupBallotFindLSB(refused) : min(end - first, LANES);
+        uint refused = team_ballot(exists && !fits);
+        bool any_refused = refused != 0u;
+        uint count = any_refused ? uint(findLSB(refused)) : min(end - first, TEAM);
         bool mine = exists && lane < count;
         load.needs = mine ? load.needs : uvec4(0u);
         load.entries = mine ? load.entries : uvec4(0u);
         Load before;
         before.needs = taken.needs + (whole ? sums - load.needs : uvec4(0u));
-        before.entries = taken.entries + subgroupExclusiveAdd(load.entries);
+        before.entries = taken.entries + team_before(load.entries);
         // At the first tile of a stretch that is in the round, the load before it is stored for `enlist`.
         bool begins = whole ? mine : mine && lane == 0u && (next == start || next % STRETCH == 0u);
         if (begins) keep_load(whole ? item : stretch, before);
-        taken.needs += subgroupAdd(load.needs);
-        taken.entries += subgroupAdd(load.entries);
+        taken.needs += team_add(load.needs);
+        taken.entries += team_add(load.entries);
         next = min(next + count * (whole ? STRETCH : 1u), tile_count());
         open_ = next < tile_count() && (whole || !any_refused);
         divided = divided || any_refused;
     }
 
-    if (subgroupElect()) {
+    if (lane == 0u) {
         bool idle = taken.needs.z == 0u;
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
@@ -77,7 +78,7 @@ void main() {
         counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
-        arguments[ARGUMENT_ENLIST] = idle ? uvec4(0u) : groups((next + STRETCH - 1u) / STRETCH - start / STRETCH);
+        arguments[ARGUMENT_ENLIST] = idle ? uvec4(0u) : groups(workgroups_of((next + STRETCH - 1u) / STRETCH - start / STRETCH));
         uint pairs_of_group = 64u * PAIRS_OF_SETUP;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + pairs_of_group - 1u) / pairs_of_group);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((counters[COUNTER_GROUPS] + 63u) / 64u);
@@ -88,9 +89,6 @@ void main() {
         arguments[ARGUMENT_OWNERS] = scattered ? groups((counters[COUNTER_OWNERS] + 63u) / 64u) : uvec4(0u);
         arguments[ARGUMENT_SCATTER] = scattered ? scatter_groups(scatter_groups_of(min(counters[COUNTER_PAIRS], frame.pair_capacity)), most_cells) : uvec4(0u);
         arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(taken.entries.w);
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(taken.entries.y * push.subgroups_first);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(taken.entries.z * push.subgroups);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(taken.entries.w * push.subgroups_unlisted);
+        size_of_lists(taken.entries, uvec3(push.teams_first, push.teams, push.teams_unlisted));
     }
 }

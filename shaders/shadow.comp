@@ -12,7 +12,7 @@
 #include "include/shadows.glsl"
 layout(local_size_x = 64) in;
 layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_WORDS) buffer ShadowWords { uint words[]; };
-layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
+layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_LEFT) buffer Left { uint left; };
 layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
     uint first_place;   // place of the first receiver
@@ -44,7 +44,6 @@ void main() {
         uint tiles_ = counters[COUNTER_TILES] != 0u ? beyond(frame.tiles.x * frame.tiles.y, counters[COUNTER_NEXT_TILE]) : 0u;
         uint survivors_ = beyond(counters[COUNTER_SURVIVORS] + counters[COUNTER_LARGE], frame.survivor_capacity);
         left += tiles_ + survivors_ + counters[COUNTER_UNFINISHED] + counters[COUNTER_STALLED];
-        other_subgroups |= counters[COUNTER_SUBGROUPS];
         return;
     }
     if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;

@@ -1,24 +1,21 @@
-// Appending to a list whose length is a counter, with one atomic addition per subgroup. All invocations of the subgroup have
-// to call these functions together.
+// Appending to a list whose length is a counter, with one atomic addition for all invocations of a subgroup that are here
+// together. Whether a device runs all of them together, or some and then others, makes no difference to the list's content.
 #ifndef APPEND_GLSL
 #define APPEND_GLSL
-
-// The value that the first invocation of the subgroup has. On CPU devices a shuffle is one instruction, and a broadcast a loop.
-uint of_first(uint v) { return subgroupShuffle(v, 0u); }
 
 // Makes room for the entries of the invocations with `wanted`, and returns the index of this invocation's entry.
 uint append(uint counter, bool wanted) {
     uvec4 together = subgroupBallot(wanted);
-    uint count = subgroupBallotBitCount(together), base = 0u;
-    if (gl_SubgroupInvocationID == 0u && count != 0u) base = atomicAdd(counters[counter], count);
-    return of_first(base) + subgroupBallotExclusiveBitCount(together);
+    uint count = subgroupBallotBitCount(together), base = 0u, first = subgroupBallotFindLSB(subgroupBallot(true));
+    if (gl_SubgroupInvocationID == first && count != 0u) base = atomicAdd(counters[counter], count);
+    return subgroupShuffle(base, first) + subgroupBallotExclusiveBitCount(together);
 }
 
 // Makes room for `count` entries of this invocation, and returns the index of the first one.
 uint append_several(uint counter, uint count) {
-    uint all = subgroupAdd(count), base = 0u;
-    if (gl_SubgroupInvocationID == 0u && all != 0u) base = atomicAdd(counters[counter], all);
-    return of_first(base) + subgroupExclusiveAdd(count);
+    uint all = subgroupAdd(count), base = 0u, first = subgroupBallotFindLSB(subgroupBallot(true));
+    if (gl_SubgroupInvocationID == first && all != 0u) base = atomicAdd(counters[counter], all);
+    return subgroupShuffle(base, first) + subgroupExclusiveAdd(count);
 }
 
 #endif

@@ -1,4 +1,4 @@
-// A block: a run of ROWS x LANES samples of a cell, which a subgroup tests at once. An invocation holds ROWS of them, and
+// A block: a run of ROWS x TEAM samples of a cell, which a team tests at once. A member holds ROWS of them, and
 // what each one sees, in registers.
 //
 // Patterns order samples so that neighbours in the list are neighbours in the cell. The samples of a block thus lie close
@@ -8,13 +8,13 @@
 #include "owners.glsl"
 #include "place.glsl"
 
-const uint BLOCK = ROWS * LANES;                        // samples of a block
+const uint BLOCK = ROWS * TEAM;                        // samples of a block
 
-// The cell that the subgroup works on.
+// The cell that the team works on.
 struct Cell {
     uint first;             // first candidate of its tile
     vec2 center;            // centre of its tile
-    uint member;            // invocation that holds the cell's short list
+    uint member;            // member that holds the cell's short list
     bool complete;          // whether the short list has room for all candidates of the cell
     uint entries;           // number of candidates to try: of the short list if that is complete, or else of the tile
     float hidden;           // depth: a surface at this depth covers the whole cell, and hides what lies farther
@@ -32,19 +32,14 @@ float depth[ROWS];          // depth of the nearest surface so far, larger is ne
 uint id[ROWS];
 uint own[ROWS];             // OCCLUDERS: the triangle that the sample lies on, which can't hide it
 
-// For EXACT_AREAS, an invocation holds one of the triangles near the cell, and the number of samples that it covers.
-Candidate nearby;
-float nearby_covered;
-uint nearby_count;
-
-// For LAYERED samples: a bit for each batch of LANES candidates, set if BLEND triangles of the batch may show. Batches from
+// For LAYERED samples: a bit for each batch of TEAM candidates, set if BLEND triangles of the batch may show. Batches from
 // the 32nd on share a bit.
 uint blend_batches;
 
 uint trips;                 // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
 
 uint sample_of(int g) {
-    return uint(g) * LANES + gl_SubgroupInvocationID;
+    return uint(g) * TEAM + member();
 }
 
 vec2 position_of(Cell cell, int g) {
@@ -70,8 +65,8 @@ void load_offsets(uint first, uint last) {
         low = min(low, offset[g]);
         high = max(high, offset[g]);
     }
-    low = vec2(lanes_min(low.x), lanes_min(low.y));
-    high = vec2(lanes_max(high.x), lanes_max(high.y));
+    low = vec2(team_min(low.x), team_min(low.y));
+    high = vec2(team_max(high.x), team_max(high.y));
     block_middle = 0.5 * (low + high);
     block_reach = 0.5 * (high - low) + ROUNDING;
 }
@@ -96,9 +91,6 @@ void begin_cell(Cell cell) {
             own[g] = surface.y;
         }
     }
-    nearby.id = 0u;
-    nearby_covered = 0.0;
-    nearby_count = 0u;
 }
 
 // Resets what rows beyond the cell's last sample have seen.
@@ -114,8 +106,8 @@ bool may_touch(Candidate k, uint bit) {
 
 // The tile's candidate that entry `i` of a cell's short list names.
 uint kept_candidate(Cell cell, uint i) {
-    uint at = cell.member * KEPT + min(i, KEPT - 1u);
-    return APART ? kept[at] : kept[at / 2u] >> 16u * (at & 1u) & 0xffffu;
+    uint first = ROOM * team_in_workgroup(), at = cell.member * KEPT + min(i, KEPT - 1u);
+    return APART ? kept[first + at] : kept[first + at / 2u] >> 16u * (at & 1u) & 0xffffu;
 }
 
 // Candidate number `i` of a cell.
@@ -126,27 +118,9 @@ Candidate entry_of(Cell cell, uint i) {
 }
 #endif
 
-// One of two candidates, in the members that `inside` and `area_in_cell` need.
-Candidate choose(bool first, Candidate a, Candidate b) {
-    Candidate r = b;
-    r.a = mix(b.a, a.a, bvec3(first));
-    r.b = mix(b.b, a.b, bvec3(first));
-    r.c = mix(b.c, a.c, bvec3(first));
-    r.id = first ? a.id : b.id;
-    return r;
-}
-
-// Gives a triangle near the cell to the next invocation that holds none.
-void hold_nearby(Candidate t, bool some, float covered) {
-    bool mine = some && nearby_count == gl_SubgroupInvocationID;
-    nearby = choose(mine, t, nearby);
-    nearby_covered = mine ? covered : nearby_covered;
-    nearby_count += some ? 1u : 0u;
-}
-
 // The place at which some samples of a cell are shaded together.
 uint place_of_part(vec2 sum_of_offsets, float samples, bool wide) {
-    return place_of_samples(sum_of_offsets, samples, float(RUN == RUN_PROBE ? PROBE_SAMPLES : frame.sample_count), wide);
+    return place_of_samples(sum_of_offsets, samples, float(frame.sample_count), wide);
 }
 
 uint place_of(vec2 sum_of_offsets, float samples) {
@@ -161,7 +135,7 @@ uint first_layer[ROWS];
 void see_owners(Cell cell, uint first) {
     uint last = max(cell.samples, 1u) - 1u;
     bool fits = first + last < owners_room();
-    if (!fits && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+    if (!fits && member() == 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         bool exists = fits && sample_of(g) < cell.samples;
         uvec4 owner = texelFetch(candidates, int(exists ? first + sample_of(g) : 0u));
@@ -169,9 +143,6 @@ void see_owners(Cell cell, uint first) {
         layers[g] = exists ? owner.w : 0u;
         first_layer[g] = owner.z - owner.w;
     }
-    nearby.id = 0u;
-    nearby_covered = 0.0;
-    nearby_count = 0u;
 }
 #else
 // Whether triangle `by` at depth `d` is seen in place of what row `g` has seen so far.
@@ -181,17 +152,14 @@ bool wins(float d, uint by, int g) {
 
 void show_opaque(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
-    float covered = 0.0;
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         vec2 p = position_of(cell, g);
         float d = depth_at(t, p);
         bool there = inside(t, least, p);
-        covered += there && sample_of(g) < cell.samples ? 1.0 : 0.0;
         bool seen = there && d <= 1.0 && wins(d, t.id, g);
         depth[g] = seen ? d : depth[g];
         id[g] = seen ? t.id : id[g];
     }
-    if (EXACT_AREAS) hold_nearby(t, some, lanes_add(covered));
 }
 
 // Shows an alpha-tested triangle to the samples. The alpha test is expensive: rows in which no sample may see the triangle are
@@ -203,7 +171,7 @@ void show_masked(Cell cell, Candidate t, bool some) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         float d;
         bool seen = covers(t, least, position_of(cell, g), d) && wins(d, t.id, g);
-        rows |= subgroupAny(seen) ? 1u << g : 0u;
+        rows |= team_any(seen) ? 1u << g : 0u;
     }
     do {
         int row = rows == 0u ? ROWS : findLSB(rows);
@@ -231,30 +199,29 @@ void show_masked(Cell cell, Candidate t, bool some) {
 // Shows the cell's opaque and alpha-tested candidates to the samples.
 void show_candidates(Cell cell) {
     vec2 middle = cell.at, half_side = cell.half_side;
-    // EXACT_AREAS have to know all triangles that touch the cell, not only those that touch the block.
-    if (!POINTS && !EXACT_AREAS) rectangle_of_block(cell, middle, half_side);
-    uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
+    if (!POINTS) rectangle_of_block(cell, middle, half_side);
+    uint batches = max((cell.entries + TEAM - 1u) / TEAM, 1u), batch = 0u;
     float hidden = cell.hidden;
     blend_batches = 0u;
     do {
-        uint entry = batch * LANES + gl_SubgroupInvocationID;
+        uint entry = batch * TEAM + member();
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool exists = entry < cell.entries && may_touch(k, cell.bit);
-        if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
+        hidden = max(hidden, team_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
         bool shows = exists && test.touches && test.near >= hidden, touches = shows && !blend;
-        blend_batches |= subgroupAny(shows && blend) ? 1u << min(batch, 31u) : 0u;
-        trips += 3u + uint(bitCount(subgroupBallot(touches).x));
-        uint pending = subgroupBallot(touches && !masked).x;
+        blend_batches |= team_any(shows && blend) ? 1u << min(batch, 31u) : 0u;
+        trips += 3u + uint(bitCount(team_ballot(touches)));
+        uint pending = team_ballot(touches && !masked);
         do {
             bool some = pending != 0u;
             show_opaque(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some);
             pending &= pending - 1u;
         } while (pending != 0u);
         if (HAS_MASK) {
-            pending = subgroupBallot(touches && masked).x;
+            pending = team_ballot(touches && masked);
             trips += uint(bitCount(pending)) * ROWS;
             do {
                 bool some = pending != 0u;
@@ -263,7 +230,7 @@ void show_candidates(Cell cell) {
             } while (pending != 0u);
         }
     } while (++batch < batches && trips <= MOST_TRIPS);
-    if (batch < batches && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (batch < batches && member() == 0u) atomicAdd(counters[COUNTER_STALLED], 1u);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // relative to the tile's centre.
 #ifndef CANDIDATE_GLSL
 #define CANDIDATE_GLSL
+#include "team.glsl"
 #include "tiles.glsl"
 #include "triangle.glsl"
 
@@ -40,14 +41,14 @@ Candidate load_candidate(uint first, uint index, vec2 center) {
 
 Candidate shuffle_candidate(Candidate k, uint lane) {
     Candidate r;
-    r.a = vec3(subgroupShuffle(k.a.x, lane), subgroupShuffle(k.a.y, lane), subgroupShuffle(k.a.z, lane));
-    r.b = vec3(subgroupShuffle(k.b.x, lane), subgroupShuffle(k.b.y, lane), subgroupShuffle(k.b.z, lane));
-    r.c = vec3(subgroupShuffle(k.c.x, lane), subgroupShuffle(k.c.y, lane), subgroupShuffle(k.c.z, lane));
-    r.depth = vec3(subgroupShuffle(k.depth.x, lane), subgroupShuffle(k.depth.y, lane), subgroupShuffle(k.depth.z, lane));
-    r.near = subgroupShuffle(k.near, lane);
-    r.far = subgroupShuffle(k.far, lane);
-    r.id = subgroupShuffle(k.id, lane);
-    r.pixels = subgroupShuffle(k.pixels, lane);
+    r.a = of_member(k.a, lane);
+    r.b = of_member(k.b, lane);
+    r.c = of_member(k.c, lane);
+    r.depth = of_member(k.depth, lane);
+    r.near = of_member(k.near, lane);
+    r.far = of_member(k.far, lane);
+    r.id = of_member(k.id, lane);
+    r.pixels = of_member(k.pixels, lane);
     return r;
 }
 

@@ -69,7 +69,6 @@
 #define BINDING_NORMALS_OUT 51
 #define BINDING_TANGENTS_OUT 52
 #define BINDING_ENVIRONMENT_MAP 53
-#define BINDING_PATTERN 54
 #define BINDING_STROKES 55
 #define BINDING_SHADOW_WORDS 56
 #define BINDING_LOCATION_ORDER 57
@@ -118,7 +117,7 @@
 
 // IDs of specialisation constants of several shaders.
 #define CONSTANT_LOCAL_SIZE 0
-#define CONSTANT_LANES 1
+#define CONSTANT_TEAM 1
 #define CONSTANT_TEXTURED 3
 #define CONSTANT_ONE_UV_TRANSFORM 14
 #define CONSTANT_BOX_FILTER 15
@@ -130,7 +129,7 @@
 #define CONSTANT_POINTS 21
 #define CONSTANT_OCCLUDERS 22
 #define CONSTANT_INSTANCED 23
-#define CONSTANT_UNSURE 24
+#define CONSTANT_TEAMS 24
 #define CONSTANT_SHADOW_WORDS 25
 #define CONSTANT_TONEMAP 30
 #define CONSTANT_TONEMAP_CODES 31
@@ -155,7 +154,7 @@
 #define CONSTANT_THICKNESS_TEXTURE 58
 #define CONSTANT_SPECULAR_GLOSSINESS_TEXTURE 59
 
-// IDs of specialisation constants of one shader. `sample_masks` and `sample_lines` share those of `sample`.
+// IDs of specialisation constants of one shader. `sample_lines` shares those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
 #define ADOPT_CONSTANT_INDEXED 1
 #define ATTRIBUTES_CONSTANT_SUPERPIXELS 0
@@ -186,18 +185,16 @@
 #define RESOLVE_CONSTANT_LAYERED 3
 #define RESOLVE_CONSTANT_LIST 4
 #define RESOLVE_CONSTANT_DISPLAY_CODES 5
-#define RESOLVE_CONSTANT_PROBED 6
+#define RESOLVE_CONSTANT_BY_LINES 6
 #define RESOLVE_CONSTANT_GROWS 7
 #define SAMPLE_CONSTANT_PER_SAMPLE 2
 #define SAMPLE_CONSTANT_HAS_MASK 3
 #define SAMPLE_CONSTANT_LIST 4
-#define SAMPLE_CONSTANT_RUN 5
+#define SAMPLE_CONSTANT_LEFT_CELLS 5
 #define SAMPLE_CONSTANT_BY_PART 6
-#define SAMPLE_CONSTANT_EXACT_AREAS 7
 #define SAMPLE_CONSTANT_PART 8
 #define SAMPLE_CONSTANT_APART 9
 #define SAMPLE_CONSTANT_LONG 12
-#define SAMPLE_MASKS_CONSTANT_ROLLED 10
 #define SAMPLE_LINES_CONSTANT_HEADER 10
 #define SAMPLE_LINES_CONSTANT_LINES 11
 #define SCATTER_CONSTANT_HAS_MASK 2
@@ -263,7 +260,6 @@
 #define COUNTER_OWNERS 35
 #define COUNTER_LAYERS 36
 #define COUNTER_MOST_CELLS 37
-#define COUNTER_SUBGROUPS 38
 
 // Indices into `arguments`.
 #define ARGUMENT_CULL 0
@@ -286,7 +282,12 @@
 #define ARGUMENT_SCATTER 17
 #define ARGUMENT_SCATTER_EVERY 18
 #define ARGUMENT_LAYERS 19
-#define ARGUMENT_SHADE 20
+#define ARGUMENT_RECORDS 20
+#define ARGUMENT_RESOLVE_PLAIN 21
+#define ARGUMENT_RESOLVE_MASKED 22
+#define ARGUMENT_RESOLVE_BLENDED 23
+#define ARGUMENT_RESOLVE_UNLISTED 24
+#define ARGUMENT_SHADE 25
 
 // What has been counted when `arguments` runs.
 #define AFTER_DETECT 0u
@@ -296,7 +297,7 @@
 #define AFTER_SPANS 4u
 #define AFTER_THIN 5u
 #define AFTER_GROUPS 6u
-#define AFTER_PROBE 7u
+#define AFTER_LINES 7u
 #define AFTER_PAIRS 8u
 #define AFTER_SCATTER 9u
 
@@ -334,15 +335,6 @@
 #define TILE_LIST_BLENDED 2u
 #define TILE_LIST_UNLISTED 3u
 #define TILE_LISTS 4u
-
-// Runs of `sample`. WHOLE takes all samples of all cells. Or PROBE takes a few samples of all cells, and REST then takes all
-// samples of the cells that PROBE left.
-#define RUN_WHOLE 0u
-#define RUN_PROBE 1u
-#define RUN_REST 2u
-
-// Samples of a cell in the run PROBE.
-#define PROBE_SAMPLES 64u
 
 // How the vertices of a host's draw make triangles.
 #define TOPOLOGY_LIST 0u
@@ -425,7 +417,7 @@
 #define FEWEST_TRIED 4096u
 
 // The longest list of candidates; a tile with more triangles has none. Loops over LONGEST_LIST candidates usually end within
-// MOST_TRIPS (workarounds.glsl), since hidden candidates take few trips. If a subgroup takes a block of one cell at a time, loops
+// MOST_TRIPS (workarounds.glsl), since hidden candidates take few trips. If a team takes a block of one cell at a time, loops
 // over SHORT_LIST opaque or alpha-tested candidates always do, and so do loops over SHORT_LAYERED if some are BLEND.
 #define LONGEST_LIST 40000u
 #define SHORT_LIST 2500u

@@ -32,10 +32,13 @@ struct Group {
 // The group of the first sample of those that are `left`, a bit a row.
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
-    [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
-        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], layered_part(g)) : key;
-    uint some = subgroupBallot(left != 0u).x, holder = some != 0u ? uint(findLSB(some)) : 0u;
-    key = uvec3(subgroupShuffle(key.x, holder), subgroupShuffle(key.y, holder), subgroupShuffle(key.z, holder));
+    uint first = ~0u;
+    [[unroll]] for (int g = ROWS - 1; g >= 0; g--) {
+        bool some = (left >> g & 1u) != 0u;
+        key = some ? uvec3(node[g], next_id[g], layered_part(g)) : key;
+        first = some ? sample_of(g) : first;
+    }
+    key = of_member(key, team_min(first) % TEAM);
     bool by_part = BY_PART && key.y != 0u && high_frequency_triangle(key.y);
     Group r = Group(key.x, key.y, 0u, 0.0, vec2(0.0));
     [[unroll]] for (int g = 0; g < ROWS; g++) {
@@ -43,20 +46,20 @@ Group first_group(uint left) {
         r.rows |= same ? 1u << g : 0u;
         r.sum += same ? offset[g] : vec2(0.0);
     }
-    r.samples = lanes_add(float(bitCount(r.rows)));
-    r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
+    r.samples = team_add(float(bitCount(r.rows)));
+    r.sum = vec2(team_add(r.sum.x), team_add(r.sum.y));
     return r;
 }
 
 // Makes nodes of the samples' next surfaces, one for `each` sample or shared ones, and moves the samples there. Returns
 // whether there was room for the nodes.
 bool add_nodes(uint cell_id, uint samples, bool each) {
-    uint lane = gl_SubgroupInvocationID, left = 0u;
+    uint lane = member(), left = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
     bool fits = true;
     if (each) {
-        uint mine = uint(bitCount(left)), before = subgroupExclusiveAdd(mine);
-        uint slot = allocate_records(subgroupAdd(mine), fits) + before;
+        uint mine = uint(bitCount(left)), before = team_before(mine);
+        uint slot = allocate_records(team_add(mine), fits) + before;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
             if (moves && fits) records_out[slot] = uvec4(POINTS ? location_at(cell_id + sample_of(g)) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
@@ -67,7 +70,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     }
     do {
         uint count = 0u, before = left;
-        uvec4 held;             // record of one group: invocation n holds that of group n
+        uvec4 held;             // record of one group: member n holds that of group n
         uint number[ROWS];
         do {
             Group s = first_group(left);
@@ -76,20 +79,20 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
             [[unroll]] for (int g = 0; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
             left &= ~s.rows;
             count += s.samples > 0.0 ? 1u : 0u;
-        } while (count < LANES && subgroupAny(left != 0u));
+        } while (count < TEAM && team_any(left != 0u));
         trips += count + 2u;
         bool room;
         uint base = allocate_records(count, room);
         if (room && lane < count) records_out[base + lane] = held;
         [[unroll]] for (int g = 0; g < ROWS; g++) node[g] = ((before & ~left) >> g & 1u) != 0u ? base + number[g] : node[g];
         fits = fits && room;
-    } while (subgroupAny(left != 0u));
+    } while (team_any(left != 0u));
     return fits;
 }
 
 // Makes the leaves; returns the first one and their number. Samples that see only background have a leaf only with EACH.
 uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
-    uint lane = gl_SubgroupInvocationID;
+    uint lane = member();
     bool fits;
     if (EACH) {
         uint base = allocate_records(complete ? samples : 0u, fits);
@@ -112,16 +115,16 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         held = lane == count ? uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node) : held;
         left &= ~s.rows;
         count += s.samples > 0.0 ? 1u : 0u;
-        beyond = count <= LANES ? left : beyond;
-    } while (subgroupAny(left != 0u));
+        beyond = count <= TEAM ? left : beyond;
+    } while (team_any(left != 0u));
     uint base = allocate_records(complete ? count : 0u, fits);
     fits = fits && complete;
     if (fits && lane < count) records_out[base + lane] = held;
-    // Invocations hold LANES leaves. Others are written one by one.
-    uint stored = LANES;
+    // Members hold TEAM leaves. Others are written one by one.
+    uint stored = TEAM;
     do {
         Group s = first_group(beyond);
-        if (fits && stored < count && subgroupElect()) records_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
+        if (fits && stored < count && member() == 0u) records_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
         beyond &= ~s.rows;
     } while (++stored < count);
     trips += 2u * count;
@@ -138,7 +141,7 @@ bool find_layers(Cell cell, uint layer) {
         most = max(most, layers[g]);
     }
     trips++;
-    return subgroupAny(layer + 1u < most);
+    return team_any(layer + 1u < most);
 }
 #else
 // Finds each sample's next BLEND layer in front of the surfaces so far, and moves its depth and ID there. Returns whether there
@@ -152,17 +155,17 @@ bool find_layers(Cell cell, uint layer) {
         ahead[g] = 0u;
         behind = min(behind, depth[g]);
     }
-    behind = max(lanes_min(behind), cell.hidden);
+    behind = max(team_min(behind), cell.hidden);
     vec2 middle = cell.at, half_side = cell.half_side;
     if (!POINTS) rectangle_of_block(cell, middle, half_side);
-    uint batches = (cell.entries + LANES - 1u) / LANES, left = blend_batches;
+    uint batches = (cell.entries + TEAM - 1u) / TEAM, left = blend_batches;
     uint batch = left != 0u ? uint(findLSB(left)) : 0u;
     do {
-        uint entry = batch * LANES + gl_SubgroupInvocationID;
+        uint entry = batch * TEAM + member();
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool touches = left != 0u && entry < cell.entries && may_touch(k, cell.bit) && test.touches && k.id > frame.first_blend && test.near >= behind;
-        uint pending = subgroupBallot(touches).x;
+        uint pending = team_ballot(touches);
         trips += 2u + uint(bitCount(pending));
         do {
             bool some = pending != 0u;
@@ -189,7 +192,7 @@ bool find_layers(Cell cell, uint layer) {
         id[g] = next_id[g] != 0u ? next_id[g] : id[g];
         most = max(most, ahead[g]);
     }
-    return left != 0u || subgroupAny(most > 1u);
+    return left != 0u || team_any(most > 1u);
 }
 #endif
 
@@ -207,7 +210,7 @@ uvec2 record_layers(Cell cell, uint cell_id) {
         fits = add_nodes(cell_id, cell.samples, EACH || layer >= SHARED_LAYERS) && fits;
         layer++;
     } while (more && trips <= MOST_TRIPS);
-    if (subgroupElect() && more) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (member() == 0u && more) atomicAdd(counters[COUNTER_STALLED], 1u);
     return add_leaves(cell_id, cell.samples, fits);
 }
 

@@ -1,20 +1,20 @@
 // Samples on straight lines across a cell: LINES rows or columns of BITS samples. A set of samples has a bit for each, in words
-// of 32. An invocation holds WORDS words. Words are ordered by line; the first half of a line comes before the second one.
+// of 32. A member of the team holds WORDS words. Words are ordered by line; the first half of a line comes before the second one.
 // Twin: src/reference/sample_lines.rs.
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
 layout(constant_id = SAMPLE_LINES_CONSTANT_LINES) const uint LINES = 16u;            // 8, 16, 32 or 64
 
-const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
+const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / TEAM;
 const uint HALVES = BITS / 32u;                             // words of a line
-const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // words of one line that an invocation holds
-const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines of which an invocation holds words
+const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // words of one line that a member holds
+const uint OWN_LINES = WORDS / LINE_WORDS;                  // lines of which a member holds words
 const uint LOG_LINES = 6u;                                  // binary logarithm of the largest number of lines
 
-// The line of word number `own` of this invocation, and the half of the line.
-uint line_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) / HALVES; }
-uint half_of(uint own) { return (gl_SubgroupInvocationID * WORDS + own) % HALVES; }
+// The line of word number `own` of this member, and the half of the line.
+uint line_of(uint own) { return (member() * WORDS + own) / HALVES; }
+uint half_of(uint own) { return (member() * WORDS + own) % HALVES; }
 
 // The position of a line relative to the cell's centre, across lines.
 float line_at(uint line) { return (float(line) + 0.5) * (1.0 / float(LINES)) - 0.5; }
@@ -56,7 +56,7 @@ uvec2 sums_of_bits(uint bits) {
     return uvec2(bytes * 0x01010101u >> 24, (bytes * 0x00010203u >> 23 & ~1u) + (upper * 0x01010101u >> 24));
 }
 
-// The same for word `own` of this invocation, with bits numbered from the beginning of their line; and the sum of the numbers of
+// The same for word `own` of this member, with bits numbered from the beginning of their line; and the sum of the numbers of
 // the bits' lines.
 uvec3 sums_of_word(uint own, uint bits) {
     uvec2 s = sums_of_bits(bits);
@@ -90,7 +90,7 @@ uint field_starts(Grid g) { return g.field >= 32u ? 1u : g.field == 16u ? 0x0001
 
 uint field_bits(Grid g) { return g.field >= 32u ? ~0u : (1u << g.field) - 1u; }
 
-// A mask of those bits of an invocation's number in which the invocations with lines of the same part differ.
+// A mask of those bits of a member's number in which the members with lines of the same part differ.
 uint sharing_lanes(Grid g) {
     uint r = 0u;
     [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
@@ -100,7 +100,7 @@ uint sharing_lanes(Grid g) {
     return r;
 }
 
-// Merges the fields of lines that are `span` apart, where this invocation holds both lines: the first line gets those of both.
+// Merges the fields of lines that are `span` apart, where this member holds both lines: the first line gets those of both.
 void merge_own_lines(inout uint found[WORDS], Grid g, uint span) {
     if (span < OWN_LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -111,19 +111,19 @@ void merge_own_lines(inout uint found[WORDS], Grid g, uint span) {
     }
 }
 
-// The same where different invocations hold the two lines: both get the fields of both.
+// The same where different members hold the two lines: both get the fields of both.
 void merge_lanes_lines(inout uint found[WORDS], Grid g, uint span) {
     if (span >= OWN_LINES && span < LINES) {
         [[unroll]] for (uint r = 0u; r < WORDS; r++) {
-            uint other = subgroupShuffleXor(found[r], span * HALVES / WORDS);
+            uint other = of_partner(found[r], span * HALVES / WORDS);
             found[r] |= g.lines > span ? other : 0u;
         }
     }
 }
 
 // Finds the parts in which a triangle is shaded: those in which some line has half of its field or more in a row. A part is
-// marked by the lowest bit of its field. In an invocation, the mark is in the part's first line. All invocations that share a
-// part have its mark.
+// marked by the lowest bit of its field. In a member, the mark is in the part's first line. All members that share a part
+// have its mark.
 void find_parts(uint bits[WORDS], Grid g, out uint found[WORDS]) {
     uint starts = field_starts(g), runs_begin = starts * (field_bits(g) >> (g.field / 2u - 1u));
     [[unroll]] for (uint r = 0u; r < WORDS; r++) {

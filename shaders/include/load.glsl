@@ -13,9 +13,9 @@ layout(push_constant) uniform Push {
     uint per_sample;        // 1 if each sample is a record
     uint layers;            // BLEND layers before a sample that memory is reserved for
     uint parts;             // records that a triangle makes in a block, at most
-    uint subgroups_first;   // subgroups of `sample` for an entry of a work list in the first run, which may be a PROBE
-    uint subgroups;         // the same where a run takes all samples
-    uint subgroups_unlisted;// the same for tiles without a list
+    uint teams_first;       // teams of `sample` for an entry of a work list in the first run
+    uint teams;             // the same for cells that the first run left, and for tiles with BLEND triangles
+    uint teams_unlisted;    // the same for tiles without a list
     uint longest_list;      // most candidates of a tile; a tile with more has no list
     uint longest_layered;   // the same if some candidates are BLEND
     uint more_records;      // most records of a cell of opaque or alpha-tested triangles in excess of its number of samples
@@ -75,7 +75,7 @@ Load load_of(uint index, uvec4 tile) {
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
-    uint entries = (cells + LANES - 1u) / LANES;
+    uint entries = (cells + TEAM - 1u) / TEAM;
     // The number of layers is not known yet: room is reserved for half of `push.layers` vectors a sample.
     uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;

@@ -98,13 +98,13 @@ Variation variation_around(uvec2 pixel) {
     return r;
 }
 
-Variation my_variation;     // of the pixel of an invocation's cell
+Variation my_variation;     // of the pixel of a member's cell
 
-Variation variation_of(uint member) {
+Variation variation_of(uint holder) {
     Variation r;
-    r.ids = uvec2(subgroupShuffle(my_variation.ids.x, member), subgroupShuffle(my_variation.ids.y, member));
-    r.materials = uvec2(subgroupShuffle(my_variation.materials.x, member), subgroupShuffle(my_variation.materials.y, member));
-    r.parts = subgroupShuffle(my_variation.parts, member);
+    r.ids = of_member(my_variation.ids, holder);
+    r.materials = of_member(my_variation.materials, holder);
+    r.parts = of_member(my_variation.parts, holder);
     return r;
 }
 

@@ -1,14 +1,14 @@
 // The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind, of
 // the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
-// a part of its cells: as many cells as a subgroup has invocations. Pixels that are not superpixels cause no work.
+// a part of its cells: as many cells as a team has members. Pixels that are not superpixels cause no work.
 #ifndef WORK_GLSL
 #define WORK_GLSL
-#include "lanes.glsl"
+#include "team.glsl"
 #include "locations.glsl"
 #include "workarounds.glsl"
 
 const uint LEFT = TILE_LISTS;       // added to the number of a kind's list: the list of the cells that are left
-const uint PARTS_OF_TILE = 32u / LANES;
+const uint PARTS_OF_TILE = 32u / TEAM;
 
 // The place of a list's first entry.
 uint first_entry(uint list) {
@@ -18,6 +18,16 @@ uint first_entry(uint list) {
 uint work_entry(uint item, uint part) { return item << 3 | part; }
 uint entry_item(uint entry) { return entry >> 3; }
 uint entry_part(uint entry) { return entry & 7u; }
+
+// Writes the sizes of the dispatches over work lists with `entries` entries. An entry takes `teams` teams of `sample`: in the first
+// run over tiles without BLEND triangles, in that over tiles with them, and in that over tiles without a list.
+void size_of_lists(uvec4 entries, uvec3 teams) {
+    [[unroll]] for (uint list = 0u; list < TILE_LISTS; list++) {
+        uint of_entry = list < TILE_LIST_BLENDED ? teams.x : list < TILE_LIST_UNLISTED ? teams.y : teams.z;
+        arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(workgroups_of(entries[list] * of_entry));
+        arguments[ARGUMENT_RESOLVE_PLAIN + list] = groups(workgroups_of(entries[list]));
+    }
+}
 
 // The position of the set bit number `cell` of a word, both counted from 0; 31 if fewer bits are set.
 uint bit_of_cell(uint word, uint cell) {
@@ -32,12 +42,12 @@ uint bit_of_cell(uint word, uint cell) {
     return bit;
 }
 
-// Leaves `cells` of a work item, a bit each, to the kernel that runs later. Cells that several subgroups leave of an item fill
-// its entries one after the other. Only one invocation of a subgroup calls this.
+// Leaves `cells` of a work item, a bit each, to the kernel that runs later. Cells that several teams leave of an item fill
+// its entries one after the other. Only one member of a team calls this.
 void leave_cells(uint list, uint item, uint cells) {
     uint more = uint(bitCount(cells)), before = uint(bitCount(atomicOr(marks[item], cells)));
-    uint part = (before + LANES - 1u) / LANES;
-    if (part * LANES < before + more)
+    uint part = (before + TEAM - 1u) / TEAM;
+    if (part * TEAM < before + more)
         tile_lists[first_entry(list + LEFT) + atomicAdd(counters[COUNTER_PLAIN_LEFT + list], 1u)] = work_entry(item, part);
 }
 

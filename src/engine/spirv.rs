@@ -66,7 +66,6 @@ pub mod frame_set {
     pub const NORMALS_OUT: Binding = Binding::new(51, "normals_out", Kind::STORAGE_TEXEL_BUFFER, 1);
     pub const TANGENTS_OUT: Binding = Binding::new(52, "tangents_out", Kind::STORAGE_TEXEL_BUFFER, 1);
     pub const ENVIRONMENT_MAP: Binding = Binding::new(53, "environment_map", Kind::COMBINED_IMAGE_SAMPLER, 1);
-    pub const PATTERN: Binding = Binding::new(54, "pattern", Kind::UNIFORM_BUFFER, 1);
     pub const STROKES: Binding = Binding::new(55, "strokes", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const SHADOW_WORDS: Binding = Binding::new(56, "shadow_words", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const LOCATION_ORDER: Binding = Binding::new(57, "location_order", Kind::UNIFORM_TEXEL_BUFFER, 1);
@@ -141,7 +140,7 @@ impl Specialized for Adopt {
         ],
         push_bytes: 28,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -191,7 +190,7 @@ impl Specialized for AlphaMap {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -252,14 +251,24 @@ pub struct Frame {
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ArgumentsPush {
     pub after: u32,
-    pub subgroups_first: u32,
-    pub subgroups: u32,
-    pub subgroups_unlisted: u32,
+    pub teams_first: u32,
+    pub teams: u32,
+    pub teams_unlisted: u32,
 }
 
-/// `shaders/arguments.comp`, which has no constants.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Arguments;
+/// Constants of `shaders/arguments.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arguments {
+    pub teams: u32,
+}
+
+impl Default for Arguments {
+    fn default() -> Self {
+        Self {
+            teams: 1,
+        }
+    }
+}
 
 impl Specialized for Arguments {
     type Push = ArgumentsPush;
@@ -275,11 +284,12 @@ impl Specialized for Arguments {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(1),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(24, self.teams)
     }
 }
 
@@ -327,7 +337,7 @@ impl Specialized for Attributes {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -385,7 +395,7 @@ impl Specialized for Bin {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -424,7 +434,7 @@ impl Specialized for BoxFilter {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -481,7 +491,7 @@ impl Specialized for Centres {
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -502,9 +512,9 @@ impl Compiled for Centres {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Composite {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub tinted: bool,
-    pub unsure: bool,
+    pub teams: u32,
     pub tonemap: bool,
 }
 
@@ -512,9 +522,9 @@ impl Default for Composite {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             tinted: false,
-            unsure: false,
+            teams: 1,
             tonemap: true,
         }
     }
@@ -528,22 +538,22 @@ impl Specialized for Composite {
         in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
             Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(16, self.tinted)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
             .flag(30, self.tonemap)
     }
 }
@@ -601,7 +611,7 @@ impl Specialized for Coordinates {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -676,7 +686,7 @@ impl Specialized for Crossings {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -728,7 +738,7 @@ impl Specialized for Cull {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -787,7 +797,7 @@ impl Specialized for Detect {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -864,7 +874,7 @@ impl Specialized for Distribute {
         ],
         push_bytes: 24,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -907,7 +917,7 @@ impl Specialized for Encode {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -930,9 +940,9 @@ pub struct EnlistPush {
     pub per_sample: u32,
     pub layers: u32,
     pub parts: u32,
-    pub subgroups_first: u32,
-    pub subgroups: u32,
-    pub subgroups_unlisted: u32,
+    pub teams_first: u32,
+    pub teams: u32,
+    pub teams_unlisted: u32,
     pub longest_list: u32,
     pub longest_layered: u32,
     pub more_records: u32,
@@ -942,18 +952,18 @@ pub struct EnlistPush {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Enlist {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub locations: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Enlist {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             locations: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -974,15 +984,15 @@ impl Specialized for Enlist {
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(20, self.locations)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -1017,16 +1027,18 @@ pub struct FilterPush {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub instanced: bool,
+    pub teams: u32,
 }
 
 impl Default for Filter {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             instanced: false,
+            teams: 1,
         }
     }
 }
@@ -1048,14 +1060,15 @@ impl Specialized for Filter {
         ],
         push_bytes: 16,
         invocations: Invocations::Constant,
-        needs_subgroup_size: false,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(23, self.instanced)
+            .with(24, self.teams)
     }
 }
 
@@ -1111,7 +1124,7 @@ pub const GPC_SHADER_VERSION: (u32, u32) = (2046, 1);
 /// Constants of `shaders/groups.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Groups {
-    pub lanes: u32,
+    pub team: u32,
     pub locations: bool,
     pub points: bool,
     pub occluders: bool,
@@ -1120,7 +1133,7 @@ pub struct Groups {
 impl Default for Groups {
     fn default() -> Self {
         Self {
-            lanes: 8,
+            team: 8,
             locations: false,
             points: false,
             occluders: false,
@@ -1143,12 +1156,12 @@ impl Specialized for Groups {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(22, self.occluders)
@@ -1189,7 +1202,7 @@ impl Specialized for Grow {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1207,13 +1220,15 @@ impl Compiled for Grow {
 /// Constants of `shaders/multisample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Multisample {
-    pub lanes: u32,
+    pub team: u32,
+    pub teams: u32,
 }
 
 impl Default for Multisample {
     fn default() -> Self {
         Self {
-            lanes: 8,
+            team: 8,
+            teams: 1,
         }
     }
 }
@@ -1237,12 +1252,13 @@ impl Specialized for Multisample {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.lanes)
+            .with(1, self.team)
+            .with(24, self.teams)
     }
 }
 
@@ -1283,7 +1299,7 @@ impl Specialized for Neighbours {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1326,20 +1342,20 @@ pub mod occlude_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Occlude {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub has_mask: bool,
     pub instanced: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Occlude {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             has_mask: false,
             instanced: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -1360,7 +1376,6 @@ impl Specialized for Occlude {
             Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
             Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
@@ -1370,16 +1385,16 @@ impl Specialized for Occlude {
         ],
         push_bytes: 120,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(2, self.has_mask)
             .flag(23, self.instanced)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -1415,7 +1430,7 @@ impl Specialized for PatchFragment {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1446,7 +1461,7 @@ impl Specialized for PatchVertex {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1509,7 +1524,7 @@ impl Specialized for Points {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1568,7 +1583,7 @@ impl Specialized for Pose {
         ],
         push_bytes: 44,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1617,7 +1632,7 @@ impl Specialized for Prefilter {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1664,7 +1679,7 @@ impl Specialized for RasterFragment {
         ],
         push_bytes: 0,
         invocations: Invocations::Drawn,
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1698,7 +1713,7 @@ impl Specialized for RasterVertex {
         ],
         push_bytes: 80,
         invocations: Invocations::Drawn,
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1782,7 +1797,7 @@ impl Specialized for Receivers {
         ],
         push_bytes: 124,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -1814,16 +1829,16 @@ pub mod resolve_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resolve {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub block: u32,
     pub layered: bool,
     pub list: u32,
     pub display_codes: bool,
-    pub probed: bool,
+    pub by_lines: bool,
     pub grows: bool,
     pub encoded: bool,
     pub locations: bool,
-    pub unsure: bool,
+    pub teams: u32,
     pub tonemap: bool,
     pub tonemap_codes: bool,
 }
@@ -1832,16 +1847,16 @@ impl Default for Resolve {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             block: 256,
             layered: false,
             list: 0,
             display_codes: false,
-            probed: false,
+            by_lines: false,
             grows: false,
             encoded: false,
             locations: false,
-            unsure: false,
+            teams: 1,
             tonemap: true,
             tonemap_codes: true,
         }
@@ -1860,7 +1875,7 @@ impl Specialized for Resolve {
             Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
             Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
             Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
@@ -1874,22 +1889,22 @@ impl Specialized for Resolve {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .with(2, self.block)
             .flag(3, self.layered)
             .with(4, self.list)
             .flag(5, self.display_codes)
-            .flag(6, self.probed)
+            .flag(6, self.by_lines)
             .flag(7, self.grows)
             .flag(18, self.encoded)
             .flag(20, self.locations)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
             .flag(30, self.tonemap)
             .flag(31, self.tonemap_codes)
     }
@@ -1899,13 +1914,12 @@ impl Specialized for Resolve {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sample {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub per_sample: bool,
     pub has_mask: bool,
     pub list: u32,
-    pub run: u32,
+    pub left_cells: bool,
     pub by_part: bool,
-    pub exact_areas: bool,
     pub part: u32,
     pub apart: bool,
     pub long: bool,
@@ -1913,20 +1927,19 @@ pub struct Sample {
     pub points: bool,
     pub occluders: bool,
     pub instanced: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Sample {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             per_sample: false,
             has_mask: false,
             list: 0,
-            run: 0,
+            left_cells: false,
             by_part: false,
-            exact_areas: false,
             part: 8,
             apart: false,
             long: false,
@@ -1934,7 +1947,7 @@ impl Default for Sample {
             points: false,
             occluders: false,
             instanced: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -1960,12 +1973,12 @@ impl Specialized for Sample {
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
             Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
             Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
-            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
@@ -1973,19 +1986,18 @@ impl Specialized for Sample {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(2, self.per_sample)
             .flag(3, self.has_mask)
             .with(4, self.list)
-            .with(5, self.run)
+            .flag(5, self.left_cells)
             .flag(6, self.by_part)
-            .flag(7, self.exact_areas)
             .with(8, self.part)
             .flag(9, self.apart)
             .flag(12, self.long)
@@ -1993,7 +2005,7 @@ impl Specialized for Sample {
             .flag(21, self.points)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -2001,7 +2013,7 @@ impl Specialized for Sample {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleLines {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub has_mask: bool,
     pub list: u32,
     pub by_part: bool,
@@ -2012,14 +2024,14 @@ pub struct SampleLines {
     pub locations: bool,
     pub occluders: bool,
     pub instanced: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for SampleLines {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             has_mask: false,
             list: 0,
             by_part: false,
@@ -2030,7 +2042,7 @@ impl Default for SampleLines {
             locations: false,
             occluders: false,
             instanced: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -2067,13 +2079,13 @@ impl Specialized for SampleLines {
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(3, self.has_mask)
             .with(4, self.list)
             .flag(6, self.by_part)
@@ -2084,104 +2096,13 @@ impl Specialized for SampleLines {
             .flag(20, self.locations)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
 impl Compiled for SampleLines {
     fn code() -> &'static [u8] {
         SAMPLE_LINES
-    }
-}
-
-/// The uniform block `pattern`, as in `shaders/sample_masks.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Pattern {
-    pub pattern: [[f32; 4]; 32],
-}
-
-/// Constants of `shaders/sample_masks.comp`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SampleMasks {
-    pub local_size: u32,
-    pub lanes: u32,
-    pub has_mask: bool,
-    pub list: u32,
-    pub by_part: bool,
-    pub exact_areas: bool,
-    pub part: u32,
-    pub rolled: bool,
-    pub locations: bool,
-    pub instanced: bool,
-    pub unsure: bool,
-}
-
-impl Default for SampleMasks {
-    fn default() -> Self {
-        Self {
-            local_size: 1,
-            lanes: 8,
-            has_mask: false,
-            list: 0,
-            by_part: false,
-            exact_areas: false,
-            part: 4,
-            rolled: false,
-            locations: false,
-            instanced: false,
-            unsure: false,
-        }
-    }
-}
-
-impl Specialized for SampleMasks {
-    type Push = ();
-
-    const INTERFACE: &'static Interface = &Interface {
-        name: "sample_masks",
-        in_frame: true,
-        uses: &[
-            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 0, binding: frame_set::PATTERN, access: Access::Read },
-            Use { set: 1, binding: frame_set::POSITIONS, access: Access::Read },
-            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
-            Use { set: 1, binding: frame_set::UVS, access: Access::Read },
-            Use { set: 1, binding: frame_set::COLORS, access: Access::Read },
-            Use { set: 1, binding: frame_set::MATERIALS, access: Access::Read },
-            Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
-            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
-            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
-            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
-            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
-            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
-            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
-            Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
-            Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
-            Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
-        ],
-        push_bytes: 0,
-        invocations: Invocations::Constant,
-        needs_subgroup_size: true,
-    };
-
-    fn constants(&self) -> Constants {
-        Constants::new()
-            .with(0, self.local_size)
-            .with(1, self.lanes)
-            .flag(3, self.has_mask)
-            .with(4, self.list)
-            .flag(6, self.by_part)
-            .flag(7, self.exact_areas)
-            .with(8, self.part)
-            .flag(10, self.rolled)
-            .flag(20, self.locations)
-            .flag(23, self.instanced)
-            .flag(24, self.unsure)
     }
 }
 
@@ -2196,7 +2117,7 @@ pub struct ScatterPush {
 /// Constants of `shaders/scatter.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scatter {
-    pub lanes: u32,
+    pub team: u32,
     pub has_mask: bool,
     pub locations: bool,
     pub points: bool,
@@ -2207,7 +2128,7 @@ pub struct Scatter {
 impl Default for Scatter {
     fn default() -> Self {
         Self {
-            lanes: 8,
+            team: 8,
             has_mask: false,
             locations: false,
             points: false,
@@ -2248,12 +2169,12 @@ impl Specialized for Scatter {
         ],
         push_bytes: 8,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(2, self.has_mask)
             .flag(20, self.locations)
             .flag(21, self.points)
@@ -2275,20 +2196,20 @@ pub type SchedulePush = EnlistPush;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Schedule {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub locations: bool,
     pub points: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Schedule {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             locations: false,
             points: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -2309,16 +2230,16 @@ impl Specialized for Schedule {
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(20, self.locations)
             .flag(21, self.points)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -2363,7 +2284,7 @@ impl Specialized for Setup {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2544,7 +2465,7 @@ impl Specialized for Shade {
         ],
         push_bytes: 4,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2656,7 +2577,7 @@ impl Specialized for Shadow {
         ],
         push_bytes: 16,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2682,18 +2603,18 @@ pub struct SortPush {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sort {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub instanced: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Sort {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             instanced: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -2709,22 +2630,22 @@ impl Specialized for Sort {
             Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
             Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Write },
             Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
         push_bytes: 4,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(23, self.instanced)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -2740,19 +2661,21 @@ pub type SpansPush = SortPush;
 /// Constants of `shaders/spans.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spans {
-    pub lanes: u32,
+    pub local_size: u32,
+    pub team: u32,
     pub one_bin: bool,
     pub instanced: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Spans {
     fn default() -> Self {
         Self {
-            lanes: 8,
+            local_size: 1,
+            team: 8,
             one_bin: false,
             instanced: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -2769,21 +2692,21 @@ impl Specialized for Spans {
             Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
             Use { set: 1, binding: frame_set::IDS, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
             Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Write },
             Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
         push_bytes: 4,
-        invocations: Invocations::Fixed(64),
-        needs_subgroup_size: true,
+        invocations: Invocations::Constant,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.lanes)
+            .with(0, self.local_size)
+            .with(1, self.team)
             .flag(2, self.one_bin)
             .flag(23, self.instanced)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -2824,7 +2747,7 @@ impl Specialized for Stroke {
         ],
         push_bytes: 48,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2877,7 +2800,7 @@ impl Specialized for Take {
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -2901,20 +2824,20 @@ pub type TallyPush = EnlistPush;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tally {
     pub local_size: u32,
-    pub lanes: u32,
+    pub team: u32,
     pub locations: bool,
     pub points: bool,
-    pub unsure: bool,
+    pub teams: u32,
 }
 
 impl Default for Tally {
     fn default() -> Self {
         Self {
             local_size: 1,
-            lanes: 8,
+            team: 8,
             locations: false,
             points: false,
-            unsure: false,
+            teams: 1,
         }
     }
 }
@@ -2927,23 +2850,22 @@ impl Specialized for Tally {
         in_frame: true,
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
             Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
             Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
         push_bytes: 40,
         invocations: Invocations::Constant,
-        needs_subgroup_size: true,
+        by_teams: true,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
             .with(0, self.local_size)
-            .with(1, self.lanes)
+            .with(1, self.team)
             .flag(20, self.locations)
             .flag(21, self.points)
-            .flag(24, self.unsure)
+            .with(24, self.teams)
     }
 }
 
@@ -3003,7 +2925,7 @@ impl Specialized for Thin {
         ],
         push_bytes: 12,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -3062,7 +2984,7 @@ impl Specialized for Transform {
         ],
         push_bytes: 20,
         invocations: Invocations::Fixed(64),
-        needs_subgroup_size: false,
+        by_teams: false,
     };
 
     fn constants(&self) -> Constants {
@@ -3078,7 +3000,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 45] = [
+pub const INTERFACES: [&Interface; 44] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3111,7 +3033,6 @@ pub const INTERFACES: [&Interface; 45] = [
     Resolve::INTERFACE,
     Sample::INTERFACE,
     SampleLines::INTERFACE,
-    SampleMasks::INTERFACE,
     Scatter::INTERFACE,
     Schedule::INTERFACE,
     Setup::INTERFACE,
@@ -3168,7 +3089,6 @@ pub struct Counters {
     pub owners: u32,
     pub layers: u32,
     pub most_cells: u32,
-    pub subgroups: u32,
 }
 
 /// Their places among the words.
@@ -3213,7 +3133,6 @@ pub enum Counter {
     Owners,
     Layers,
     MostCells,
-    Subgroups,
 }
 
 /// Indices of indirect dispatches.
@@ -3240,7 +3159,12 @@ pub enum Argument {
     Scatter = 17,
     ScatterEvery = 18,
     Layers = 19,
-    Shade = 20,
+    Records = 20,
+    ResolvePlain = 21,
+    ResolveMasked = 22,
+    ResolveBlended = 23,
+    ResolveUnlisted = 24,
+    Shade = 25,
 }
 
 impl Argument {
@@ -3266,6 +3190,11 @@ impl Argument {
         "scatter",
         "scatter every",
         "layers",
+        "records",
+        "resolve plain",
+        "resolve masked",
+        "resolve blended",
+        "resolve unlisted",
         "shade",
     ];
 }
@@ -3277,7 +3206,7 @@ pub const AFTER_RECORDS: u32 = 3;
 pub const AFTER_SPANS: u32 = 4;
 pub const AFTER_THIN: u32 = 5;
 pub const AFTER_GROUPS: u32 = 6;
-pub const AFTER_PROBE: u32 = 7;
+pub const AFTER_LINES: u32 = 7;
 pub const AFTER_PAIRS: u32 = 8;
 pub const AFTER_SCATTER: u32 = 9;
 pub const DETECT_CONTRAST: u32 = 0;
@@ -3304,10 +3233,6 @@ pub const TILE_LIST_MASKED: u32 = 1;
 pub const TILE_LIST_BLENDED: u32 = 2;
 pub const TILE_LIST_UNLISTED: u32 = 3;
 pub const TILE_LISTS: u32 = 4;
-pub const RUN_WHOLE: u32 = 0;
-pub const RUN_PROBE: u32 = 1;
-pub const RUN_REST: u32 = 2;
-pub const PROBE_SAMPLES: u32 = 64;
 pub const TOPOLOGY_LIST: u32 = 0;
 pub const TOPOLOGY_STRIP: u32 = 1;
 pub const TOPOLOGY_FAN: u32 = 2;

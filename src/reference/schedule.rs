@@ -53,8 +53,8 @@ pub struct Rounds {
     pub layers: u32,
     /// Number of triangles of the scene.
     pub triangles: u32,
-    /// Number of invocations of a subgroup; an entry has as many cells.
-    pub lanes: u32,
+    /// Number of members of a team; an entry has as many cells.
+    pub team: u32,
     /// Largest number of candidates of a tile with a list.
     pub longest_list: u32,
     /// Largest number of candidates of a tile with a list, if the tile has BLEND triangles.
@@ -145,7 +145,7 @@ impl Rounds {
         let owners = all_samples.div_ceil(4) * if layered { layers / 2 } else { 1 };
         match (unlisted, cells) {
             (_, 0) => [0; 4],
-            (true, _) => [owners, records, headers, cells.div_ceil(self.lanes.into())],
+            (true, _) => [owners, records, headers, cells.div_ceil(self.team.into())],
             (false, _) => [candidates, records, headers, 0],
         }
     }

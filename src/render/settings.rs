@@ -1,8 +1,7 @@
 //! Settings of rendering scenes.
 
 use super::{
-    CellOptions, Coverage, Footprint, Method, PixelRect, Reference, RenderError, Shading,
-    SuperpixelOptions,
+    CellOptions, Footprint, Method, PixelRect, Reference, RenderError, Shading, SuperpixelOptions,
 };
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{ImageRequest, SamplerSettings};
@@ -103,7 +102,6 @@ impl SceneSettings {
             Shadows::None => cells,
             Shadows::Exact => CellOptions {
                 shading: Shading::Sample,
-                coverage: Coverage::Samples,
                 ..cells
             },
         }

@@ -3,7 +3,7 @@
 use crate::camera::panorama::PanoramaProjection;
 use crate::camera::zoom::{Shape, Transition};
 use crate::output::VideoFormat;
-use crate::render::{Coverage, Detection, Footprint, MethodKind, Shading, Shadows};
+use crate::render::{Detection, Footprint, MethodKind, Shading, Shadows};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use serde::{Serialize, Serializer};
@@ -39,10 +39,6 @@ names! {
         Contrast "contrast" "Pixels that contrast with a neighbour",
         Edges "edges" "Pixels that contrast with a neighbour that shows another triangle",
         Exact "exact" "Pixels with a neighbour that shows another triangle, whatever the colours",
-    }
-    Coverage {
-        Area "area" "The exact area of triangles that nothing occludes; the number of samples for others",
-        Samples "samples" "The number of samples for all triangles",
     }
     Footprint {
         Sample "sample" "The part of the pixel that one shading stands for",

@@ -32,10 +32,6 @@ impl Content for Unread {
         true
     }
 
-    fn is_mostly_high_frequency(&self) -> bool {
-        true
-    }
-
     fn is_tinted(&self) -> bool {
         false
     }

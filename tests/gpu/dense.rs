@@ -1,6 +1,6 @@
 //! Tiles with more triangles, or more layers, than a list of candidates may have.
 
-use gpc::render::{Coverage, Headless, Rendered, Shading};
+use gpc::render::{Headless, Rendered, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
@@ -138,8 +138,7 @@ fn layers_may_be_any_number() {
             }
         }
         for samples in [1, 16] {
-            let settings = everywhere(SMALL, Pattern::Sobol, samples)
-                .map_superpixels(|options| options.coverage(Coverage::Samples));
+            let settings = everywhere(SMALL, Pattern::Sobol, samples);
             let image = stage.render(gpu, &settings);
             for (pixel, color) in image.colors.iter().enumerate() {
                 let apart = (0..4).map(|i| (f64::from(color[i]) - expected[i]).abs());

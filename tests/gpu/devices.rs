@@ -1,14 +1,14 @@
-//! One device that simulates others: larger and smaller subgroups, and the limits that Vulkan guarantees.
+//! One device that simulates others: several teams in a subgroup, and the limits that Vulkan guarantees.
 
 use ash::vk;
 use gpc::render::{
-    CellOptions, Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError,
-    Rendered, SceneRequest, Settings, Shading,
+    EngineError, Headless, HeadlessOptions, RenderError, SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
-use gpc::vulkan::{Limits, VulkanError};
+use gpc::vulkan::{Limits, Teams, VulkanError};
 
+use crate::detect::mosaic;
 use crate::scenes::{ball_over_checker, layered};
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
@@ -26,59 +26,68 @@ pub fn few_texel_elements(limits: &mut Limits) {
     limits.max_texel_elements = limits.max_texel_elements.min(1 << 16);
 }
 
-/// Number of lanes that kernels use on this device.
-fn lanes() -> u32 {
-    let mut lanes = 0;
-    on_gpu(|gpu| lanes = gpu.gpu().limits().lanes);
-    lanes
+/// The same number of invocations as `teams` has, in teams of 4. So subgroups of 8 or more have several teams, which take
+/// different branches.
+fn in_teams_of_four(teams: &mut Teams) {
+    teams.in_workgroup *= teams.members / 4;
+    teams.members = 4;
 }
 
-/// Largest difference of colours, and the root mean squared difference.
-fn differences(found: &Rendered, expected: &Rendered) -> (f32, f64) {
-    assert_eq!(found.colors.len(), expected.colors.len());
-    let pairs = found.colors.iter().zip(&expected.colors);
-    let differences = pairs.flat_map(|(a, b)| [0, 1, 2, 3].map(|i| (a[i] - b[i]).abs()));
-    let (mut largest, mut squares, mut count) = (0.0, 0.0, 0.0);
-    for difference in differences {
-        largest = f32::max(largest, difference);
-        squares += f64::from(difference).powi(2);
-        count += 1.0;
-    }
-    (largest, (squares / count).sqrt())
-}
-
-/// Half of each subgroup is idle, as on devices whose subgroups are larger than kernels use. With 4 invocations, cells
-/// that see more than 4 surfaces use samples instead of areas.
+/// Every image has the same bytes with teams of 4 as with teams of 8, whether each subgroup samples the cells of a tile or several
+/// single cells.
 #[test]
-fn larger_subgroups_make_the_same_image() {
-    if lanes() == 4 {
-        return;
-    }
-    let stage = layered();
-    let test = |gpu: &mut Headless, half: &mut Headless| {
-        for (samples, shading, coverage) in [
-            (8, Shading::Triangle, Coverage::Samples),
-            (64, Shading::Triangle, Coverage::Area),
-            (256, Shading::Triangle, Coverage::Area),
-            (16, Shading::Sample, Coverage::Samples),
-        ] {
-            let settings = everywhere([64, 48], Pattern::Sobol, samples)
-                .map_superpixels(|options| options.shading(shading).coverage(coverage));
-            let expected = stage.render(gpu, &settings);
-            let found = stage.render(half, &settings);
-            let (largest, mean) = differences(&found, &expected);
-            let what = format!("{samples} samples, {shading:?}, {coverage:?}");
-            if coverage == Coverage::Area && half.gpu().limits().lanes < 8 {
-                assert!(mean < 1e-3, "{what}: colours differ by {mean}");
-            } else {
-                assert!(largest < 1e-5, "{what}: colours differ by {largest}");
-            }
-        }
+fn several_teams_in_a_subgroup_make_the_same_image() {
+    const SIZE: [u32; 2] = [64, 48];
+    let settings = |pattern: &Pattern, samples, shading| {
+        everywhere(SIZE, pattern.clone(), samples)
+            .map_superpixels(|options| options.shading(shading))
     };
-    on_gpu(|gpu| within(|limits| limits.lanes /= 2, |half| test(gpu, half)));
+    let mut cases = Vec::new();
+    for samples in [4, 16, 64, 256, 1024] {
+        cases.push(settings(&Pattern::Lines, samples, Shading::Part));
+    }
+    for samples in [2, 8, 64, 256] {
+        cases.push(settings(&Pattern::Sobol, samples, Shading::Part));
+        cases.push(settings(&Pattern::Sobol, samples, Shading::Triangle));
+    }
+    cases.push(settings(&Pattern::Lines, 64, Shading::Triangle));
+    cases.push(settings(&Pattern::Sobol, 16, Shading::Sample));
+    let stages = [ball_over_checker(), layered(), mosaic(5, SIZE)];
+    let mut images = Vec::new();
+    on_gpu(|gpu| {
+        for stage in &stages {
+            images.extend(
+                cases
+                    .iter()
+                    .map(|settings| stage.render(gpu, settings).colors),
+            );
+        }
+    });
+    for device_type in [
+        vk::PhysicalDeviceType::CPU,
+        vk::PhysicalDeviceType::DISCRETE_GPU,
+    ] {
+        let lower = |limits: &mut Limits| {
+            limits.device_type = device_type;
+            in_teams_of_four(&mut limits.teams);
+        };
+        within(lower, |gpu| {
+            let mut expected = images.iter();
+            for (number, stage) in stages.iter().enumerate() {
+                for settings in &cases {
+                    let found = stage.render(gpu, settings);
+                    assert!(
+                        Some(&found.colors) == expected.next(),
+                        "{device_type:?}, stage {number}, {:?}",
+                        settings.method
+                    );
+                }
+            }
+        });
+    }
 }
 
-/// On a GPU a subgroup samples a single cell. The image is that of subgroups that sample the cells of a tile.
+/// On a GPU a team samples a single cell. The image is that of teams that sample the cells of a tile.
 #[test]
 fn single_cells_make_the_same_image() {
     let test = |several: &mut Headless, single: &mut Headless| {
@@ -125,47 +134,6 @@ fn long_work_is_submitted_in_parts() {
     };
     let lower = |limits: &mut Limits| limits.max_submitted_samples = 1 << 21;
     on_gpu(|gpu| within(lower, |bounded| test(gpu, bounded)));
-}
-
-/// Kernels that run in smaller subgroups than they were made for report it, and no image is returned.
-#[test]
-fn other_subgroups_are_an_error() {
-    let stage = ball_over_checker();
-    let lowered: [fn(&mut Limits); 2] = [
-        // This limit affects all kernels except those that list spans.
-        |limits| limits.lanes *= 2,
-        // This limit affects the kernels that list spans.
-        |limits| limits.subgroup_size *= 2,
-    ];
-    let methods = [MethodKind::Superpixel, MethodKind::None];
-    // Kernels use at most 32 invocations of a subgroup. For more, their arrays would have no elements.
-    let widest = lanes() == 32;
-    for (lower, method) in lowered.into_iter().zip(methods).skip(usize::from(widest)) {
-        within(
-            |limits| {
-                limits.can_require_subgroup_size = false;
-                lower(limits);
-            },
-            |gpu| {
-                let settings =
-                    Settings::new(64, 48).method(method.with_samples(CellOptions::DEFAULT_SAMPLES));
-                let (scene, pose) = stage.build();
-                let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
-                let mut frame = gpu.prepare(&prepared, &settings).unwrap();
-                let failed = gpu.render(&mut frame, &camera());
-                assert!(
-                    matches!(
-                        failed,
-                        Err(RenderError::Engine(EngineError::Vulkan(
-                            VulkanError::Subgroups { .. }
-                        )))
-                    ),
-                    "{:?}",
-                    failed.map(|rendered| rendered.statistics)
-                );
-            },
-        );
-    }
 }
 
 /// Limits that Vulkan guarantees on every device.

@@ -28,12 +28,12 @@ struct Found {
 }
 
 fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found, CellSizes) {
-    let lanes = gpu.gpu().limits().lanes;
-    let cell_sizes = CellSizes::new(lanes, cells, SAMPLES);
+    let team = gpu.gpu().limits().teams.members;
+    let cell_sizes = CellSizes::new(team, cells, SAMPLES);
     let tiles = TILES[0] * TILES[1];
     let sizes = ResourceSizes {
         region: [8 * TILES[0], 4 * TILES[1]],
-        lanes,
+        team,
         locations: Some(LocationSizes::new(list.len() as u32, tiles, &cell_sizes)),
         survivor_capacity: 1,
         filtered_triangles: 0,

@@ -2,7 +2,7 @@
 
 use gpc::reference::detect::{DetectionImage, Mode, superpixels};
 use gpc::reference::grow::grown;
-use gpc::render::{Coverage, Detection, Rendered, Settings, SuperpixelOptions};
+use gpc::render::{Detection, Rendered, Settings, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
@@ -92,9 +92,6 @@ fn growths_of_locations_do_not_depend_on_memory() {
                     // On lines, rounding may move a few of 1,024 samples: docs/limits.md.
                     .pattern(Pattern::Sobol)
                     .contrast(Some(CONTRAST))
-                    // The number of locations of a tile that are sampled together affects which triangles have exact
-                    // areas.
-                    .coverage(Coverage::Samples)
                     .thin(false),
             );
             gpu.render_locations(&prepared, &rig, &settings)

@@ -1,6 +1,5 @@
 //! The renderer on a device under the validation layer, compared with the exact twins of `gpc::reference`.
 
-mod area;
 mod bare;
 mod blend;
 mod coverage;

@@ -131,7 +131,7 @@ impl<'a> Passes<'a> {
     fn new(gpu: &'a Headless, case: &Case) -> Self {
         let sizes = ResourceSizes {
             region: [8 * case.size[0], 4 * case.size[1]],
-            lanes: gpu.gpu().limits().lanes,
+            team: gpu.gpu().limits().teams.members,
             locations: None,
             survivor_capacity: 1,
             filtered_triangles: 0,
@@ -149,8 +149,6 @@ impl<'a> Passes<'a> {
             samples: case.samples,
             lines: false,
             records: case.records_are,
-            exact_areas: false,
-            can_settle: false,
             one_cell: false,
             long_lists: LongLists::Scattered,
             samples_unlisted: case.unlisted,
@@ -159,7 +157,7 @@ impl<'a> Passes<'a> {
             always_blends: false,
         };
         let limits = gpu.gpu().limits();
-        let blocks = SampleBlocks::new(limits.lanes, options);
+        let blocks = SampleBlocks::new(limits.teams.members, options);
         let load = Load::new(limits, blocks, LAYERS);
         let passes = load_passes(&bare.layout, options.cells, &load).unwrap();
         let uniform = FrameUniform {
@@ -181,7 +179,7 @@ impl<'a> Passes<'a> {
             parts: blocks.parts(),
             layers: LAYERS,
             triangles: case.triangles,
-            lanes: sizes.lanes,
+            team: sizes.team,
             longest_list: 2_500,
             longest_layered: 160,
             blends: case.blends,
@@ -275,7 +273,7 @@ fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
 }
 
 /// Entries of each list, in order.
-fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
+fn entries(round: &Round, tiles: &[Tile], team: u32) -> [Vec<u32>; 4] {
     [
         ScheduledList::Plain,
         ScheduledList::Masked,
@@ -287,7 +285,7 @@ fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
         let parts = |placed: &Placed| {
             let cells = tiles[placed.tile].cells;
             let item = (placed.tile as u32) << 3;
-            (0..cells.div_ceil(lanes)).map(move |part| item | part)
+            (0..cells.div_ceil(team)).map(move |part| item | part)
         };
         placed.flat_map(parts).collect()
     })
@@ -309,7 +307,7 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
         expected.len()
     );
     let found = passes.run(&content, expected.len() + IDLE);
-    let lanes = passes.gpu.gpu().limits().lanes;
+    let team = passes.gpu.gpu().limits().teams.members;
     let mut tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
     let (mut busy_rounds, mut candidates, mut unlisted) = (0, 0, 0);
     for (number, found) in found.iter().enumerate() {
@@ -340,8 +338,8 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
             let differs = (0..tiles.len()).find(|&tile| tiles[tile] != found.tiles[tile]);
             differs.map(|tile| (tile, tiles[tile], found.tiles[tile]))
         });
-        let first_of_list = content.len() * (32 / lanes) as usize;
-        for (list, entries) in entries(&round, &twins, lanes).iter().enumerate() {
+        let first_of_list = content.len() * (32 / team) as usize;
+        for (list, entries) in entries(&round, &twins, team).iter().enumerate() {
             let length = found.counters[Counter::PlainTiles as usize + list] as usize;
             let entered = &found.work[list * first_of_list..][..length];
             assert_eq!(entered, entries, "{what}, list {list}");

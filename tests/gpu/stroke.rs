@@ -5,8 +5,7 @@ use gpc::camera::{Camera, Projection};
 use gpc::reference::edge::triangle_area;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{
-    Coverage, Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest,
-    Settings,
+    Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
@@ -78,10 +77,8 @@ fn difference(image: &Rendered, polygons: &[Vec<[f64; 2]>]) -> (f64, f64) {
     ((squares / image.colors.len() as f64).sqrt(), largest)
 }
 
-fn by_area(line_width: f32) -> Settings {
-    everywhere(SIZE, Pattern::Sobol, 256)
-        .line_width(line_width)
-        .map_superpixels(|options| options.coverage(Coverage::Area))
+fn by_lines(line_width: f32) -> Settings {
+    everywhere(SIZE, Pattern::Lines, 256).line_width(line_width)
 }
 
 /// Segments at irregular angles: in one plane, towards the horizon, and from behind the eye.
@@ -103,7 +100,7 @@ fn a_line_covers_its_area() {
     on_gpu(|gpu| {
         for width in [0.3, 1.0, 5.0] {
             for ends in segments() {
-                let image = rendered(gpu, &drawn(LINES, &ends), &by_area(width), &camera());
+                let image = rendered(gpu, &drawn(LINES, &ends), &by_lines(width), &camera());
                 let clips = ends.map(|end| clip(&camera(), end));
                 let line = segment(None, clips, None, width.into());
                 let (mean, largest) = difference(&image, &[line]);
@@ -124,10 +121,10 @@ fn no_pixel_of_a_thin_line_is_missed() {
     on_gpu(|gpu| {
         for width in [0.3, 1.0] {
             for ends in segments() {
-                let settings = by_area(width)
+                let settings = by_lines(width)
                     .map_superpixels(|options| options.detection(Detection::Contrast));
                 let found = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
-                let all = rendered(gpu, &drawn(LINES, &ends), &by_area(width), &camera());
+                let all = rendered(gpu, &drawn(LINES, &ends), &by_lines(width), &camera());
                 let unlike = found.colors.iter().zip(&all.colors);
                 let unlike = unlike.filter(|(a, b)| (a[3] - b[3]).abs() > 0.05).count();
                 assert!(unlike == 0, "{unlike} pixels of {ends:?}, width {width}");
@@ -146,7 +143,7 @@ fn brute_force_and_multisampling_draw_lines_as_wide() {
             (MethodKind::Msaa, 4, 0.1),
             (MethodKind::None, 1, 0.2),
         ] {
-            let settings = by_area(3.0)
+            let settings = by_lines(3.0)
                 .line_width(3.0)
                 .method(method.with_samples(samples));
             let image = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
@@ -194,7 +191,7 @@ fn strips_and_loops_are_joined() {
                     polygons.extend(at(s + 2).map(|after| joint(from, to, after, width)));
                 }
             }
-            let settings = by_area(width as f32);
+            let settings = by_lines(width as f32);
             let image = rendered(gpu, &drawn(mode, &positions), &settings, &camera());
             for (pixel, color) in image.colors.iter().enumerate() {
                 // Where a line folds back on itself, its polygons overlap.
@@ -222,7 +219,7 @@ fn points_are_discs() {
         let mut points = places.map(|at| seen_at(at, 2.0, SIZE[1])).to_vec();
         points.push([0.0, 0.0, 3.0]);
         for size in [0.5, 1.0, 3.0, 9.0] {
-            let settings = by_area(1.0).point_size(size);
+            let settings = by_lines(1.0).point_size(size);
             let image = rendered(gpu, &drawn(POINTS, &points), &settings, &camera());
             let clips = points.iter().map(|p| clip(&camera(), *p));
             let discs: Vec<_> = clips.map(|p| disc(p, size.into())).collect();
@@ -244,7 +241,7 @@ fn a_parallel_projection_has_lines_as_wide() {
             ..camera()
         };
         let ends = [[-2.0, -1.3, -1.0], [1.7, 1.1, -6.0]];
-        let image = rendered(gpu, &drawn(LINES, &ends), &by_area(1.0), &camera);
+        let image = rendered(gpu, &drawn(LINES, &ends), &by_lines(1.0), &camera);
         let line = segment(None, ends.map(|end| clip(&camera, end)), None, 1.0);
         let (mean, largest) = difference(&image, &[line]);
         assert!(mean < 2e-3 && largest < 0.06, "{mean}, {largest}");
@@ -262,7 +259,7 @@ fn lines_without_length_show_nothing() {
             [[1.0, 0.0, 1.0], [-1.0, 0.0, 2.0]],
         ];
         for ends in nothing {
-            let image = rendered(gpu, &drawn(LINES, &ends), &by_area(5.0), &camera());
+            let image = rendered(gpu, &drawn(LINES, &ends), &by_lines(5.0), &camera());
             let seen: f32 = image.colors.iter().map(|c| c[3]).sum();
             assert!(seen < 1e-3, "{ends:?}: {seen}");
         }
@@ -275,7 +272,7 @@ fn a_region_is_that_part_of_the_whole() {
         let ends: Vec<_> = segments().into_iter().flatten().collect();
         let loaded = drawn(LINES, &ends);
         let settings =
-            by_area(1.5).map_superpixels(|options| options.detection(Detection::Contrast));
+            by_lines(1.5).map_superpixels(|options| options.detection(Detection::Contrast));
         let whole = rendered(gpu, &loaded, &settings, &camera());
         assert_eq!(
             whole.colors,
@@ -362,7 +359,7 @@ fn lines_move_with_their_nodes() {
         let prepared = gpu
             .upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion))
             .unwrap();
-        let mut frame = gpu.prepare(&prepared, &by_area(1.0)).unwrap();
+        let mut frame = gpu.prepare(&prepared, &by_lines(1.0)).unwrap();
         let first = gpu.render(&mut frame, &camera()).unwrap().colors;
         let moment = motion.at(&loaded.scene, 1.0).unwrap().unwrap();
         frame.show(moment.into()).unwrap();
@@ -371,7 +368,7 @@ fn lines_move_with_their_nodes() {
         let prepared = gpu
             .upload(SceneRequest::new(&loaded.scene, &posed))
             .unwrap();
-        let mut frame = gpu.prepare(&prepared, &by_area(1.0)).unwrap();
+        let mut frame = gpu.prepare(&prepared, &by_lines(1.0)).unwrap();
         let expected = gpu.render(&mut frame, &camera()).unwrap().colors;
         let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
             let pairs = a.as_flattened().iter().zip(b.as_flattened());
@@ -391,7 +388,7 @@ fn locations_see_lines_as_wide() {
         let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
         let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
         for width in [0.5, 2.0] {
-            let settings = by_area(width);
+            let settings = by_lines(width);
             let image = rendered(gpu, &loaded, &settings, &camera());
             let seen = gpu
                 .sample_superpixels(
@@ -416,7 +413,7 @@ fn impossible_sizes_are_refused() {
         let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
         let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
         for line_width in [0.0, -1.0, f32::NAN, 1e4] {
-            let refused = gpu.prepare(&prepared, &by_area(line_width));
+            let refused = gpu.prepare(&prepared, &by_lines(line_width));
             assert!(
                 matches!(refused, Err(RenderError::Stroke(_))),
                 "{line_width}"

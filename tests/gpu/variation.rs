@@ -5,7 +5,7 @@ use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
 use gpc::color::srgb::encode;
 use gpc::reference::variation::{Neighbourhood, ShadedParts, parts};
-use gpc::render::{Coverage, Detection, Rendered, Shading, SuperpixelOptions};
+use gpc::render::{Detection, Rendered, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -109,7 +109,6 @@ fn places_are_as_many_as_the_twin_says() {
                     once(size).method(
                         SuperpixelOptions::new(samples)
                             .detection(Detection::Every)
-                            .coverage(Coverage::Samples)
                             // The twin is made for points; on lines, parts with little of a triangle share a
                             // visibility sample.
                             .pattern(Pattern::Sobol)

@@ -7,8 +7,8 @@ use gpc::bench::{
 };
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
-    Coverage, Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene,
-    SceneRequest, Settings, Shading,
+    Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, SceneRequest,
+    Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
@@ -185,7 +185,6 @@ fn a_grid_of_shaded_samples_is_brute_force() {
             .map_superpixels(|options| {
                 options
                     .detection(Detection::Every)
-                    .coverage(Coverage::Samples)
                     .shading(Shading::Sample)
                     .pattern(Pattern::Grid)
             });

@@ -17,9 +17,6 @@ pub trait Content: Sync {
     /// Whether any triangle may need several shadings in a pixel.
     fn has_high_frequency(&self) -> bool;
 
-    /// Whether most triangles may need several shadings in a pixel.
-    fn is_mostly_high_frequency(&self) -> bool;
-
     /// Whether the transmittance of any triangle differs from 1 - opacity.
     fn is_tinted(&self) -> bool;
 

@@ -8,8 +8,6 @@ impl Counter {
     pub const COUNT: usize = size_of::<crate::engine::spirv::Counters>() / 4;
     /// Number of bytes of the buffer of counters.
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
-    /// Number of bytes of the counters that are cleared before each run.
-    pub(crate) const CLEARED_BYTES: u64 = 4 * Self::Subgroups as u64;
 
     /// Value of this counter in `counters`; 0 if the slice is too short.
     pub(crate) fn of(self, counters: &[u32]) -> u32 {

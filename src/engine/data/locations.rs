@@ -46,7 +46,7 @@ pub struct LocationSizes {
     pub cells: u32,
     /// Number of places in the order of locations: each cell has places for its largest number of locations.
     pub places: u32,
-    /// Number of groups of cells; a subgroup samples one.
+    /// Number of groups of cells; a team samples one.
     pub groups: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
@@ -101,19 +101,19 @@ pub struct CellSizes {
 
 impl CellSizes {
     /// Smallest value of [`Self::in_cell`] for locations that are sampled once each; rounded up to a multiple of the
-    /// subgroup size.
+    /// number of members of a team.
     const POINTS_IN_CELL: u32 = 16;
 
-    /// Sizes for a device whose kernels use `lanes` invocations of a subgroup.
+    /// Sizes for teams of `members` invocations.
     #[must_use]
-    pub fn new(lanes: u32, cells: Cells, samples: u32) -> Self {
+    pub fn new(members: u32, cells: Cells, samples: u32) -> Self {
         let in_cell = match cells {
-            Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(lanes),
+            Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(members),
             Cells::Superpixels | Cells::Pixels => 1,
         };
         Self {
             in_cell,
-            in_group: lanes,
+            in_group: members,
             samples,
         }
     }

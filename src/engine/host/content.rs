@@ -170,10 +170,6 @@ impl Content for HostContent {
         true
     }
 
-    fn is_mostly_high_frequency(&self) -> bool {
-        false
-    }
-
     fn is_tinted(&self) -> bool {
         false
     }

@@ -14,9 +14,7 @@ use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{
-    PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun, with_probes,
-};
+use crate::engine::sampler::{PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{SamplerSettings, Statistics};
 use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
 use ash::vk;
@@ -128,7 +126,6 @@ impl Work {
         let memory = Memory::new(gpu.clone(), allowed(lending.bytes() + scratch.bytes()));
         let offsets = method.offsets()?;
         let count = offsets.len() as u32;
-        let offsets = with_probes(offsets)?;
         let resources = Resources::with_scratch(
             layout,
             &memory,
@@ -439,7 +436,7 @@ impl Frame {
     ///
     /// # Errors
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
-    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let work = &self.work;
         self.lending.outcome(

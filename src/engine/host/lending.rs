@@ -8,7 +8,7 @@ use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
 use super::{Geometry, HostError, Outcome, Shared};
 use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
-use crate::engine::sampler::{Capacity, EngineError, Sampler, Shortfall, Statistics};
+use crate::engine::sampler::{Capacity, Sampler, Shortfall, Statistics};
 use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -180,7 +180,7 @@ impl Lending {
     /// Result of the last recording of `sampler`, whose memory has `sizes`.
     ///
     /// # Errors
-    /// If the commands are not done, timestamps can't be read, or the driver ran kernels in subgroups of another size.
+    /// If the commands are not done, or timestamps can't be read.
     pub fn outcome(
         &self,
         (sampler, sizes): (&Sampler, &ResourceSizes),
@@ -197,9 +197,6 @@ impl Lending {
         for time in timings.read()? {
             statistics.add_time(time);
         }
-        shortfall
-            .check_subgroups(sizes.lanes)
-            .map_err(EngineError::from)?;
         Ok(Outcome {
             statistics,
             left_over: shortfall.left(),

@@ -353,7 +353,7 @@ impl List {
     /// # Errors
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
-    /// or timestamps can't be read, or the driver ran kernels in subgroups of another size.
+    /// or timestamps can't be read.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
         let Outcome {
             statistics,

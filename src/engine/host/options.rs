@@ -2,8 +2,8 @@
 
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{
-    CellOptions, Coverage, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings,
-    Shading, SuperpixelOptions,
+    CellOptions, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings, Shading,
+    SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -157,7 +157,6 @@ impl ListOptions {
         CellOptions {
             samples: self.samples,
             pattern: self.pattern.clone(),
-            coverage: Coverage::Area,
             shading: self.shading,
         }
     }

@@ -15,7 +15,7 @@ pub(crate) enum CountedBy {
     Spans = spirv::AFTER_SPANS,
     Thin = spirv::AFTER_THIN,
     Groups = spirv::AFTER_GROUPS,
-    Probe = spirv::AFTER_PROBE,
+    Lines = spirv::AFTER_LINES,
     Pairs = spirv::AFTER_PAIRS,
     Scatter = spirv::AFTER_SCATTER,
 }
@@ -32,23 +32,24 @@ pub(crate) fn dispatch(
     of_samples(layout, counted_by, [1; 3])
 }
 
-/// [`dispatch`] for the entries of lists. An entry takes `first` subgroups of [`sample`](super::sample) in the first run,
-/// `all` in a run with all samples, and `unlisted` for tiles without a list.
+/// [`dispatch`] for the entries of lists. An entry takes `first` teams of [`sample`](super::sample) in the first run, `left`
+/// for cells that this run left and for tiles with BLEND triangles, and `unlisted` for tiles without a list.
 ///
 /// # Errors
 /// As [`dispatch`].
 pub(crate) fn of_samples(
     layout: &FrameLayout,
     counted_by: CountedBy,
-    [first, all, unlisted]: [u32; 3],
+    [first, left, unlisted]: [u32; 3],
 ) -> Result<Dispatch, VulkanError> {
     let pushed = spirv::ArgumentsPush {
         after: counted_by as u32,
-        subgroups_first: first,
-        subgroups: all,
-        subgroups_unlisted: unlisted,
+        teams_first: first,
+        teams: left,
+        teams_unlisted: unlisted,
     };
-    Ok(layout
-        .kernel(&spirv::Arguments)?
-        .dispatch(pushed, Size::One))
+    let shader = spirv::Arguments {
+        teams: layout.gpu.limits().teams.in_workgroup,
+    };
+    Ok(layout.kernel(&shader)?.dispatch(pushed, Size::One))
 }

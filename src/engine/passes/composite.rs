@@ -11,11 +11,11 @@ use crate::vulkan::{Specialized, VulkanError};
 /// # Errors
 /// If the driver refuses the pipeline.
 pub(crate) fn pass(layout: &FrameLayout, output: &ColorConstants) -> Result<Pass, VulkanError> {
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     let composite = layout.kernel(&spirv::Composite {
-        local_size: lanes,
-        lanes,
-        unsure: layout.is_unsure(lanes),
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         tinted: output.tinted,
         tonemap: output.tonemap,
     })?;

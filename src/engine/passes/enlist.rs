@@ -15,12 +15,12 @@ pub(crate) fn pass(
     cells: Cells,
     load: spirv::EnlistPush,
 ) -> Result<Pass, VulkanError> {
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     let enlist = layout.kernel(&spirv::Enlist {
-        local_size: lanes,
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         locations: cells.are_locations(),
-        unsure: layout.is_unsure(lanes),
     })?;
     Ok(Pass::named(spirv::Enlist::INTERFACE).dispatch(enlist.dispatch(load, Argument::Enlist)))
 }

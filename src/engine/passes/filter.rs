@@ -46,15 +46,16 @@ pub(super) fn placed(
 }
 
 impl Filter {
-    /// Makes the pipeline. The device runs subgroups of the size that it was asked for.
+    /// Makes the pipeline.
     ///
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().lanes;
+        let teams = layout.gpu.limits().teams;
         let kernel = layout.kernel(&spirv::Filter {
-            local_size: lanes,
-            lanes,
+            local_size: teams.workgroup(),
+            team: teams.members,
+            teams: teams.in_workgroup,
             instanced: scene.is_instanced(),
         })?;
         Ok(Self { kernel })
@@ -78,7 +79,7 @@ impl Filter {
                         first_draw: draws.first,
                         snap: recorder.limits().snap,
                     };
-                    self.kernel.record_groups(recorder, &push, draws.count);
+                    self.kernel.record_teams(recorder, &push, draws.count);
                 }
             });
         });

@@ -15,12 +15,12 @@ use crate::vulkan::{Specialized, VulkanError};
 pub(crate) fn pass(layout: &FrameLayout, blocks: &SampleBlocks) -> Result<Pass, VulkanError> {
     let cells = blocks.options.cells;
     let groups = layout.kernel(&spirv::Groups {
-        lanes: layout.gpu.limits().lanes,
+        team: layout.gpu.limits().teams.members,
         locations: cells.are_locations(),
         points: cells.are_points(),
         occluders: cells.are_occluders(),
     })?;
-    let sizes = arguments::of_samples(layout, CountedBy::Groups, blocks.subgroups)?;
+    let sizes = arguments::of_samples(layout, CountedBy::Groups, blocks.teams)?;
     Ok(Pass::named(spirv::Groups::INTERFACE)
         .dispatch(groups.dispatch((), Argument::Groups))
         .dispatch(sizes))

@@ -34,7 +34,6 @@ mod raster;
 pub(crate) mod resolve;
 pub(crate) mod sample;
 mod sample_lines;
-mod sample_masks;
 mod scatter;
 pub(crate) mod schedule;
 pub(crate) mod setup;

@@ -39,7 +39,7 @@ pub(crate) fn pass(
     for list in blocks.lists() {
         let shader = spirv::Resolve {
             layered: options.has_blend && matches!(list, TileList::Blended | TileList::Unlisted),
-            probed: options.has_one_header() && matches!(list, TileList::Plain | TileList::Masked),
+            by_lines: options.by_lines() && matches!(list, TileList::Plain | TileList::Masked),
             locations: cells.are_locations(),
             encoded: behind.is_some_and(|image| image.encoded()),
             ..of_list(layout, list, blocks.block, target, output)
@@ -49,7 +49,7 @@ pub(crate) fn pass(
             None => spirv::RESOLVE,
         };
         let resolve = layout.kernel_variant(code, &shader)?;
-        let dispatch = resolve.dispatch((), list);
+        let dispatch = resolve.dispatch((), list.entries());
         pass = pass.dispatch(match behind {
             Some(image) => dispatch.with(&image.sets),
             None => dispatch,
@@ -70,7 +70,7 @@ pub(crate) fn for_multisample(
     let list = TileList::Plain;
     let shader = of_list(layout, list, samples, ResolveTarget::Nothing, output);
     let resolve = layout.kernel_variant(spirv::RESOLVE, &shader)?;
-    Ok(Pass::named(spirv::Resolve::INTERFACE).dispatch(resolve.dispatch((), list)))
+    Ok(Pass::named(spirv::Resolve::INTERFACE).dispatch(resolve.dispatch((), list.entries())))
 }
 
 /// Constants for the pixels of a list of tiles, whose blocks have `block` samples.
@@ -81,18 +81,18 @@ fn of_list(
     target: ResolveTarget,
     output: &ColorConstants,
 ) -> spirv::Resolve {
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     spirv::Resolve {
-        local_size: lanes,
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         block,
         layered: false,
         list: list as u32,
         display_codes: target == ResolveTarget::Detect,
-        probed: false,
+        by_lines: false,
         grows: target == ResolveTarget::Grow,
         locations: false,
-        unsure: layout.is_unsure(lanes),
         tonemap: output.tonemap,
         tonemap_codes: output.tonemap_codes,
         encoded: false,

@@ -1,7 +1,7 @@
 //! sample: finds the nearest triangle of every sample.
 
 use super::arguments::{self, CountedBy};
-use super::{sample_lines, sample_masks, scatter};
+use super::{sample_lines, scatter};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
 use crate::engine::spirv;
@@ -27,16 +27,19 @@ impl TileList {
         matches!(self, Self::Plain | Self::Masked)
     }
 
+    /// Size of a dispatch of `sample` over the list's entries.
+    fn cells(self) -> Size {
+        Size::Indirect(Argument::SamplePlain as u32 + self as u32)
+    }
+
     /// Size of a dispatch over the entries of the list that the first run left.
     fn left(self) -> Size {
         Size::Indirect(Argument::PlainLeft as u32 + self as u32)
     }
-}
 
-impl From<TileList> for Size {
-    /// Size of a dispatch over the list's entries.
-    fn from(list: TileList) -> Self {
-        Self::Indirect(Argument::SamplePlain as u32 + list as u32)
+    /// Size of a dispatch in which a team takes an entry of the list.
+    pub(super) fn entries(self) -> Size {
+        Size::Indirect(Argument::ResolvePlain as u32 + self as u32)
     }
 }
 
@@ -51,12 +54,8 @@ pub struct SampleOptions {
     pub lines: bool,
     /// Rate of visibility samples.
     pub records: RecordRate,
-    /// Whether triangles that nothing occludes get the exact area of their part of a cell.
-    pub exact_areas: bool,
-    /// Whether a few samples may suffice for a cell. If so, cells with many samples get a first run with few samples.
-    pub can_settle: bool,
-    /// Whether a subgroup samples a single cell, however short the lists of candidates are. A GPU runs thousands of
-    /// subgroups at once, and would wait for the fullest tile; on a CPU, the cells share the work of a tile.
+    /// Whether a team samples a single cell, however short the lists of candidates are. A GPU runs thousands of teams at
+    /// once, and would wait for the fullest tile; on a CPU, the cells share the work of a tile.
     pub one_cell: bool,
     /// How cells with long lists of candidates are sampled.
     pub long_lists: LongLists,
@@ -77,9 +76,9 @@ pub enum LongLists {
     /// Like other cells.
     #[default]
     SeveralCells,
-    /// A subgroup samples a block of a single cell.
+    /// A team samples a block of a single cell.
     OneCell,
-    /// A subgroup samples a block of a single cell, and tiles have no list if loops over it might exceed the
+    /// A team samples a block of a single cell, and tiles have no list if loops over it might exceed the
     /// number of iterations.
     Scattered,
 }
@@ -119,20 +118,12 @@ pub enum RecordRate {
     Sample,
 }
 
-/// Samples of a cell that a kernel processes, in the order of `RUN` in `shaders/sample.comp`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-enum Run {
-    Whole = spirv::RUN_WHOLE,
-    Probe = spirv::RUN_PROBE,
-    Rest = spirv::RUN_REST,
-}
-
-/// Samples of a cell that a kernel processes, for tiles of one list.
+/// Cells that a kernel processes: those of tiles of one list.
 #[derive(Clone, Copy)]
 struct ListRun {
     list: TileList,
-    run: Run,
+    /// Whether only cells that `sample_lines` left are processed.
+    left_cells: bool,
     /// Whether the list's tiles have MASK triangles.
     masked: bool,
 }
@@ -144,9 +135,8 @@ pub struct SampleBlocks {
     pub options: SampleOptions,
     /// Number of samples of a block, which has one header.
     pub block: u32,
-    /// Numbers of subgroups for an entry of a list: in the first run, in a run with all samples, and for tiles without a
-    /// list.
-    pub subgroups: [u32; 3],
+    /// Numbers of teams for an entry of a list: in the first run, for cells that this run left, and for tiles without a list.
+    pub teams: [u32; 3],
 }
 
 /// Variant of the general kernel.
@@ -199,45 +189,38 @@ impl Variant {
     }
 }
 
-/// Number of blocks of several cells that a subgroup processes, as in `shaders/sample.comp`.
+/// Number of blocks of several cells that a team processes, as in `shaders/sample.comp`.
 const BLOCKS_AT_ONCE: u32 = 4;
-
-/// Number of samples of the first of two runs; their offsets follow those of the cell.
-pub const PROBES: u32 = spirv::PROBE_SAMPLES;
 
 /// Preferred number of samples of a block. A block is larger only if invocations would be idle otherwise.
 const BLOCK: u32 = 64;
 
 impl SampleBlocks {
-    /// Blocks of kernels that use `lanes` invocations of a subgroup.
+    /// Blocks of kernels whose teams have `members` invocations.
     #[must_use]
-    pub fn new(lanes: u32, options: SampleOptions) -> Self {
-        let rows = options.samples.min(BLOCK).div_ceil(lanes);
-        let block = lanes * Variant::of(TileList::Plain, false, rows).rows;
+    pub fn new(members: u32, options: SampleOptions) -> Self {
+        let rows = options.samples.min(BLOCK).div_ceil(members);
+        let block = members * Variant::of(TileList::Plain, false, rows).rows;
         let one_cell = options.takes_one_cell();
         let blocks_of = |samples: u32| samples.div_ceil(block);
         let taking = |blocks: u32, one_cell: bool| {
             if one_cell {
-                lanes * blocks
+                members * blocks
             } else {
                 blocks.div_ceil(BLOCKS_AT_ONCE)
             }
         };
-        let first = if options.probes() {
-            taking(blocks_of(PROBES), one_cell)
-        } else if options.by_lines() {
-            taking(1, one_cell)
-        } else if options.by_masks() {
-            1
-        } else {
-            taking(blocks_of(options.samples), one_cell)
-        };
-        let [all, unlisted] =
+        let [left, unlisted] =
             [one_cell, true].map(|one_cell| taking(blocks_of(options.samples), one_cell));
+        let first = if options.by_lines() {
+            taking(1, one_cell)
+        } else {
+            left
+        };
         Self {
             options,
             block,
-            subgroups: [first, all, unlisted],
+            teams: [first, left, unlisted],
         }
     }
 
@@ -262,19 +245,22 @@ impl SampleBlocks {
         scene: &dyn Content,
         run: &ListRun,
     ) -> Result<Dispatch, VulkanError> {
-        let ListRun { list, run, masked } = *run;
+        let ListRun {
+            list,
+            left_cells,
+            masked,
+        } = *run;
         let (options, block) = (&self.options, self.block);
-        let lanes = layout.gpu.limits().lanes;
-        let is_rest = run == Run::Rest;
+        let teams = layout.gpu.limits().teams;
         let shader = spirv::Sample {
-            local_size: lanes,
-            lanes,
+            local_size: teams.workgroup(),
+            team: teams.members,
+            teams: teams.in_workgroup,
             per_sample: options.records == RecordRate::Sample,
             has_mask: masked,
             list: list as u32,
-            run: run as u32,
-            by_part: options.by_part(run, block),
-            exact_areas: options.measures(list, run),
+            left_cells,
+            by_part: options.by_part(block),
             part: options.part_samples(),
             apart: options.takes_one_cell() || list == TileList::Unlisted,
             long: options.long_lists.takes_one_cell(),
@@ -282,18 +268,18 @@ impl SampleBlocks {
             points: options.cells.are_points(),
             occluders: options.cells.are_occluders(),
             instanced: scene.is_instanced(),
-            unsure: layout.is_unsure(lanes),
         };
-        let size = if is_rest { list.left() } else { list.into() };
-        if list.is_opaque() && !is_rest && options.by_lines() {
-            let lines = options.lines_of_cell(lanes, masked);
+        let size = if left_cells {
+            list.left()
+        } else {
+            list.cells()
+        };
+        if list.is_opaque() && !left_cells && options.by_lines() {
+            let lines = options.lines_of_cell(masked);
             let kernel = sample_lines::kernel(layout, &shader, block, lines)?;
             Ok(kernel.dispatch((), size))
-        } else if list.is_opaque() && !is_rest && options.by_masks() {
-            let kernel = sample_masks::kernel(layout, &shader, options.samples)?;
-            Ok(kernel.dispatch((), size))
         } else {
-            let variant = Variant::of(list, options.has_blend, block / lanes);
+            let variant = Variant::of(list, options.has_blend, block / teams.members);
             let kernel = layout.kernel_variant(variant.code, &shader)?;
             Ok(kernel.dispatch((), size))
         }
@@ -301,7 +287,7 @@ impl SampleBlocks {
 }
 
 /// Samples the tiles of the round: with one kernel for each kind of tile that the scene can have, followed by those of a second
-/// run, over cells that the first run left. If a run [leaves cells](SampleOptions::leaves_cells), the marks must be cleared
+/// run, over cells that the first run left. If a run [leaves cells](SampleOptions::by_lines), the marks must be cleared
 /// before the first round.
 ///
 /// # Errors
@@ -335,7 +321,7 @@ pub(crate) fn pass(
         pass = pass.dispatch(kernel);
     }
     if !rest.is_empty() {
-        let sizes = arguments::of_samples(layout, CountedBy::Probe, blocks.subgroups)?;
+        let sizes = arguments::of_samples(layout, CountedBy::Lines, blocks.teams)?;
         pass = pass.dispatch(sizes);
     }
     for kernel in rest {
@@ -351,14 +337,18 @@ pub(crate) fn pass(
 }
 
 impl SampleOptions {
-    /// Whether a subgroup samples a single cell.
+    /// Whether a team samples a single cell.
     fn takes_one_cell(&self) -> bool {
         self.one_cell || self.long_lists.takes_one_cell()
     }
 
     /// Runs over tiles of opaque and alpha-tested triangles.
-    fn listed(&self, run: Run) -> impl Iterator<Item = ListRun> {
-        let run_of = |list, masked| ListRun { list, run, masked };
+    fn listed(&self, left_cells: bool) -> impl Iterator<Item = ListRun> {
+        let run_of = move |list, masked| ListRun {
+            list,
+            left_cells,
+            masked,
+        };
         let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
         let has_masked = self.has_mask && !self.always_blends;
         let masked = has_masked.then(|| run_of(TileList::Masked, true));
@@ -369,75 +359,42 @@ impl SampleOptions {
     fn first_runs(&self) -> Vec<ListRun> {
         let whole = |list| ListRun {
             list,
-            run: Run::Whole,
+            left_cells: false,
             masked: self.has_mask,
         };
-        self.listed(if self.probes() {
-            Run::Probe
-        } else {
-            Run::Whole
-        })
-        .chain(self.has_blend.then(|| whole(TileList::Blended)))
-        .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
-        .collect()
+        self.listed(false)
+            .chain(self.has_blend.then(|| whole(TileList::Blended)))
+            .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
+            .collect()
     }
 
     /// Second runs, over cells that the first runs left.
     fn rest(&self) -> impl Iterator<Item = ListRun> {
-        self.leaves_cells()
-            .then(|| self.listed(Run::Rest))
+        self.by_lines()
+            .then(|| self.listed(true))
             .into_iter()
             .flatten()
     }
 
-    /// Whether a run measures areas. This requires a run that processes all samples of a cell at once. Cells that the
-    /// kernels with masks leave have more triangles than areas can be stored for.
-    fn measures(&self, list: TileList, run: Run) -> bool {
-        let at_once = match run {
-            Run::Whole => self.samples <= PROBES,
-            Run::Rest => self.samples <= PROBES && !self.by_masks() && !self.by_lines(),
-            Run::Probe => true,
-        };
-        self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
+    /// Whether cells are shaded by parts, which makes no difference if a part is at least a block.
+    fn by_part(&self, block: u32) -> bool {
+        self.records == RecordRate::Part && self.part_samples() < block
     }
 
-    /// Whether a run shades by parts, which makes no difference if a part is at least a block. The first run leaves
-    /// cells that need shading by parts to the second run.
-    fn by_part(&self, run: Run, block: u32) -> bool {
-        self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
-    }
-
-    /// Whether special kernels, with masks or lines, process cells of opaque and alpha-tested triangles. They may leave
-    /// some cells.
-    pub(super) fn by_cell(&self) -> bool {
-        !self.cells.are_points() && !self.always_blends && self.records != RecordRate::Sample
-    }
-
-    /// Whether each cell has a single header, except cells that are left to a second run.
-    pub(super) fn has_one_header(&self) -> bool {
-        self.probes() || self.by_lines()
-    }
-
-    /// Whether a first run marks cells and leaves them to a second run.
-    #[must_use]
-    pub fn leaves_cells(&self) -> bool {
-        self.probes() || self.by_masks() || self.by_lines()
+    /// Whether `sample_lines` processes cells of opaque and alpha-tested triangles. It may leave some cells to a second run, which
+    /// it marks.
+    pub fn by_lines(&self) -> bool {
+        !self.cells.are_points()
+            && !self.always_blends
+            && self.records != RecordRate::Sample
+            && self.lines
+            && self.samples >= 4
     }
 
     /// Number of samples of a part: there are 16 parts for 16 samples, 32 for 64, 128 for 256 and 256 for 1,024.
     fn part_samples(&self) -> u32 {
         let few = if self.samples < 32 { 1 } else { 2 };
         (self.samples / 256).max(few).next_power_of_two()
-    }
-
-    /// Whether there is a first run with few samples.
-    #[must_use]
-    pub fn probes(&self) -> bool {
-        self.can_settle
-            && self.exact_areas
-            && self.records != RecordRate::Sample
-            && self.samples > PROBES
-            && !self.by_lines()
     }
 }
 
@@ -455,8 +412,6 @@ mod tests {
                 samples,
                 lines: true,
                 records: RecordRate::Part,
-                exact_areas: true,
-                can_settle: true,
                 one_cell: false,
                 long_lists: LongLists::SeveralCells,
                 samples_unlisted: false,

@@ -18,7 +18,8 @@ pub(super) fn kernel(
 ) -> Result<Kernel<spirv::SampleLines>, VulkanError> {
     let shader = spirv::SampleLines {
         local_size: shader.local_size,
-        lanes: shader.lanes,
+        team: shader.team,
+        teams: shader.teams,
         has_mask: shader.has_mask,
         list: shader.list,
         by_part: shader.by_part,
@@ -29,24 +30,16 @@ pub(super) fn kernel(
         locations: shader.locations,
         occluders: shader.occluders,
         instanced: shader.instanced,
-        unsure: shader.unsure,
     };
     layout.kernel(&shader)
 }
 
 impl SampleOptions {
-    /// Whether the special kernels have samples on lines.
-    pub(super) fn by_lines(&self) -> bool {
-        self.by_cell() && self.lines && self.samples >= 4
-    }
-
-    /// Number of lines of a cell, with 64 samples each, for subgroups of `lanes` invocations; an invocation processes
-    /// at least half a line. `masked` says whether the cell's tile has alpha-tested triangles: alpha is read `samples`
+    /// Number of lines of a cell, with 64 samples each. `masked` says whether the cell's tile has alpha-tested triangles: alpha is read `samples`
     /// times, and the reads are spread more evenly over 32 lines than over 64.
-    pub(super) fn lines_of_cell(&self, lanes: u32, masked: bool) -> u32 {
+    pub(super) fn lines_of_cell(&self, masked: bool) -> u32 {
         match self.samples {
-            ..=64 if lanes < 32 => 8,
-            ..=64 => 16,
+            ..=64 => 8,
             samples if samples <= 256 || masked => 32,
             _ => 64,
         }

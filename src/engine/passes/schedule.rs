@@ -16,13 +16,13 @@ pub(crate) fn pass(
     cells: Cells,
     load: spirv::SchedulePush,
 ) -> Result<Pass, VulkanError> {
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     let schedule = layout.kernel(&spirv::Schedule {
-        local_size: lanes,
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         locations: cells.are_locations(),
         points: cells.are_points(),
-        unsure: layout.is_unsure(lanes),
     })?;
     Ok(Pass::named(spirv::Schedule::INTERFACE)
         .dispatch(schedule.dispatch(load, Size::One))

@@ -22,12 +22,12 @@ pub(crate) fn pass(
     if one_bin {
         return Ok(pass);
     }
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     let sort = layout.kernel(&spirv::Sort {
-        local_size: lanes,
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         instanced: scene.is_instanced(),
-        unsure: layout.is_unsure(lanes),
     })?;
     Ok(pass
         .dispatch(sort.dispatch(spirv::SortPush { scatter: 0 }, Argument::Sort))

@@ -15,13 +15,13 @@ pub(crate) fn pass(
     cells: Cells,
     load: spirv::TallyPush,
 ) -> Result<Pass, VulkanError> {
-    let lanes = layout.gpu.limits().lanes;
+    let teams = layout.gpu.limits().teams;
     let tally = layout.kernel(&spirv::Tally {
-        local_size: lanes,
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         locations: cells.are_locations(),
         points: cells.are_points(),
-        unsure: layout.is_unsure(lanes),
     })?;
     Ok(Pass::named(spirv::Tally::INTERFACE).dispatch(tally.dispatch(load, Argument::Tally)))
 }

@@ -64,9 +64,10 @@ impl<S: Specialized> Kernel<S> {
         recorder.dispatch_each(&self.pipeline, invocations.into());
     }
 
-    /// Records a dispatch of `groups` workgroups whose push constants are known only now.
-    pub fn record_groups(&self, recorder: &Recorder<'_>, pushed: &S::Push, groups: u32) {
+    /// Records a dispatch of `teams` teams whose push constants are known only now.
+    pub fn record_teams(&self, recorder: &Recorder<'_>, pushed: &S::Push, teams: u32) {
         recorder.push(&self.pipeline, bytemuck::bytes_of(pushed));
+        let groups = teams.div_ceil(recorder.limits().teams.in_workgroup);
         recorder.dispatch(&self.pipeline, groups.into());
     }
 

@@ -96,12 +96,6 @@ impl FrameLayout {
         Ok(own)
     }
 
-    /// Whether kernels that use `lanes` invocations of a subgroup have to check the subgroup size: the constant
-    /// `UNSURE` of `shaders/include/lanes.glsl`.
-    pub(crate) fn is_unsure(&self, lanes: u32) -> bool {
-        !self.gpu.limits().has_subgroups_of(lanes)
-    }
-
     /// Kernel of a compute shader of the crate.
     ///
     /// # Errors
@@ -120,8 +114,9 @@ impl FrameLayout {
         shader: &S,
     ) -> Result<Kernel<S>, VulkanError> {
         let constants = &shader.constants();
-        let needed = S::INTERFACE.needs_subgroup_size;
-        let subgroup = needed.then_some(self.gpu.limits().subgroup_size);
+        let by_teams = S::INTERFACE.by_teams;
+        let teams = self.gpu.limits().teams;
+        let subgroup = teams.preferred_subgroup.filter(|_| by_teams);
         let made = || {
             let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
             compute_pipeline(layout, shader, constants, subgroup)

@@ -7,7 +7,6 @@
 use super::{EngineError, RoundPolicy};
 use crate::engine::data::Counter;
 use crate::engine::passes::LongLists;
-use crate::vulkan::VulkanError;
 
 /// Factor for the number of rounds from which on more rounds no longer help.
 const MANY_ROUNDS: u32 = 8;
@@ -149,9 +148,6 @@ pub(crate) struct Shortfall {
     /// Factor by which the room would have to grow to hold the dropped triangles and all pairs of a triangle and a
     /// tile.
     pub rooms: u32,
-    /// Whether the device ran kernels with another subgroup size than they were made for; more capacity does not help
-    /// then.
-    pub other_subgroups: bool,
 }
 
 impl Shortfall {
@@ -183,28 +179,14 @@ impl Shortfall {
         self.rooms = self.rooms.max(rooms[0]).max(rooms[1]);
     }
 
-    /// Adds the counter of wrong subgroup sizes, which may be read at any later time.
-    pub fn add_subgroups(&mut self, counters: &[u32]) {
-        self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
-    }
-
     /// Number of cells and tiles that were not finished.
     pub fn left(&self) -> u64 {
         let of_lights = self.unshadowed;
         self.waiting + self.crowded + self.stalled + self.unlisted_tiles + self.dropped + of_lights
     }
 
-    /// Returns an error if kernels that need subgroups of `lanes` invocations ran in others.
-    pub fn check_subgroups(&self, lanes: u32) -> Result<(), VulkanError> {
-        if self.other_subgroups {
-            return Err(VulkanError::Subgroups { lanes });
-        }
-        Ok(())
-    }
-
     /// Returns an error if any work was not finished.
-    pub fn check(&self, lanes: u32) -> Result<(), EngineError> {
-        self.check_subgroups(lanes)?;
+    pub fn check(&self) -> Result<(), EngineError> {
         match self.left() {
             0 => Ok(()),
             cells => Err(EngineError::Unfinished { cells }),

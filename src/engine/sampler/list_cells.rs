@@ -1,6 +1,6 @@
 //! Cells that are locations of a list.
 
-use super::{Sampler, SamplerContext, Source, averaging, with_probes};
+use super::{Sampler, SamplerContext, Source, averaging};
 use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
 use crate::engine::passes::resolve::ResolveTarget;
@@ -25,7 +25,7 @@ pub(crate) struct ListCells {
 }
 
 impl ListCells {
-    /// Offsets of a cell's samples, including those of the first run, and the number of samples.
+    /// Offsets of a cell's samples, and the number of samples.
     ///
     /// # Errors
     /// If the pattern can't have this number of samples.
@@ -40,11 +40,15 @@ impl ListCells {
             let own = options.pattern.offsets(options.samples)?;
             (own, options.samples)
         };
-        Ok((with_probes(own)?, count))
+        Ok((own, count))
     }
 
     fn cell_sizes(&self, layout: &FrameLayout, options: &CellOptions) -> CellSizes {
-        CellSizes::new(layout.gpu.limits().lanes, self.cells, options.samples)
+        CellSizes::new(
+            layout.gpu.limits().teams.members,
+            self.cells,
+            options.samples,
+        )
     }
 
     /// Sizes of the memory for `locations` locations in a region of `region` pixels, whose sides are whole tiles.
@@ -100,7 +104,7 @@ impl ListCells {
         };
         ResourceSizes {
             region,
-            lanes: limits.lanes,
+            team: limits.teams.members,
             locations: Some(locations),
             survivor_capacity: scene.triangle_slots(),
             filtered_triangles: 0,

@@ -23,7 +23,7 @@ impl Load {
     #[must_use]
     pub fn new(limits: &Limits, blocks: SampleBlocks, layers: u32) -> Self {
         let options = blocks.options;
-        let [subgroups_first, subgroups, subgroups_unlisted] = blocks.subgroups;
+        let [teams_first, teams, teams_unlisted] = blocks.teams;
         let [longest_list, longest_layered] = options.long_lists.longest();
         Self {
             most_pairs: ResourceSizes::most_pairs(limits),
@@ -32,9 +32,9 @@ impl Load {
                 per_sample: u32::from(options.records == RecordRate::Sample),
                 layers,
                 parts: blocks.parts(),
-                subgroups_first,
-                subgroups,
-                subgroups_unlisted,
+                teams_first,
+                teams,
+                teams_unlisted,
                 longest_list,
                 longest_layered,
                 more_records: options.more_records(),
@@ -148,7 +148,7 @@ impl Load {
         };
         let owners =
             |cells: u64| cells * u64::from(self.blocks.options.samples.div_ceil(4) * layers);
-        let entries = |cells: u64, tiles: u64| cells / u64::from(sizes.lanes) + tiles;
+        let entries = |cells: u64, tiles: u64| cells / u64::from(sizes.team) + tiles;
         let tried = (spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED);
         vec![
             (owners(cells), candidates, owners(cells_of_tile)),

@@ -82,18 +82,6 @@ pub enum Detection {
     Every,
 }
 
-/// Measure of a triangle's coverage of a superpixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Coverage {
-    /// Exact area where nothing occludes the triangle, and samples elsewhere. A superpixel that 64 samples settle takes
-    /// no further samples. If most triangles may be shaded in several parts of a pixel, which takes all samples, areas
-    /// are exact only up to 64 samples.
-    Area,
-    /// Number of samples that the triangle covers.
-    Samples,
-}
-
 /// Rate of shading within a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -116,8 +104,6 @@ pub struct CellOptions {
     pub samples: u32,
     /// Pattern of the sample locations in the cell.
     pub pattern: Pattern,
-    /// Measure of a triangle's coverage of the cell.
-    pub coverage: Coverage,
     /// Rate of shading within the cell.
     pub shading: Shading,
 }
@@ -132,7 +118,6 @@ impl CellOptions {
         Self {
             samples,
             pattern: Pattern::Lines,
-            coverage: Coverage::Area,
             shading: Shading::Part,
         }
     }
@@ -155,7 +140,6 @@ setters! {
     CellOptions in SuperpixelOptions.cells {
         samples: u32 = "the number of samples of the cell",
         pattern: Pattern = "the pattern of the sample locations in the cell",
-        coverage: Coverage = "the measure of a triangle's coverage of the cell",
         shading: Shading = "the rate of shading within the cell",
     }
 }

@@ -31,9 +31,7 @@ pub use error::EngineError;
 pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
 pub use load::Load;
-pub use method::{
-    CellOptions, Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions,
-};
+pub use method::{CellOptions, Detection, Method, MethodKind, Shading, SuperpixelOptions};
 pub(crate) use pixel_cells::PixelCells;
 pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference};
@@ -103,10 +101,6 @@ impl SamplerContext<'_> {
             } else {
                 record_rate(options.shading, scene)
             },
-            exact_areas: options.coverage == Coverage::Area && samples > 1 && !points,
-            // High-frequency triangles are shaded in many places, so the few samples of a first run would never
-            // suffice.
-            can_settle: options.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             one_cell: !self.layout.gpu.limits().is_cpu(),
             long_lists: self.capacity.long_lists,
             samples_unlisted: self.capacity.samples_unlisted,
@@ -179,7 +173,7 @@ impl Sampler {
         } = *context;
         let cells = options.cells;
         let limits = layout.gpu.limits();
-        let blocks = SampleBlocks::new(limits.lanes, *options);
+        let blocks = SampleBlocks::new(limits.teams.members, *options);
         let load = Load::new(limits, blocks, capacity.layers);
         // Drivers take longest to compile the kernels of `sample`, so these have their own thread.
         let (sample, others) = std::thread::scope(|scope| {
@@ -273,7 +267,7 @@ impl Sampler {
             }
         }
         let growths = self.source.growths();
-        if !growths.is_empty() || self.options.leaves_cells() {
+        if !growths.is_empty() || self.options.by_lines() {
             recorder.clear(&resources.marks);
         }
         let slots = 1 + growths.len();
@@ -332,7 +326,6 @@ impl Sampler {
                 let [triangles, pairs] = self.capacities;
                 let room = (tiles, triangles, pairs);
                 shortfall.add(counters, room, self.capacity.samples_unlisted);
-                shortfall.add_subgroups(counters);
             }
         }
         Ok(())
@@ -382,12 +375,6 @@ impl Source {
             Self::List(_) => &[],
         }
     }
-}
-
-/// Offsets of a cell's samples, followed by the offsets of the first few samples that decide whether all are needed.
-pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, EngineError> {
-    offsets.extend(Pattern::Sobol.offsets(sample::PROBES)?);
-    Ok(offsets)
 }
 
 /// Passes that average shaded visibility samples, after those that blend the layers of scenes that may have some. Arguments are

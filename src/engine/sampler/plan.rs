@@ -300,13 +300,12 @@ impl Plan {
             0
         };
         let filters = limits.is_cpu()
-            && limits.has_subgroups_of(limits.lanes)
             && !matches!(image.method, Method::Msaa { .. })
             && scene.triangle_slots() >= FILTER_TRIANGLES
             && triangles * 12 <= limits.max_storage_bytes;
         let sizes = ResourceSizes {
             region: outer,
-            lanes: limits.lanes,
+            team: limits.teams.members,
             locations: None,
             // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)

@@ -80,14 +80,6 @@ pub enum VulkanError {
         /// Limit of the device.
         limit: u64,
     },
-    /// Workgroups that the driver runs in another subgroup size than kernels were made for.
-    #[error(
-        "the driver runs workgroups of {lanes} invocations in several subgroups, and can't be asked for others; another driver of the device may have VkPhysicalDeviceVulkan13Properties::requiredSubgroupSizeStages with compute shaders"
-    )]
-    Subgroups {
-        /// Number of invocations of a subgroup that kernels were made for.
-        lanes: u32,
-    },
     /// Query about a recording before the first one was made.
     #[error("nothing was recorded yet; record and submit it, and wait for its commands")]
     NotRecorded,

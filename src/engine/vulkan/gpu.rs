@@ -128,12 +128,8 @@ pub struct Limits {
     pub device_type: vk::PhysicalDeviceType,
     /// Number of bytes of the device's largest heap of local memory.
     pub local_bytes: u64,
-    /// Number of invocations of a subgroup that kernels use: 4, 8, 16 or 32.
-    pub lanes: u32,
-    /// Number of invocations of a subgroup, at least `lanes`; the other invocations are idle.
-    pub subgroup_size: u32,
-    /// Whether a compute pipeline can be told its subgroup size.
-    pub can_require_subgroup_size: bool,
+    /// Teams of kernels that work by teams: see `shaders/include/team.glsl`.
+    pub teams: Teams,
     /// Largest width or height of an image in pixels.
     pub max_image_side: u32,
     /// How far the device may move a corner of a triangle before it draws the triangle, in pixels.
@@ -162,11 +158,6 @@ impl Limits {
     /// Whether the device computes on the CPU.
     pub(crate) fn is_cpu(&self) -> bool {
         self.device_type == vk::PhysicalDeviceType::CPU
-    }
-
-    /// Whether the device runs subgroups of exactly `lanes` invocations where it is asked to.
-    pub(crate) fn has_subgroups_of(&self, lanes: u32) -> bool {
-        self.can_require_subgroup_size && lanes == self.subgroup_size
     }
 }
 
@@ -352,16 +343,38 @@ impl Drop for Gpu {
     }
 }
 
-/// Number of invocations that kernels use, and number of invocations of a subgroup. A subgroup has usually `usual`
-/// invocations, at least `least` and at most `most`.
-fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
-    if can_require {
-        // If the size can be chosen, the smallest one leaves each invocation the most registers.
-        let size = least.max(4).min(most);
-        (size.min(32), size)
-    } else {
-        // The driver may choose any size, so kernels use the smallest.
-        (least.clamp(4, 32), usual)
+/// Teams of kernels in which invocations work together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Teams {
+    /// Number of invocations of a team: 8, or 4 on devices that may run subgroups of fewer than 8.
+    pub members: u32,
+    /// Number of teams of a workgroup.
+    pub in_workgroup: u32,
+    /// Size of subgroups that pipelines are made for, if the device lets that be chosen. Kernels work in subgroups of any size
+    /// that teams fit into; the smallest size leaves each invocation the most registers.
+    pub preferred_subgroup: Option<u32>,
+}
+
+impl Teams {
+    /// Teams for a device whose subgroups usually have `usual` invocations, at least `least` and at most `most`.
+    fn new(usual: u32, [least, most]: [u32; 2], can_choose: bool) -> Self {
+        let preferred_subgroup = can_choose.then_some(least.max(8).min(most));
+        let subgroup = preferred_subgroup.unwrap_or(usual);
+        let members = if preferred_subgroup.unwrap_or(least) < 8 {
+            4
+        } else {
+            8
+        };
+        Self {
+            members,
+            in_workgroup: (subgroup / members).max(1),
+            preferred_subgroup,
+        }
+    }
+
+    /// Number of invocations of a workgroup.
+    pub(crate) fn workgroup(self) -> u32 {
+        self.members * self.in_workgroup
     }
 }
 
@@ -404,13 +417,13 @@ pub(super) unsafe fn limits(
         heap.flags.contains(local)
     });
     let basic = properties.properties;
-    let can_require_subgroup_size = control
+    let can_choose_subgroup_size = control
         .required_subgroup_size_stages
         .contains(vk::ShaderStageFlags::COMPUTE);
-    let (lanes, subgroup_size) = lanes_and_size(
+    let teams = Teams::new(
         subgroup.subgroup_size,
         [control.min_subgroup_size, control.max_subgroup_size],
-        can_require_subgroup_size,
+        can_choose_subgroup_size,
     );
     let timestamps = families
         .get(queue_family as usize)
@@ -428,9 +441,7 @@ pub(super) unsafe fn limits(
         ),
         device_type: basic.device_type,
         local_bytes: local.map(|heap| heap.size).max().unwrap_or(0),
-        lanes,
-        subgroup_size,
-        can_require_subgroup_size,
+        teams,
         max_image_side: basic.limits.max_image_dimension2_d,
         snap: (-(basic.limits.sub_pixel_precision_bits as f32)).exp2() + POSITION_ERROR,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
@@ -459,20 +470,23 @@ pub(super) unsafe fn limits(
 
 #[cfg(test)]
 mod tests {
-    use super::lanes_and_size;
+    use super::Teams;
 
     #[test]
-    fn lanes_fit_in_the_subgroups_that_come() {
-        let of = |usual, range, can_require| lanes_and_size(usual, range, can_require);
-        assert_eq!(of(8, [8, 8], true), (8, 8));
-        assert_eq!(of(4, [4, 4], true), (4, 4));
-        assert_eq!(of(32, [8, 32], true), (8, 8));
-        assert_eq!(of(16, [16, 32], true), (16, 16));
-        assert_eq!(of(64, [32, 64], true), (32, 32));
-        assert_eq!(of(64, [64, 64], true), (32, 64));
-        assert_eq!(of(128, [64, 128], true), (32, 64));
-        assert_eq!(of(32, [8, 32], false), (8, 32));
-        assert_eq!(of(64, [64, 64], false), (32, 64));
-        assert_eq!(of(4, [1, 4], false), (4, 4));
+    fn teams_fit_in_the_subgroups_that_come() {
+        let of = |usual, range, can_choose| {
+            let teams = Teams::new(usual, range, can_choose);
+            (teams.members, teams.in_workgroup, teams.preferred_subgroup)
+        };
+        assert_eq!(of(8, [8, 8], true), (8, 1, Some(8)));
+        assert_eq!(of(4, [4, 4], true), (4, 1, Some(4)));
+        assert_eq!(of(32, [8, 32], true), (8, 1, Some(8)));
+        assert_eq!(of(16, [4, 16], true), (8, 1, Some(8)));
+        assert_eq!(of(16, [16, 32], true), (8, 2, Some(16)));
+        assert_eq!(of(64, [32, 64], true), (8, 4, Some(32)));
+        assert_eq!(of(64, [64, 64], true), (8, 8, Some(64)));
+        assert_eq!(of(32, [8, 32], false), (8, 4, None));
+        assert_eq!(of(64, [64, 64], false), (8, 8, None));
+        assert_eq!(of(16, [4, 16], false), (4, 4, None));
     }
 }

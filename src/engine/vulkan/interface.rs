@@ -78,8 +78,8 @@ pub struct Interface {
     pub push_bytes: u32,
     /// Number of invocations of a workgroup.
     pub invocations: Invocations,
-    /// Whether subgroups need the size that the device's limits name: the shader has the constant `UNSURE`.
-    pub needs_subgroup_size: bool,
+    /// Whether the shader works by teams, in workgroups of `TEAMS` teams.
+    pub by_teams: bool,
 }
 
 impl Interface {

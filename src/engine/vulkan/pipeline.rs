@@ -120,10 +120,13 @@ impl Pipeline {
         self.interface
     }
 
-    /// Number of invocations of a workgroup, for shaders that declare it; 1 for others.
+    /// Number of invocations of a workgroup, for shaders that declare it or work by teams; 1 for others.
     pub(crate) fn workgroup(&self) -> u64 {
         match self.interface.invocations {
             Invocations::Fixed(invocations) => invocations.into(),
+            Invocations::Constant if self.interface.by_teams => {
+                self.gpu.limits().teams.workgroup().into()
+            }
             _ => 1,
         }
     }
@@ -136,8 +139,8 @@ impl Drop for Pipeline {
     }
 }
 
-/// Makes a compute pipeline of a shader of the crate; `subgroup` fixes the size of its subgroups, for kernels that
-/// depend on it.
+/// Makes a compute pipeline of a shader of the crate, with subgroups of the size `subgroup` if there is one, which the device
+/// must allow to be chosen.
 ///
 /// # Errors
 /// [`VulkanError::Call`] if the driver refuses it.
@@ -160,7 +163,7 @@ pub(crate) fn compute_pipeline(
         .module(shader.raw)
         .name(c"main")
         .specialization_info(&specialization);
-    if subgroup.is_some_and(|_| gpu.limits().can_require_subgroup_size) {
+    if subgroup.is_some() {
         stage = stage.push_next(&mut size);
     }
     let info = vk::ComputePipelineCreateInfo::default()

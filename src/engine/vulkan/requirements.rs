@@ -248,8 +248,16 @@ impl Requirements {
                 missing.push(Missing::Subgroup(name));
             }
         }
-        if size_control.max_subgroup_size < 4 {
-            missing.push(Missing::SubgroupSize(subgroup.subgroup_size));
+        let can_choose = size_control
+            .required_subgroup_size_stages
+            .contains(vk::ShaderStageFlags::COMPUTE);
+        let smallest = if can_choose {
+            size_control.max_subgroup_size
+        } else {
+            size_control.min_subgroup_size
+        };
+        if smallest < 4 {
+            missing.push(Missing::SubgroupSize(smallest));
         }
         for (format, name, flag, what) in BUFFER_FORMATS {
             // SAFETY: as above.

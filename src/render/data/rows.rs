@@ -54,7 +54,7 @@ static INTERFACE: Interface = Interface {
     ],
     push_bytes: 12,
     invocations: Invocations::Fixed(1),
-    needs_subgroup_size: false,
+    by_teams: false,
 };
 
 /// Room for the fields, in words.

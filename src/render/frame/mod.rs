@@ -16,7 +16,7 @@ use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
 use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Plan;
-use crate::engine::sampler::{Capacity, CounterLog, SamplerSettings, with_probes};
+use crate::engine::sampler::{Capacity, CounterLog, SamplerSettings};
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::Encoding;
 use crate::scene::Moment;
@@ -115,7 +115,6 @@ impl Frame {
         )?;
         let offsets = settings.method.offsets()?;
         let sample_count = offsets.len() as u32;
-        let offsets = with_probes(offsets)?;
         let centre = Offsets {
             all: &[[0.0, 0.0]],
             count: 1,

@@ -16,9 +16,6 @@ impl Frame {
         for sampler in samplers.into_iter().flatten() {
             sampler.add_shortfall(self.tiles(), &mut shortfall)?;
         }
-        for counters in self.counters.read(1)?.flatten() {
-            shortfall.add_subgroups(counters);
-        }
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
@@ -48,7 +45,7 @@ impl Frame {
             ..Statistics::default()
         };
         statistics.triangles.total = self.scene.triangle_count();
-        self.shortfall()?.check(self.plan.sizes.lanes)?;
+        self.shortfall()?.check()?;
         if let Some(superpixels) = &self.passes.superpixels {
             superpixels.add_statistics(self.tiles(), &mut statistics)?;
         }

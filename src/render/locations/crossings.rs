@@ -56,7 +56,7 @@ impl CrossingFinder {
             MemoryUse::Upload,
         )?;
         let cells = Cells::Superpixels;
-        let sizes = CellSizes::new(layout.gpu.limits().lanes, cells, 1);
+        let sizes = CellSizes::new(layout.gpu.limits().teams.members, cells, 1);
         Ok(Self {
             // SAFETY: the list lives as long as the resources, and has room for that many locations.
             distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
@@ -129,7 +129,6 @@ impl CrossingFinder {
         for counters in self.counters.read(1)?.flatten() {
             let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
             shortfall.add(counters, room, true);
-            shortfall.add_subgroups(counters);
             // No other pass looks at the pairs that were left out.
             let unpaired = Counter::Pairs
                 .of(counters)

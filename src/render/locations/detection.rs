@@ -477,7 +477,7 @@ fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> Resour
     let halo = 2 * (settings.superpixels().growth_count() + 1);
     let sizes_of = |rows: u32| ResourceSizes {
         region: [width, rows],
-        lanes: limits.lanes,
+        team: limits.teams.members,
         locations: None,
         survivor_capacity: 0,
         filtered_triangles: 0,

@@ -5,8 +5,8 @@ use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::sampler::color::display_code;
 use crate::render::passes::SeenLocation;
 use crate::render::{
-    Coverage, Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError,
-    Rendered, Settings, Shading, Statistics, SuperpixelOptions,
+    Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError, Rendered,
+    Settings, Shading, Statistics, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -54,7 +54,6 @@ impl Headless {
                 settings.method = SuperpixelOptions::new(samples)
                     .pattern(Pattern::Grid)
                     .detection(Detection::Every)
-                    .coverage(Coverage::Samples)
                     .shading(Shading::Sample)
                     .into();
             }

@@ -18,13 +18,12 @@ impl Headless {
         mut process: impl FnMut(&mut Self, &mut T, &Range<usize>) -> Result<Shortfall, RenderError>,
         mut take: impl FnMut(&T, Range<usize>) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let lanes = self.gpu().limits().lanes;
         let mut capacity = Capacity::default();
         let (plan, mut passes) = make(capacity)?;
         let mut waiting: Vec<_> = plan.runs.into_iter().rev().collect();
         while let Some(run) = waiting.pop() {
             let shortfall = process(self, &mut passes, &run)?;
-            match shortfall.check(lanes) {
+            match shortfall.check() {
                 Ok(()) => {
                     take(&passes, run)?;
                     continue;
@@ -45,7 +44,7 @@ impl Headless {
                     .map(|other| other.start.max(run.start)..other.end)
                     .collect();
             } else {
-                return Ok(shortfall.check(lanes)?);
+                return Ok(shortfall.check()?);
             }
         }
         Ok(())

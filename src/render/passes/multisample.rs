@@ -9,8 +9,11 @@ use crate::vulkan::{Specialized, VulkanError};
 /// # Errors
 /// If the driver refuses the pipeline.
 pub(crate) fn pass(layout: &FrameLayout) -> Result<Pass, VulkanError> {
-    let lanes = layout.gpu.limits().lanes;
-    let multisample = layout.kernel(&spirv::Multisample { lanes })?;
+    let teams = layout.gpu.limits().teams;
+    let multisample = layout.kernel(&spirv::Multisample {
+        team: teams.members,
+        teams: teams.in_workgroup,
+    })?;
     let dispatch = multisample.dispatch((), Size::Items(1));
     Ok(Pass::named(spirv::Multisample::INTERFACE).dispatch(dispatch))
 }

@@ -9,16 +9,14 @@ use crate::engine::spirv::{self, occlude_set};
 use crate::render::data::GpuScene;
 use crate::vulkan::{DescriptorSets, Recorder, Specialized, VulkanError};
 
-/// Width and height of the pixels of a workgroup, as in `shaders/occlude.comp`.
+/// Width and height of the pixels of a team, as in `shaders/occlude.comp`.
 const SIDE: u32 = 8;
 
-/// The variant of the shader for kernels that use `lanes` invocations of a subgroup, so that a workgroup has 64 receivers.
-fn code_for(lanes: u32) -> &'static [u8] {
-    match lanes {
+/// The variant of the shader for teams of `members` invocations, so that a team has 64 receivers.
+fn code_for(members: u32) -> &'static [u8] {
+    match members {
         4 => spirv::OCCLUDE_16,
-        8 => spirv::OCCLUDE_8,
-        16 => spirv::OCCLUDE_4,
-        _ => spirv::OCCLUDE_2,
+        _ => spirv::OCCLUDE_8,
     }
 }
 
@@ -44,16 +42,16 @@ impl Occlude {
             (occlude_set::LEFT, unshadowed.buffer().into()),
             (occlude_set::MARKS_OF_PIXELS, (&receivers.marks).into()),
         ];
-        let lanes = layout.gpu.limits().lanes;
+        let teams = layout.gpu.limits().teams;
         let shader = spirv::Occlude {
-            local_size: lanes,
-            lanes,
+            local_size: teams.workgroup(),
+            team: teams.members,
+            teams: teams.in_workgroup,
             has_mask: casters.has_mask(),
             instanced: casters.is_instanced(),
-            unsure: layout.is_unsure(lanes),
         };
         Ok(Self {
-            kernel: layout.kernel_variant(code_for(lanes), &shader)?,
+            kernel: layout.kernel_variant(code_for(teams.members), &shader)?,
             // SAFETY: the buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Occlude::INTERFACE, &shown) }?,
         })
@@ -87,7 +85,7 @@ impl Occlude {
             Receiving::Pixels(size) => {
                 let groups = size.map(|side| side.div_ceil(SIDE));
                 self.kernel
-                    .record_groups(recorder, &push, groups[0] * groups[1]);
+                    .record_teams(recorder, &push, groups[0] * groups[1]);
             }
             Receiving::Records => {
                 let size = (&resources.arguments, Argument::Sort);

@@ -111,7 +111,7 @@ impl Receivers {
             }
             Receiving::Records => {
                 self.of_records
-                    .record_indirect(recorder, plane, Argument::Sort);
+                    .record_indirect(recorder, plane, Argument::Records);
             }
         }
     }

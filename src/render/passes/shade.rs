@@ -69,7 +69,7 @@ pub(crate) fn pass(
             &bin.textures
         };
         let size = if one_bin && !pixels {
-            Size::from(Argument::Sort)
+            Size::from(Argument::Records)
         } else {
             Size::Indirect(Argument::Shade as u32 + number)
         };

@@ -75,7 +75,8 @@ impl Shadow {
             ..spirv::ShadowPush::default()
         };
         recorder.show(&self.own);
-        self.kernel.record_indirect(recorder, &push, Argument::Sort);
+        self.kernel
+            .record_indirect(recorder, &push, Argument::Records);
     }
 
     /// Records the count of unfinished work, after the last round.

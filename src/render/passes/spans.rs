@@ -6,9 +6,6 @@ use crate::engine::pipelines::{FrameLayout, Pass, Size};
 use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{Specialized, VulkanError};
 
-/// Number of invocations of a workgroup, which may contain several subgroups.
-const WORKGROUP: u32 = 64;
-
 /// Lists the pixels of a region that need shading, for its rows of 8 pixels. With a single bin, spans need not be counted
 /// first.
 ///
@@ -16,12 +13,13 @@ const WORKGROUP: u32 = 64;
 /// If the driver refuses a pipeline.
 pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, VulkanError> {
     let one_bin = scene.bin_count() == 1;
-    let lanes = layout.gpu.limits().subgroup_size.min(WORKGROUP);
+    let teams = layout.gpu.limits().teams;
     let spans = layout.kernel(&spirv::Spans {
-        lanes,
+        local_size: teams.workgroup(),
+        team: teams.members,
+        teams: teams.in_workgroup,
         one_bin,
         instanced: scene.is_instanced(),
-        unsure: layout.is_unsure(lanes),
     })?;
     let count = spans.dispatch(spirv::SpansPush { scatter: 0 }, Size::Items(1));
     let list = spans.dispatch(spirv::SpansPush { scatter: 1 }, Size::Items(1));

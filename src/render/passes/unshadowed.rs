@@ -3,9 +3,6 @@
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// Number of words of the count.
-const WORDS: usize = 2;
-
 /// Count of the receivers and tiles that the passes of a frame's shadows could not finish, on the device and in a copy
 /// that the host reads.
 pub struct Unshadowed {
@@ -19,7 +16,7 @@ impl Unshadowed {
     /// # Errors
     /// If memory runs out.
     pub fn new(memory: &Memory) -> Result<Self, VulkanError> {
-        let words = |name, usage, place| memory.buffer(name, 4 * WORDS as u64, usage, place);
+        let words = |name, usage, place| memory.buffer(name, 4, usage, place);
         let transfer = vk::BufferUsageFlags::TRANSFER_DST;
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         Ok(Self {
@@ -43,14 +40,12 @@ impl Unshadowed {
         recorder.copy(&self.counted, self.counted.size(), &self.kept, 0);
     }
 
-    /// Number of receivers and tiles that the last frame could not finish, and whether kernels ran with another
-    /// subgroup size than expected.
+    /// Number of receivers and tiles that the last frame could not finish.
     ///
     /// # Errors
     /// If the count can't be read.
-    pub fn read(&self) -> Result<(u32, bool), VulkanError> {
-        let words: &[u32] = self.kept.read(WORDS)?;
-        let word = |index: usize| words.get(index).copied().unwrap_or(0);
-        Ok((word(0), word(1) != 0))
+    pub fn read(&self) -> Result<u32, VulkanError> {
+        let words: &[u32] = self.kept.read(1)?;
+        Ok(words.first().copied().unwrap_or(0))
     }
 }

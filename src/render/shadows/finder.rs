@@ -419,7 +419,7 @@ impl ShadowFinder {
                     Receiving::Pixels([width, height]) => (width * height, ListLength::Known),
                     Receiving::Records => {
                         let shading = shaded.resources;
-                        let length = ListLength::Counted(&shading.arguments, Argument::Sort);
+                        let length = ListLength::Counted(&shading.arguments, Argument::Records);
                         (shading.sizes().record_capacity, length)
                     }
                 };
@@ -454,9 +454,7 @@ impl ShadowFinder {
     /// # Errors
     /// If its counters can't be read.
     pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
-        let (left, other_subgroups) = self.unshadowed.read()?;
-        shortfall.unshadowed += u64::from(left);
-        shortfall.other_subgroups |= other_subgroups;
+        shortfall.unshadowed += u64::from(self.unshadowed.read()?);
         Ok(())
     }
 }

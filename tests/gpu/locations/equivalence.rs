@@ -1,7 +1,7 @@
 //! Sampling at locations that other paths sample too: the results are the same.
 
 use gpc::render::{
-    Coverage, EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics,
+    EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics,
 };
 use gpc::sampling::Pattern;
 
@@ -89,30 +89,27 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
     on_gpu(|gpu| {
         for (name, stage) in stages() {
             let prepared = stage.upload(gpu);
-            use {Coverage as C, Pattern as P, Shading as S};
-            // The first cases have the default options, as far as these give equal results: with numbers of samples for
-            // which few samples are tried first, and with others.
+            use {Pattern as P, Shading as S};
             let mut cases = vec![
-                (P::Sobol, C::Area, S::Part, 256),
-                (P::Sobol, C::Samples, S::Triangle, 17),
-                (P::Lines, C::Samples, S::Part, 256),
-                (P::Lines, C::Samples, S::Triangle, 17),
+                (P::Sobol, S::Part, 256),
+                (P::Sobol, S::Triangle, 17),
+                (P::Lines, S::Part, 256),
+                (P::Lines, S::Triangle, 17),
             ];
             match name {
-                "soup" => cases.extend([
-                    (P::Sobol, C::Samples, S::Triangle, 300),
-                    (P::Lines, C::Samples, S::Triangle, 300),
-                ]),
+                "soup" => {
+                    cases.extend([(P::Sobol, S::Triangle, 300), (P::Lines, S::Triangle, 300)])
+                }
                 "lit" => cases.extend([
-                    (P::Sobol, C::Area, S::Part, 64),
-                    (P::Sobol, C::Samples, S::Sample, 64),
-                    (P::Lines, C::Samples, S::Part, 64),
+                    (P::Sobol, S::Part, 64),
+                    (P::Sobol, S::Sample, 64),
+                    (P::Lines, S::Part, 64),
                 ]),
                 _ => {}
             }
-            for (pattern, coverage, shading, samples) in cases {
+            for (pattern, shading, samples) in cases {
                 let settings = everywhere(FEW_PIXELS, pattern.clone(), samples)
-                    .map_superpixels(|options| options.coverage(coverage).shading(shading));
+                    .map_superpixels(|options| options.shading(shading));
                 let image = stage.render(gpu, &settings);
                 let (pinhole, places) = (pinhole(FEW_PIXELS), planar(FEW_PIXELS));
                 let locations = gpu

@@ -1,7 +1,7 @@
 //! Images whose pixels are sampled at given locations.
 
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{CellOptions, Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
+use gpc::render::{CellOptions, Method, Rendered, Settings, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -64,8 +64,6 @@ fn a_planar_image_is_the_cameras() {
                 SuperpixelOptions::new(16)
                     // Locations have no neighbours to choose the number of parts, and are shaded in all of them.
                     .shading(Shading::Triangle)
-                    // Where more triangles meet than a subgroup has invocations, locations have no exact areas.
-                    .coverage(Coverage::Samples)
                     // Frames and lists may differ in whether a cell has rows or columns.
                     .pattern(Pattern::Sobol),
             );

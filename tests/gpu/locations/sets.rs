@@ -1,7 +1,7 @@
 //! Sampling sets: different variants with the same locations give the same results.
 
 use gpc::camera::set::{Layout, SamplingSet};
-use gpc::render::{Coverage, Shading};
+use gpc::render::Shading;
 use gpc::sampling::Pattern;
 
 use super::pinhole;
@@ -39,9 +39,8 @@ fn sets_that_hold_the_same_locations_see_the_same() {
 fn a_superpixel_set_of_points_is_the_superpixels() {
     on_gpu(|gpu| {
         let prepared = ball_over_checker().upload(gpu);
-        let settings = everywhere(SIZE, Pattern::Sobol, 16).map_superpixels(|options| {
-            options.coverage(Coverage::Samples).shading(Shading::Sample)
-        });
+        let settings = everywhere(SIZE, Pattern::Sobol, 16)
+            .map_superpixels(|options| options.shading(Shading::Sample));
         let marks: Vec<_> = (0..SIZE[0] * SIZE[1]).map(|pixel| pixel % 3 != 0).collect();
         let offsets = Pattern::Sobol.offsets(16).unwrap();
         let set = SamplingSet::superpixel(SIZE, &marks, &offsets).unwrap();

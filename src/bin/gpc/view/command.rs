@@ -146,9 +146,6 @@ impl Arguments {
         if options.cells.pattern != default.cells.pattern {
             self.add("--pattern", &options.cells.pattern);
         }
-        if options.cells.coverage != default.cells.coverage {
-            self.add("--coverage", name(&options.cells.coverage));
-        }
         if options.cells.shading != default.cells.shading {
             self.add("--shading", name(&options.cells.shading));
         }

@@ -63,7 +63,6 @@ impl Resources {
             (frame_set::ENCODED, &self.encoded),
             (frame_set::MARKS, &self.marks),
             (frame_set::TILE_LOADS, &self.locations.tile_loads),
-            (frame_set::PATTERN, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, Descriptor::from(buffer)));
         let shown: Vec<_> = others

@@ -17,7 +17,7 @@ impl Resources {
     /// Records the beginning of a region: uniform block, cleared counters and tiles. Passes use the sets `set` from here on.
     pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
-        recorder.fill(&self.counters, Counter::CLEARED_BYTES, 0);
+        recorder.fill(&self.counters, Counter::BYTES, 0);
         recorder.clear(&self.tiles);
         set.show(recorder);
     }

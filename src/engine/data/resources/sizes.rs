@@ -11,8 +11,8 @@ use ash::vk;
 pub struct ResourceSizes {
     /// Width and height of the largest region, in pixels.
     pub region: [u32; 2],
-    /// Number of invocations of a subgroup; an entry of a work list has as many cells.
-    pub lanes: u32,
+    /// Number of members of a team; an entry of a work list has as many cells.
+    pub team: u32,
     /// Sizes for locations, if cells are locations instead of pixels.
     pub locations: Option<LocationSizes>,
     /// Largest number of triangles that may touch a cell, or that are thin.
@@ -85,7 +85,7 @@ impl ResourceSizes {
         };
         let is_of_pixels = self.locations.is_none() && others.locations.is_none();
         let mut pairs = of(self).into_iter().zip(of(others));
-        is_of_pixels && self.lanes == others.lanes && pairs.all(|(room, needed)| room >= needed)
+        is_of_pixels && self.team == others.team && pairs.all(|(room, needed)| room >= needed)
     }
 
     /// Number of bytes of the largest storage buffer.
@@ -158,7 +158,7 @@ impl ResourceSizes {
         let entries = if self.locations.is_some() {
             1
         } else {
-            32 / self.lanes
+            32 / self.team
         };
         let lists = TILE_LISTS + 2;
         self.work_items() * u64::from(4 * lists * entries)

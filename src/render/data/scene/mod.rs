@@ -274,10 +274,6 @@ impl Content for GpuScene {
         self.high_frequency_triangles > 0
     }
 
-    fn is_mostly_high_frequency(&self) -> bool {
-        self.high_frequency_triangles > self.geometry.triangle_count / 2
-    }
-
     fn is_tinted(&self) -> bool {
         self.is_tinted
     }

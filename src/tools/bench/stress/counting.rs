@@ -64,25 +64,3 @@ pub(super) fn count(
     }
     Ok(hits)
 }
-
-/// Largest error of the coverage of the pixels that `counts` selects, all of which opaque triangles cover completely.
-pub(super) fn worst_cover(
-    headless: &mut Headless,
-    stage: &Stage,
-    settings: &Settings,
-    camera: &Camera,
-    counts: impl Fn([u32; 2]) -> bool,
-) -> Result<f64, RenderError> {
-    let stage = Stage {
-        materials: vec![flat([1.0; 4], AlphaMode::Opaque)],
-        ..stage.clone()
-    };
-    let image = stage.seen_by(headless, settings, camera)?;
-    let [width, _] = settings.size;
-    Ok((0..)
-        .zip(&image.colors)
-        .filter(|(pixel, _)| counts([pixel % width, pixel / width]))
-        .flat_map(|(_, color)| color)
-        .map(|value| f64::from((value - 1.0).abs()))
-        .fold(0.0, f64::max))
-}

@@ -1,17 +1,14 @@
 //! Stress check: triangles of a tiling hit each sample exactly once (partition of unity).
 
-use super::counting::{Hits, count, worst_cover};
+use super::counting::{Hits, count};
 use super::meshes::{ground, tilings};
 use super::stage::{Stage, camera, everywhere};
 use super::{Finding, Length, Mesh};
-use crate::render::{Coverage, Detection, Headless, RenderError, Settings};
+use crate::render::{Detection, Headless, RenderError, Settings};
 use crate::sampling::Pattern;
 
 /// Samples a pixel of each run.
 const COUNTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
-
-/// Largest error of the sum of areas in a pixel.
-const AREA: f64 = 1e-4;
 
 /// Row below the image's centre from which [`ground`] covers the image.
 const HORIZON: f64 = 2.0;
@@ -48,25 +45,6 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         }
         let case = format!("across the borders of superpixels, {samples} samples");
         report(&mut findings, &case, hits);
-    }
-    for samples in [16, 64, 1024] {
-        let settings = everywhere([length.choose(32, 256); 2], Pattern::Sobol, samples)
-            .map_superpixels(|options| options.coverage(Coverage::Area));
-        let half = f64::from(settings.size[0]) / 2.0;
-        let mut worst = 0.0_f64;
-        for mesh in tilings(u64::from(samples), half) {
-            let stage = stage(&mesh, &settings);
-            worst = worst.max(worst_cover(headless, &stage, &settings, &camera(), |_| {
-                true
-            })?);
-        }
-        findings.push(Finding {
-            case: format!("tilings by area, {samples} samples"),
-            checked: u64::from(settings.size[0]) * u64::from(settings.size[1]),
-            unit: "greatest error of a pixel's coverage",
-            measured: worst,
-            allowed: Some(AREA),
-        });
     }
     Ok(findings)
 }

@@ -7,8 +7,8 @@
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
 use crate::render::{
-    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest,
-    Settings, Shading, SuperpixelOptions,
+    Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest, Settings, Shading,
+    SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 use crate::scene::{
@@ -273,7 +273,6 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
         .method(
             SuperpixelOptions::new(samples)
                 .pattern(pattern)
-                .coverage(Coverage::Samples)
                 .shading(Shading::Triangle)
                 .detection(Detection::Every),
         )

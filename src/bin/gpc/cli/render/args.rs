@@ -7,8 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
 use gpc::render::{
-    CellOptions, Coverage, Detection, Footprint, Method, MethodKind, PixelRect, Shading,
-    SuperpixelOptions,
+    CellOptions, Detection, Footprint, Method, MethodKind, PixelRect, Shading, SuperpixelOptions,
 };
 use gpc::sampling::Pattern;
 use std::ops::RangeInclusive;
@@ -78,9 +77,6 @@ pub struct SamplingArgs {
         hide_short_help = true
     )]
     pub pattern: Pattern,
-    /// How much of a superpixel a triangle covers
-    #[arg(long, default_value = "area", hide_short_help = true)]
-    pub coverage: Coverage,
     /// Area over which textures are filtered
     #[arg(long, default_value = "sample", hide_short_help = true)]
     pub footprint: Footprint,
@@ -102,7 +98,6 @@ impl SamplingArgs {
     pub fn superpixels(&self, samples: u32) -> SuperpixelOptions {
         SuperpixelOptions::new(samples)
             .pattern(self.pattern.clone())
-            .coverage(self.coverage)
             .shading(self.shading)
             .detection(self.detect)
             .contrast(self.contrast)
