@@ -1,5 +1,5 @@
 // bin: makes pairs of a surviving triangle and a tile that it may touch, with the triangle's rank in the tile's list. An
-// invocation takes a small triangle, or a workgroup a large one.
+// invocation takes a small triangle, or BIN_WORKGROUPS workgroups take a large one.
 // Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
 // If there is no room for a pair, its tile gets a flag, and `scatter` tries every triangle there.
@@ -17,6 +17,8 @@ layout(local_size_x = 64) in;
 
 layout(push_constant) uniform Push { uint large; } push;     // 1: takes large triangles
 
+const uint CHUNK = 32u;                                         // most tiles that an invocation tests before it stores pairs
+
 void main() {
     bool large = push.large != 0u;
     uint i = large ? workgroup_number() : invocation_number();
@@ -31,28 +33,38 @@ void main() {
     ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
     uint columns = uint(high.x - low.x + 1), count = exists ? columns * uint(high.y - low.y + 1) : 0u;
     float inverse_columns = 1.0 / float(columns);
-    uint k = large ? gl_LocalInvocationID.x : 0u;
-    // Invocations stay in the loop as long as one of the subgroup has a tile left, so that they append together.
+    uint first = large ? gl_WorkGroupID.z * 64u + gl_LocalInvocationID.x : 0u, apart = large ? gl_NumWorkGroups.z * 64u : 1u;
     do {
-        uint kk = min(k, max(count, 1u) - 1u);
-        uint row = uint((float(kk) + 0.5) * inverse_columns);
-        ivec2 tile = low + ivec2(kk - row * columns, row);
-        uint index = uint(tile.y) * frame.tiles.x + uint(tile.x);
-        bool touches = k < count && (masks[index] & footprint_mask(f, tile)) != 0u;
-        // A pixel's centre is at most (3.5, 1.5) from the tile's; a quarter of a pixel more covers rounding.
-        Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
-        vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
-        touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
-        uint slot = append(COUNTER_PAIRS, touches);
-        if (touches) {
-            uint rank = atomicAdd(tiles[index].x, 1u);
-            bool kept = slot < frame.pair_capacity;
-            uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
-            if (flags != 0u) atomicOr(tiles[index].w, flags);
-            // A pair that is not kept leaves no gap in a list, since its tile gets none. Neither does a tile with more triangles
-            // than there are ranks.
-            if (kept) pairs_out[slot] = make_pair(t, index, rank);
-        }
-        k += large ? 64u : 1u;
-    } while (subgroupAny(k < count));
+        uint touched = 0u, k = 0u;
+        do {
+            uint number = min(first + k * apart, max(count, 1u) - 1u);
+            uint row = uint((float(number) + 0.5) * inverse_columns);
+            ivec2 tile = low + ivec2(number - row * columns, row);
+            bool touches = first + k * apart < count && (masks[uint(tile.y) * frame.tiles.x + uint(tile.x)] & footprint_mask(f, tile)) != 0u;
+            // A pixel's centre is at most (3.5, 1.5) from the tile's; a quarter of a pixel more covers rounding.
+            Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
+            vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
+            touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
+            touched |= touches ? 1u << k : 0u;
+        } while (++k < CHUNK && first + k * apart < count);
+        uint slot = append_several(COUNTER_PAIRS, uint(bitCount(touched)));
+        do {
+            bool some = touched != 0u;
+            uint number = first + (some ? uint(findLSB(touched)) : 0u) * apart;
+            uint row = uint((float(number) + 0.5) * inverse_columns);
+            uint index = (uint(low.y) + row) * frame.tiles.x + uint(low.x) + number - row * columns;
+            if (some) {
+                uint rank = atomicAdd(tiles[index].x, 1u);
+                bool kept = slot < frame.pair_capacity;
+                uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
+                if (flags != 0u) atomicOr(tiles[index].w, flags);
+                // A pair that is not kept leaves no gap in a list, since its tile gets none. Neither does a tile with more triangles
+                // than there are ranks.
+                if (kept) pairs_out[slot] = make_pair(t, index, rank);
+            }
+            slot++;
+            touched &= touched - 1u;
+        } while (touched != 0u);
+        first += CHUNK * apart;
+    } while (first < count);
 }

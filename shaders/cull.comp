@@ -2,8 +2,8 @@
 // decides finally which ones have area and face the camera. An invocation takes PER_INVOCATION triangles.
 // Reads: the geometry, masks. Writes: survivors (small ones from the front, large ones from the back), counters.
 // THIN_ALONE keeps only triangles that may be thin in some cell, for `crossings`.
-// The host discards a frame with more survivors than there is room for. In `bin` an invocation takes a small triangle, and a
-// workgroup a large one.
+// The host discards a frame with more survivors than there is room for. In `bin` an invocation takes a small triangle, and some
+// workgroups take a large one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

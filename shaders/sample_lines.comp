@@ -2,8 +2,9 @@
 // lines (include/lines.glsl). A team takes the cells of an entry of a work list one after the other, or one of them (APART);
 // a member holds some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of the
 // location's Jacobian. Lines run along these sides.
-// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that see more than SLOTS triangles or one that
-// crosses the near plane, or that take too many trips of loops, are marked and listed for sample.comp. No cell is so because of other
+// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Cells that more than MOST_TOUCHING candidates touch,
+// that see more than SLOTS triangles or one that crosses the near plane, or that take too many trips of loops, are marked and listed for
+// sample.comp. No cell is so because of other
 // cells of its tile, since a picture must not depend on how cells are grouped.
 //
 // On a line, a triangle covers a run of samples between the crossings of its edges. Candidates are taken in the order of their
@@ -45,6 +46,7 @@ const uint HELD = (SLOTS + TEAM - 1u) / TEAM;           // slots whose data a me
 // For each 32 candidates of the tile a word for each cell: a bit for each candidate that touches it. Words of longer lists are found anew
 // each time.
 const uint STORED_WORDS = 32u;
+const uint MOST_TOUCHING = 64u;             // candidates that touch a cell; with more, it mostly sees more than SLOTS triangles
 shared uint touched[STORED_WORDS * CELLS_AT_ONCE * TEAMS];
 
 uint trips;                         // trips of this team's loops so far: MOST_TRIPS of workarounds.glsl
@@ -255,7 +257,7 @@ void main() {
     uint last_candidate = max(count, 1u) - 1u, words = max((count + 31u) / 32u, 1u);
 
     // Finds the candidates that touch the cell of each member. For pixels, `setup` has stored them.
-    uint first_touched = STORED_WORDS * CELLS_AT_ONCE * team_in_workgroup(), w = 0u;
+    uint first_touched = STORED_WORDS * CELLS_AT_ONCE * team_in_workgroup(), w = 0u, my_count = 0u;
     trips = 0u;
     do {
         uint touching = 0u;
@@ -280,9 +282,10 @@ void main() {
             }
         }
         if (APART && !LOCATIONS) touching = team_or(touching);
-        if (lane < CELLS_AT_ONCE) touched[first_touched + w * CELLS_AT_ONCE + lane] = touching;
+        if (w < STORED_WORDS && lane < CELLS_AT_ONCE) touched[first_touched + w * CELLS_AT_ONCE + lane] = touching;
+        my_count += uint(bitCount(touching));
         trips++;
-    } while (++w < min(words, STORED_WORDS));
+    } while (++w < words);
     team_barrier();
     if (!busy) return;
 
@@ -310,7 +313,8 @@ void main() {
         [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u);
         uint used = 0u, settling = 0u;  // slots in use; slots that are settled, the first ones
         float deepest = 3.4e38;         // the farthest depth of all slots in the cell
-        bool failed = !listable, done = failed, directed = false, columns = false, more;
+        bool full = false;              // all samples have owners
+        bool failed = !listable || of_member(my_count, cell) > MOST_TOUCHING, done = failed, directed = false, columns = false, more;
         Key limit = Key(~0u, 0u);       // candidates up to this key are done
         do {
             // Finds the next 2 x TEAM candidates in order: the first TEAM of them in `nearer`, one in each member, the others in
@@ -384,7 +388,8 @@ void main() {
                     vec4 its_plane = of_member(plane, from);
                     float its_nearest = of_member(nearest, from);
                     uint its_kind = of_member(kind, from), its_id = of_member(k.id, from);
-                    bool valid = takes && j < entries;
+                    // The first candidate of a batch may lie behind all owners, since what ended the last batch was only a bound.
+                    bool valid = takes && j < entries && !(full && its_nearest < deepest);
                     id = takes ? its_id : id;
                     own = takes ? its_plane : own;
                     near = takes ? its_nearest : near;
@@ -475,7 +480,8 @@ void main() {
                     deepest = shows ? min(deepest, own.w) : deepest;
                     j += comparing ? 0u : 1u;
                     float next = j < TEAM ? of_member(nearest, min(j, TEAM - 1u)) : after;
-                    done = done || failed || (!comparing && next < deepest && team_or(some_free) == 0u);
+                    full = team_or(some_free) == 0u;
+                    done = done || failed || (!comparing && next < deepest && full);
                 } while (!done && (comparing || j < entries));
                 done = done || entries < TEAM;
                 batch++;

@@ -388,6 +388,9 @@
 // Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u
 
+// Workgroups of `bin` that share a large triangle.
+#define BIN_WORKGROUPS 8u
+
 // Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u
 #define FILTER_TRIANGLES 2048u
