@@ -15,6 +15,8 @@ layout(push_constant) uniform Push {
     uint teams_unlisted;
 } push;
 
+const uint BIN_WORKGROUPS = 8u;         // workgroups that share a large triangle in `bin`; one on CPU devices, which run few at once
+
 void main() {
     if (push.after == AFTER_DETECT) {
         bool any_tile = counters[COUNTER_TILES] != 0u;

@@ -1,5 +1,5 @@
 // bin: makes pairs of a surviving triangle and a tile that it may touch, with the triangle's rank in the tile's list. An
-// invocation takes a small triangle, or BIN_WORKGROUPS workgroups take a large one.
+// invocation takes a small triangle, or some workgroups take a large one.
 // Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
 // If there is no room for a pair, its tile gets a flag, and `scatter` tries every triangle there.

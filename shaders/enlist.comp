@@ -35,7 +35,7 @@ void main() {
         uint parts = load.entries[list];
         [[unroll]] for (uint part = 0u; part < PARTS_OF_TILE; part++)
             if (part < parts) tile_lists[first + part] = work_entry(index, part);
-        added = uvec2(team_add(added.x), team_add(added.y));
+        added = team_add(added);
         before.needs += uvec4(added.x, 0u, added.y, 0u);
         before.entries += (uvec4(team_add(together)) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu;
         unlisted += uint(bitCount(team_ballot(busy && list == TILE_LIST_UNLISTED)));

@@ -51,7 +51,7 @@ void main() {
     float share = 1.0 / float(frame.sample_count);
 
     // The cell of this invocation.
-    uint first = entry_part(entry) * TEAM, cell = first + lane;
+    uint first = entry_part(entry) * CELLS_OF_ENTRY, cell = first + lane;
     uint bit = LOCATIONS ? lane : bit_of_cell(word, cell);
     bool mine = cell < (LOCATIONS ? location_group.z : bitCount(word));
     vec4 sum = vec4(0.0);

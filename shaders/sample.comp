@@ -72,7 +72,7 @@ void main() {
     uint cells_word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
     uint word = LEFT_CELLS ? cells_word & marks[item] : cells_word;
     uint cells = bitCount(word);
-    uint first_cell = entry_part(entry) * TEAM + share.y * CELLS_AT_ONCE;
+    uint first_cell = entry_part(entry) * CELLS_OF_ENTRY + share.y * CELLS_AT_ONCE;
     uint first_block = share.x * BLOCKS_AT_ONCE;
     exists = exists && first_cell < cells;
     if (TEAMS == 1u && !exists) return;

@@ -43,11 +43,11 @@ const uint HELD = (SLOTS + TEAM - 1u) / TEAM;           // slots whose data a me
 #include "include/lines.glsl"
 #include "include/order.glsl"
 
-// For each 32 candidates of the tile a word for each cell: a bit for each candidate that touches it. Words of longer lists are found anew
-// each time.
-const uint STORED_WORDS = 32u;
 const uint MOST_TOUCHING = 64u;             // candidates that touch a cell; with more, it mostly sees more than SLOTS triangles
-shared uint touched[STORED_WORDS * CELLS_AT_ONCE * TEAMS];
+
+// The candidates that touch each cell: words with a bit for each of 32 candidates of the tile's list, without words that are 0, and the
+// number of the first of these candidates.
+shared uint touched[MOST_TOUCHING * CELLS_AT_ONCE * TEAMS], touched_from[MOST_TOUCHING * CELLS_AT_ONCE * TEAMS];
 
 uint trips;                         // trips of this team's loops so far: MOST_TRIPS of workarounds.glsl
 uint owner[SLOT_BITS * WORDS];      // owners of this member's samples: WORDS words for each bit of a slot's number
@@ -207,25 +207,9 @@ void test_alpha(AlphaTest test, Square cell, bool columns, inout uint bits[WORDS
     } while (team_or(left) != 0u);
 }
 
-// The candidates that touch a cell, of the 32 from number `from` on, a bit each.
-uint touching_word(uint first, uint from, uint count, vec2 center, vec2 at, vec2 half_side, uint bit) {
-    uint word = 0u, j = 0u;
-    do {
-        [[unroll]] for (uint k = 0u; k < 4u; k++) {
-            uint candidate = from + j + k, known = min(candidate, count - 1u);
-            bool touches = LOCATIONS ? test_rectangle(load_candidate(first, known, center), at, half_side, HAS_MASK).touches
-                : (texelFetch(candidates, int(first + known) * 4 + 3).w >> bit & 1u) != 0u;
-            word |= touches && candidate < count ? 1u << (j + k) : 0u;
-        }
-        j += 4u;
-        trips++;
-    } while (j < 32u);
-    return word;
-}
-
 void main() {
     // Several teams share an entry of the work list. `work.y` is the entry, `work.x` is this team's share of it.
-    uvec2 work = split(team_number(), TEAM / CELLS_AT_ONCE);
+    uvec2 work = split(team_number(), CELLS_OF_ENTRY / CELLS_AT_ONCE);
     bool busy = work.y < counters[COUNTER_PLAIN_TILES + LIST];
     if (TEAMS == 1u && !busy) return;
     uint lane = member();
@@ -237,7 +221,7 @@ void main() {
     vec2 center = tile_center(tile_at);
     uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
     uint word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
-    uint first_cell = entry_part(entry) * TEAM + work.x * CELLS_AT_ONCE;
+    uint first_cell = entry_part(entry) * CELLS_OF_ENTRY + work.x * CELLS_AT_ONCE;
     busy = busy && first_cell < uint(bitCount(word));
     if (TEAMS == 1u && !busy) return;
     uint cells = busy ? min(uint(bitCount(word)) - first_cell, CELLS_AT_ONCE) : 1u;
@@ -254,15 +238,15 @@ void main() {
     uint headers_a_cell = (frame.sample_count + HEADER - 1u) / HEADER;
     bool listable = count < 1u << KEY_NUMBER_BITS && frame.triangle_count < 1u << KEY_ID_BITS;
     count = listable && busy ? count : 0u;
-    uint last_candidate = max(count, 1u) - 1u, words = max((count + 31u) / 32u, 1u);
+    uint last_candidate = max(count, 1u) - 1u;
 
     // Finds the candidates that touch the cell of each member. For pixels, `setup` has stored them.
-    uint first_touched = STORED_WORDS * CELLS_AT_ONCE * team_in_workgroup(), w = 0u, my_count = 0u;
+    uint first_touched = MOST_TOUCHING * CELLS_AT_ONCE * team_in_workgroup(), from = 0u, my_count = 0u, my_words = 0u;
     trips = 0u;
     do {
         uint touching = 0u;
         [[unroll]] for (uint part = 0u; part < 32u; part += TEAM) {
-            uint candidate = w * 32u + part + lane;
+            uint candidate = from + part + lane;
             if (LOCATIONS) {
                 Candidate k = load_candidate(first, min(candidate, last_candidate), center);
                 uint j = 0u;
@@ -282,10 +266,16 @@ void main() {
             }
         }
         if (APART && !LOCATIONS) touching = team_or(touching);
-        if (w < STORED_WORDS && lane < CELLS_AT_ONCE) touched[first_touched + w * CELLS_AT_ONCE + lane] = touching;
+        uint at = first_touched + min(my_words, MOST_TOUCHING - 1u) * CELLS_AT_ONCE + lane;
+        if (lane < CELLS_AT_ONCE) {
+            touched[at] = touching;
+            touched_from[at] = from;
+        }
+        my_words += touching != 0u ? 1u : 0u;
         my_count += uint(bitCount(touching));
         trips++;
-    } while (++w < words);
+        from += 32u;
+    } while (from < count);
     team_barrier();
     if (!busy) return;
 
@@ -300,7 +290,7 @@ void main() {
     do {
         uint bit = of_member(my_bit, cell), location = of_member(my_location, cell);
         Square square = Square(of_member(my_at, cell), LOCATIONS ? location_jacobian(location) : mat2(1.0));
-        vec2 half_of_cell = of_member(my_half, cell);
+        uint words = of_member(my_words, cell);
         // Sets of samples: settled ones; those of the current candidate; those of it that are still to be compared.
         uint settled[WORDS], shown[WORDS], open_[WORDS];
         [[unroll]] for (uint b = 0u; b < SLOT_BITS * WORDS; b++) owner[b] = 0u;
@@ -322,17 +312,13 @@ void main() {
             Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
             uint word_ = 0u;
             do {
-                uint mine = 0u, at_word = word_ + lane;
-                if (words <= STORED_WORDS) {
-                    mine = at_word < words ? touched[first_touched + at_word * CELLS_AT_ONCE + cell] : 0u;
-                } else {
-                    mine = touching_word(first, min(at_word, words) * 32u, count, center, square.at, half_of_cell, bit);
-                }
+                uint at = first_touched + min(word_ + lane, MOST_TOUCHING - 1u) * CELLS_AT_ONCE + cell;
+                uint mine = word_ + lane < words ? touched[at] : 0u, mine_from = touched_from[at];
                 uint own = uint(bitCount(mine)), before = team_before(own), all = team_add(own), read = 0u;
                 do {
                     uint wanted = read + lane, of = 0u;
                     [[unroll]] for (uint j = 1u; j < TEAM; j++) of += of_member(before, j) <= wanted ? 1u : 0u;
-                    uint candidate = min((word_ + of) * 32u + bit_of_cell(of_member(mine, of), wanted - of_member(before, of)), last_candidate);
+                    uint candidate = min(of_member(mine_from, of) + bit_of_cell(of_member(mine, of), wanted - of_member(before, of)), last_candidate);
                     int o = int(first + candidate) * 4;
                     uvec4 last = texelFetch(candidates, o + 3);
                     vec3 plane = plane_in(square, uintBitsToFloat(texelFetch(candidates, o + 2)).yzw);
@@ -360,7 +346,7 @@ void main() {
                 vec2 range = depth_range(k);
                 if (!directed) {
                     // Lines are columns or rows: whichever the edges of the first eight candidates cross more often.
-                    vec2 reach = exists ? reach_of_edges(k) : vec2(0.0);
+                    vec2 reach = exists && lane < 8u ? reach_of_edges(k) : vec2(0.0);
                     reach = vec2(team_add(reach.x), team_add(reach.y));
                     if (TEAM < 8u) {
                         Candidate later = candidate_in(square, load_candidate(first, min(number_in(farther), last_candidate), center));
@@ -381,18 +367,17 @@ void main() {
                 uint j = 0u, entries = team_add(exists ? 1u : 0u), id = 0u;
                 bool comparing = false;
                 vec4 own = vec4(0.0);   // plane of the current candidate
-                float near = 0.0;
+                float near = 0.0, next = of_member(nearest, 0u);     // nearest depths of the current candidate, and of the next one
                 do {
                     bool takes = !comparing;
                     uint from = min(j, TEAM - 1u);
                     vec4 its_plane = of_member(plane, from);
-                    float its_nearest = of_member(nearest, from);
                     uint its_kind = of_member(kind, from), its_id = of_member(k.id, from);
                     // The first candidate of a batch may lie behind all owners, since what ended the last batch was only a bound.
-                    bool valid = takes && j < entries && !(full && its_nearest < deepest);
+                    bool valid = takes && j < entries && !(full && next < deepest);
                     id = takes ? its_id : id;
                     own = takes ? its_plane : own;
-                    near = takes ? its_nearest : near;
+                    near = takes ? next : near;
                     trips++;
                     failed = failed || (valid && (its_kind & 2u) != 0u) || trips > MOST_TRIPS;
 
@@ -406,13 +391,14 @@ void main() {
                     }
                     rival = min(takes ? settling + 1u : team_min(rival), SLOTS);
                     uint keeper = (rival - 1u) % TEAM, level = (rival - 1u) / TEAM, other_id = 0u;
-                    vec4 other = vec4(0.0);
-                    [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                        vec4 kept_plane = of_member(slots[h].plane, keeper);
-                        uint kept_id = of_member(slots[h].id, keeper);
-                        other = level == h ? kept_plane : other;
-                        other_id = level == h ? kept_id : other_id;
+                    vec4 other = slots[0].plane;
+                    other_id = slots[0].id;
+                    [[unroll]] for (uint h = 1u; h < HELD; h++) {
+                        other = level == h ? slots[h].plane : other;
+                        other_id = level == h ? slots[h].id : other_id;
                     }
+                    other = of_member(other, keeper);
+                    other_id = of_member(other_id, keeper);
                     bool behind = near < other.w;       // the candidate and all later ones lie behind this slot
 
                     // The line where both planes intersect is treated like an edge. If depths are equal, or planes differ only by
@@ -461,8 +447,10 @@ void main() {
                         some_open |= open_[r];
                         some_free |= ~(by_some | shown[r]);
                     }
-                    comparing = team_or(some_open) != 0u;
-                    bool shows = !comparing && team_or(some) != 0u;
+                    uint state = team_or((some != 0u ? 1u : 0u) | (some_open != 0u ? 2u : 0u) | (some_free != 0u ? 4u : 0u));
+                    comparing = (state & 2u) != 0u;
+                    full = (state & 4u) == 0u;
+                    bool shows = !comparing && (state & 1u) != 0u;
                     failed = failed || (shows && used == SLOTS);
 
                     // When no comparison is left, the candidate becomes the owner of its remaining samples.
@@ -479,8 +467,7 @@ void main() {
                     used += shows ? 1u : 0u;
                     deepest = shows ? min(deepest, own.w) : deepest;
                     j += comparing ? 0u : 1u;
-                    float next = j < TEAM ? of_member(nearest, min(j, TEAM - 1u)) : after;
-                    full = team_or(some_free) == 0u;
+                    next = j < TEAM ? of_member(nearest, min(j, TEAM - 1u)) : after;
                     done = done || failed || (!comparing && next < deepest && full);
                 } while (!done && (comparing || j < entries));
                 done = done || entries < TEAM;
@@ -500,19 +487,17 @@ void main() {
         }
         uint slot = 0u;
         do {
-            uint parts = PARTS_ONE, bits[WORDS];
-            [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                uint its = of_member(slots[h].parts, slot % TEAM);
-                parts = slot / TEAM == h ? its : parts;
-            }
-            uvec3 sums = uvec3(0u);
+            uint parts = slots[0].parts, bits[WORDS];
+            [[unroll]] for (uint h = 1u; h < HELD; h++) parts = slot / TEAM == h ? slots[h].parts : parts;
+            parts = of_member(parts, slot % TEAM);
+            uvec2 sums = uvec2(0u);
             [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                 bits[r] = owned_by(slot + 1u, r);
                 sums += sums_of_word(r, bits[r]);
             }
             sums = team_add(sums);
-            uint records_ = min(sums.x, 1u);
-            if (BY_PART) {
+            uint records_ = min(count_of(sums), 1u);
+            if (BY_PART && parts != PARTS_ONE) {
                 Grid grid = grid_of(parts, columns);
                 uint found[WORDS], rest[WORDS], own = 0u, some = 0u;
                 find_parts(bits, grid, found);
@@ -521,13 +506,13 @@ void main() {
                     own += uint(bitCount(found[r]));
                     some |= rest[r];
                 }
-                own = team_add((lane & sharing_lanes(grid)) == 0u ? own : 0u) + (team_or(some) != 0u ? 1u : 0u);
-                records_ = parts == PARTS_ONE ? records_ : own;
+                own = team_add(((lane & sharing_lanes(grid)) == 0u ? own : 0u) | (some != 0u ? 0x10000u : 0u));
+                records_ = (own & 0xffffu) + min(own >> 16, 1u);
             }
             uint place = place_of_bits(sums, columns, false);
             [[unroll]] for (uint h = 0u; h < HELD; h++) {
                 bool here = slot == h * TEAM + lane && slot < used;
-                slots[h].count = here ? sums.x : slots[h].count;
+                slots[h].count = here ? count_of(sums) : slots[h].count;
                 slots[h].place = here ? place : slots[h].place;
                 slots[h].records = here ? records_ : slots[h].records;
             }
@@ -564,13 +549,15 @@ void main() {
             uint at_record = base + singles;
             do {
                 bool exists = several != 0u;
-                uint s = exists ? uint(findLSB(several)) : 0u, parts = PARTS_FOURS, id = 0u;
+                uint s = exists ? uint(findLSB(several)) : 0u, parts = slots[0].parts, id = slots[0].id;
                 several &= several - 1u;
-                [[unroll]] for (uint h = 0u; h < HELD; h++) {
-                    uvec2 its = uvec2(of_member(slots[h].parts, s % TEAM), of_member(slots[h].id, s % TEAM));
-                    parts = s / TEAM == h && exists ? its.x : parts;
-                    id = s / TEAM == h ? its.y : id;
+                [[unroll]] for (uint h = 1u; h < HELD; h++) {
+                    parts = s / TEAM == h ? slots[h].parts : parts;
+                    id = s / TEAM == h ? slots[h].id : id;
                 }
+                parts = of_member(parts, s % TEAM);
+                parts = exists ? parts : PARTS_FOURS;
+                id = of_member(id, s % TEAM);
                 Grid grid = grid_of(parts, columns);
                 bool wide = part_is_wide(max(frame.sample_count, 4u * part_length(parts)), parts);
                 uint bits[WORDS], pending[WORDS], rest[WORDS], own = 0u;
@@ -579,7 +566,7 @@ void main() {
                 find_rest(bits, grid, pending, rest);
 
                 // One record for the samples that are in no part, in the middle of these.
-                uvec3 sums = uvec3(0u);
+                uvec2 sums = uvec2(0u);
                 [[unroll]] for (uint r = 0u; r < WORDS; r++) {
                     sums += sums_of_word(r, rest[r]);
                     own += uint(bitCount(pending[r]));
@@ -587,7 +574,7 @@ void main() {
                 sums = team_add(sums);
                 bool writes = (lane & sharing_lanes(grid)) == 0u;
                 own = writes ? own : 0u;
-                if (lane == 0u && sums.x != 0u) records_out[at_record] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
+                if (lane == 0u && sums.x != 0u) records_out[at_record] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(count_of(sums)) * weight));
                 at_record += sums.x != 0u ? 1u : 0u;
                 uint at_own = at_record + team_before(own), step = 0u, steps;
                 at_record += team_add(own);
@@ -602,7 +589,7 @@ void main() {
                     }
                     uint at_bit = fields != 0u ? uint(findLSB(fields)) : 0u;
                     [[unroll]] for (uint q = 0u; q < WORDS; q++) pending[q] = r == q ? pending[q] & (pending[q] - 1u) : pending[q];
-                    sums = uvec3(0u);
+                    sums = uvec2(0u);
                     [[unroll]] for (uint n = 0u; n < OWN_LINES; n++) {
                         uint w = r + n * LINE_WORDS, of_word = 0u;
                         [[unroll]] for (uint q = 0u; q < WORDS; q++) of_word = w == q ? bits[q] : of_word;
@@ -611,11 +598,11 @@ void main() {
                     [[unroll]] for (uint log = 0u; log < LOG_LINES; log++) {
                         uint span = 1u << log, apart = span * HALVES / WORDS;
                         if (span >= OWN_LINES && span < LINES) {
-                            uvec3 others = of_partner(sums, apart);
-                            sums += grid.lines > span ? others : uvec3(0u);
+                            uvec2 others = of_partner(sums, apart);
+                            sums += grid.lines > span ? others : uvec2(0u);
                         }
                     }
-                    if (writes && fields != 0u) records_out[at_own + step] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
+                    if (writes && fields != 0u) records_out[at_own + step] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(count_of(sums)) * weight));
                 } while (++step < steps);
             } while (several != 0u);
         }

@@ -213,7 +213,7 @@ void main() {
         if (work.y >= counters[COUNTER_UNLISTED_TILES]) return;
         number = work.x;
         uint entry = tile_lists[first_entry(TILE_LIST_UNLISTED) + work.y], item = entry_item(entry);
-        uvec4 group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(item, 0u, TEAM, entry_part(entry) * TEAM);
+        uvec4 group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(item, 0u, CELLS_OF_ENTRY, entry_part(entry) * CELLS_OF_ENTRY);
         tile = group.x;
         if ((tiles[tile].w & TILE_OVERFLOW) == 0u) return;
         to = min(min(from + some, group.z) + group.w, cells_of_tile(tile));

@@ -3,7 +3,7 @@
 // Reads: loads of stretches (see load.glsl), tiles, masks. Writes: loads of the round's stretches, arguments of the round,
 // counters.
 // LOCATIONS: `groups` then lists groups of cells instead of tiles.
-// One team takes all tiles in their order, so that the content of a round is the same in every run. A member takes a
+// One team takes all tiles in their order, the largest that the device has, so that the content of a round is the same in every run. A member takes a
 // stretch or, of a stretch that does not fit as a whole, a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,7 +15,7 @@ layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 // The sum of needs over the members up to and including this one.
 uvec4 sums_up_to(uvec4 needs) {
     uint lane = member();
-    [[unroll]] for (uint log = 0u; log < 3u; log++) {
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) {
         uint apart = 1u << log;
         if (apart < TEAM) {
             uvec4 before = of_member(needs, (lane - apart) & (TEAM - 1u));

@@ -22,7 +22,7 @@ void main() {
         entries += exists ? load.entries : uvec4(0u);
         i += TEAM;
     } while (i < STRETCH);
-    [[unroll]] for (uint log = 0u; log < 3u; log++)
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++)
         if (1u << log < TEAM) needs = add(needs, of_partner(needs, 1u << log));
     entries = team_add(entries);
     if (member() == 0u) keep_load(stretch, Load(needs, entries));

@@ -130,6 +130,7 @@
 #define CONSTANT_OCCLUDERS 22
 #define CONSTANT_INSTANCED 23
 #define CONSTANT_TEAMS 24
+#define CONSTANT_CELLS_OF_ENTRY 26
 #define CONSTANT_SHADOW_WORDS 25
 #define CONSTANT_TONEMAP 30
 #define CONSTANT_TONEMAP_CODES 31
@@ -387,9 +388,6 @@
 
 // Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u
-
-// Workgroups of `bin` that share a large triangle.
-#define BIN_WORKGROUPS 8u
 
 // Triangles that an invocation of the first dispatch of `thin` takes.
 #define THIN_PER_INVOCATION 8u

@@ -56,18 +56,22 @@ uvec2 sums_of_bits(uint bits) {
     return uvec2(bytes * 0x01010101u >> 24, (bytes * 0x00010203u >> 23 & ~1u) + (upper * 0x01010101u >> 24));
 }
 
-// The same for word `own` of this member, with bits numbered from the beginning of their line; and the sum of the numbers of
-// the bits' lines.
-uvec3 sums_of_word(uint own, uint bits) {
+// The same for word `own` of this member, with bits numbered from the beginning of their line; and, above the number of bits, the sum
+// of the numbers of their lines.
+const uint COUNT_BITS = 13u;        // 4,096 samples on lines that are numbered up to 63 fit into a word with their number
+
+uvec2 sums_of_word(uint own, uint bits) {
     uvec2 s = sums_of_bits(bits);
-    return uvec3(s.x, s.y + s.x * half_of(own) * 8u, s.x * line_of(own));
+    return uvec2(s.x | s.x * line_of(own) << COUNT_BITS, s.y + s.x * half_of(own) * 8u);
 }
 
+uint count_of(uvec2 sums) { return sums.x & (1u << COUNT_BITS) - 1u; }
+
 // The place in the middle of some samples, from the sums over their bits.
-uint place_of_bits(uvec3 sums, bool columns, bool wide) {
-    float count = float(max(sums.x, 1u)), each = 1.0 / count;
+uint place_of_bits(uvec2 sums, bool columns, bool wide) {
+    float count = float(max(count_of(sums), 1u)), each = 1.0 / count;
     float u = (float(sums.y) * each + 0.5) * (4.0 / float(BITS)) - 0.5;
-    float v = (float(sums.z) * each + 0.5) * (1.0 / float(LINES)) - 0.5;
+    float v = (float(sums.x >> COUNT_BITS) * each + 0.5) * (1.0 / float(LINES)) - 0.5;
     return pack_place(columns ? vec2(v, u) : vec2(u, v), count * (1.0 / float(ALL_BITS)), wide);
 }
 

@@ -75,7 +75,7 @@ Load load_of(uint index, uvec4 tile) {
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
-    uint entries = (cells + TEAM - 1u) / TEAM;
+    uint entries = (cells + CELLS_OF_ENTRY - 1u) / CELLS_OF_ENTRY;
     // The number of layers is not known yet: room is reserved for half of `push.layers` vectors a sample.
     uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;

@@ -29,7 +29,7 @@ float nearest_from(Key k) { return uintBitsToFloat(k.depth | LOW) * 1.000002; }
 // becomes reversed; a run of all keys becomes `reversed` if so asked.
 void merge_runs(inout Key k, uint size, bool reversed) {
     uint lane = member();
-    [[unroll]] for (uint log = 0u; log < 3u; log++) {
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) {
         uint step = size >> (log + 1u);
         if (step > 0u) {
             Key other = Key(of_partner(k.depth, step), of_partner(k.id, step));
@@ -48,6 +48,8 @@ void sort_keys(inout Key k, uint from, bool reversed) {
     if (from <= 2u) merge_runs(k, 2u, reversed);
     if (from <= 4u) merge_runs(k, 4u, reversed);
     if (from <= 8u && TEAM >= 8u) merge_runs(k, 8u, reversed);
+    if (from <= 16u && TEAM >= 16u) merge_runs(k, 16u, reversed);
+    if (from <= 32u && TEAM >= 32u) merge_runs(k, 32u, reversed);
 }
 
 // Merges keys that are in order with `others` that are in reversed order. Afterwards `first` has the keys that come first, and

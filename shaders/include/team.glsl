@@ -9,8 +9,10 @@
 #include "interface.glsl"
 #include "workgroup.glsl"
 
-layout(constant_id = CONSTANT_TEAM) const uint TEAM = 8u;            // 4 or 8
+layout(constant_id = CONSTANT_TEAM) const uint TEAM = 8u;            // 4 to 32, a power of two
 layout(constant_id = CONSTANT_TEAMS) const uint TEAMS = 1u;          // teams of a workgroup
+
+const uint LOG_TEAM = 5u;                                               // binary logarithm of the largest team
 
 // The number of this invocation in its team.
 uint member() { return TEAMS == 1u ? gl_SubgroupInvocationID : gl_SubgroupInvocationID & (TEAM - 1u); }
@@ -41,52 +43,45 @@ uint of_partner(uint v, uint mask) { return subgroupShuffleXor(v, mask); }
 float of_partner(float v, uint mask) { return subgroupShuffleXor(v, mask); }
 vec3 of_partner(vec3 v, uint mask) { return vec3(of_partner(v.x, mask), of_partner(v.y, mask), of_partner(v.z, mask)); }
 uvec4 of_partner(uvec4 v, uint mask) { return uvec4(of_partner(v.x, mask), of_partner(v.y, mask), of_partner(v.z, mask), of_partner(v.w, mask)); }
-uvec3 of_partner(uvec3 v, uint mask) { return uvec3(of_partner(v.x, mask), of_partner(v.y, mask), of_partner(v.z, mask)); }
+uvec2 of_partner(uvec2 v, uint mask) { return uvec2(of_partner(v.x, mask), of_partner(v.y, mask)); }
 
 // Sums and the like over all members.
 uint team_add(uint v) {
-    v += of_partner(v, 1u);
-    v += of_partner(v, 2u);
-    return TEAM < 8u ? v : v + of_partner(v, 4u);
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v += of_partner(v, 1u << log);
+    return v;
 }
 
 float team_add(float v) {
-    v += of_partner(v, 1u);
-    v += of_partner(v, 2u);
-    return TEAM < 8u ? v : v + of_partner(v, 4u);
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v += of_partner(v, 1u << log);
+    return v;
 }
 
-uvec3 team_add(uvec3 v) { return uvec3(team_add(v.x), team_add(v.y), team_add(v.z)); }
-uvec4 team_add(uvec4 v) { return uvec4(team_add(v.x), team_add(v.y), team_add(v.z), team_add(v.w)); }
+uvec2 team_add(uvec2 v) { return uvec2(team_add(v.x), team_add(v.y)); }
+uvec4 team_add(uvec4 v) { return uvec4(team_add(v.xy), team_add(v.zw)); }
 
 uint team_min(uint v) {
-    v = min(v, of_partner(v, 1u));
-    v = min(v, of_partner(v, 2u));
-    return TEAM < 8u ? v : min(v, of_partner(v, 4u));
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v = min(v, of_partner(v, 1u << log));
+    return v;
 }
 
 float team_min(float v) {
-    v = min(v, of_partner(v, 1u));
-    v = min(v, of_partner(v, 2u));
-    return TEAM < 8u ? v : min(v, of_partner(v, 4u));
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v = min(v, of_partner(v, 1u << log));
+    return v;
 }
 
 uint team_max(uint v) {
-    v = max(v, of_partner(v, 1u));
-    v = max(v, of_partner(v, 2u));
-    return TEAM < 8u ? v : max(v, of_partner(v, 4u));
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v = max(v, of_partner(v, 1u << log));
+    return v;
 }
 
 float team_max(float v) {
-    v = max(v, of_partner(v, 1u));
-    v = max(v, of_partner(v, 2u));
-    return TEAM < 8u ? v : max(v, of_partner(v, 4u));
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v = max(v, of_partner(v, 1u << log));
+    return v;
 }
 
 uint team_or(uint v) {
-    v |= of_partner(v, 1u);
-    v |= of_partner(v, 2u);
-    return TEAM < 8u ? v : v | of_partner(v, 4u);
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) if (1u << log < TEAM) v |= of_partner(v, 1u << log);
+    return v;
 }
 
 bool team_any(bool v) { return team_or(v ? 1u : 0u) != 0u; }
@@ -100,7 +95,7 @@ uint bits_before(uint bits) { return uint(bitCount(bits & ((1u << member()) - 1u
 // The sum over the members before this one.
 uint team_before(uint v) {
     uint lane = member(), sum = v;
-    [[unroll]] for (uint log = 0u; log < 3u; log++) {
+    [[unroll]] for (uint log = 0u; log < LOG_TEAM; log++) {
         uint step_ = 1u << log;
         if (step_ < TEAM) {
             uint below = of_member(sum, max(lane, step_) - step_);

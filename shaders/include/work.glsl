@@ -1,6 +1,6 @@
 // The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind, of
 // the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
-// a part of its cells: as many cells as a team has members. Pixels that are not superpixels cause no work.
+// a part of its cells: CELLS_OF_ENTRY of them. Pixels that are not superpixels cause no work.
 #ifndef WORK_GLSL
 #define WORK_GLSL
 #include "team.glsl"
@@ -8,7 +8,8 @@
 #include "workarounds.glsl"
 
 const uint LEFT = TILE_LISTS;       // added to the number of a kind's list: the list of the cells that are left
-const uint PARTS_OF_TILE = 32u / TEAM;
+layout(constant_id = CONSTANT_CELLS_OF_ENTRY) const uint CELLS_OF_ENTRY = 8u;    // as many as the smallest team has members
+const uint PARTS_OF_TILE = 32u / CELLS_OF_ENTRY;
 
 // The place of a list's first entry.
 uint first_entry(uint list) {
@@ -46,8 +47,8 @@ uint bit_of_cell(uint word, uint cell) {
 // its entries one after the other. Only one member of a team calls this.
 void leave_cells(uint list, uint item, uint cells) {
     uint more = uint(bitCount(cells)), before = uint(bitCount(atomicOr(marks[item], cells)));
-    uint part = (before + TEAM - 1u) / TEAM;
-    if (part * TEAM < before + more)
+    uint part = (before + CELLS_OF_ENTRY - 1u) / CELLS_OF_ENTRY;
+    if (part * CELLS_OF_ENTRY < before + more)
         tile_lists[first_entry(list + LEFT) + atomicAdd(counters[COUNTER_PLAIN_LEFT + list], 1u)] = work_entry(item, part);
 }
 

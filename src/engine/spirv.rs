@@ -955,6 +955,7 @@ pub struct Enlist {
     pub team: u32,
     pub locations: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Enlist {
@@ -964,6 +965,7 @@ impl Default for Enlist {
             team: 8,
             locations: false,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -993,6 +995,7 @@ impl Specialized for Enlist {
             .with(1, self.team)
             .flag(20, self.locations)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -1124,19 +1127,19 @@ pub const GPC_SHADER_VERSION: (u32, u32) = (2046, 1);
 /// Constants of `shaders/groups.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Groups {
-    pub team: u32,
     pub locations: bool,
     pub points: bool,
     pub occluders: bool,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Groups {
     fn default() -> Self {
         Self {
-            team: 8,
             locations: false,
             points: false,
             occluders: false,
+            cells_of_entry: 8,
         }
     }
 }
@@ -1161,10 +1164,10 @@ impl Specialized for Groups {
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.team)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(22, self.occluders)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -1220,15 +1223,15 @@ impl Compiled for Grow {
 /// Constants of `shaders/multisample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Multisample {
-    pub team: u32,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Multisample {
     fn default() -> Self {
         Self {
-            team: 8,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -1257,8 +1260,8 @@ impl Specialized for Multisample {
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.team)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -1839,6 +1842,7 @@ pub struct Resolve {
     pub encoded: bool,
     pub locations: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
     pub tonemap: bool,
     pub tonemap_codes: bool,
 }
@@ -1857,6 +1861,7 @@ impl Default for Resolve {
             encoded: false,
             locations: false,
             teams: 1,
+            cells_of_entry: 8,
             tonemap: true,
             tonemap_codes: true,
         }
@@ -1905,6 +1910,7 @@ impl Specialized for Resolve {
             .flag(18, self.encoded)
             .flag(20, self.locations)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
             .flag(30, self.tonemap)
             .flag(31, self.tonemap_codes)
     }
@@ -1928,6 +1934,7 @@ pub struct Sample {
     pub occluders: bool,
     pub instanced: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Sample {
@@ -1948,6 +1955,7 @@ impl Default for Sample {
             occluders: false,
             instanced: false,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -2006,6 +2014,7 @@ impl Specialized for Sample {
             .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -2025,6 +2034,7 @@ pub struct SampleLines {
     pub occluders: bool,
     pub instanced: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for SampleLines {
@@ -2043,6 +2053,7 @@ impl Default for SampleLines {
             occluders: false,
             instanced: false,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -2097,6 +2108,7 @@ impl Specialized for SampleLines {
             .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -2117,23 +2129,23 @@ pub struct ScatterPush {
 /// Constants of `shaders/scatter.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scatter {
-    pub team: u32,
     pub has_mask: bool,
     pub locations: bool,
     pub points: bool,
     pub occluders: bool,
     pub instanced: bool,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Scatter {
     fn default() -> Self {
         Self {
-            team: 8,
             has_mask: false,
             locations: false,
             points: false,
             occluders: false,
             instanced: false,
+            cells_of_entry: 8,
         }
     }
 }
@@ -2174,12 +2186,12 @@ impl Specialized for Scatter {
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .with(1, self.team)
             .flag(2, self.has_mask)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(22, self.occluders)
             .flag(23, self.instanced)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -2200,6 +2212,7 @@ pub struct Schedule {
     pub locations: bool,
     pub points: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Schedule {
@@ -2210,6 +2223,7 @@ impl Default for Schedule {
             locations: false,
             points: false,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -2240,6 +2254,7 @@ impl Specialized for Schedule {
             .flag(20, self.locations)
             .flag(21, self.points)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 
@@ -2828,6 +2843,7 @@ pub struct Tally {
     pub locations: bool,
     pub points: bool,
     pub teams: u32,
+    pub cells_of_entry: u32,
 }
 
 impl Default for Tally {
@@ -2838,6 +2854,7 @@ impl Default for Tally {
             locations: false,
             points: false,
             teams: 1,
+            cells_of_entry: 8,
         }
     }
 }
@@ -2866,6 +2883,7 @@ impl Specialized for Tally {
             .flag(20, self.locations)
             .flag(21, self.points)
             .with(24, self.teams)
+            .with(26, self.cells_of_entry)
     }
 }
 

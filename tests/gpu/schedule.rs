@@ -157,7 +157,7 @@ impl<'a> Passes<'a> {
             always_blends: false,
         };
         let limits = gpu.gpu().limits();
-        let blocks = SampleBlocks::new(limits.teams.members, options);
+        let blocks = SampleBlocks::new(limits.teams, options);
         let load = Load::new(limits, blocks, LAYERS);
         let passes = load_passes(&bare.layout, options.cells, &load).unwrap();
         let uniform = FrameUniform {

@@ -15,7 +15,7 @@ use crate::vulkan::{Specialized, VulkanError};
 pub(crate) fn pass(layout: &FrameLayout, blocks: &SampleBlocks) -> Result<Pass, VulkanError> {
     let cells = blocks.options.cells;
     let groups = layout.kernel(&spirv::Groups {
-        team: layout.gpu.limits().teams.members,
+        cells_of_entry: layout.gpu.limits().teams.members,
         locations: cells.are_locations(),
         points: cells.are_points(),
         occluders: cells.are_occluders(),

@@ -86,6 +86,7 @@ fn of_list(
         local_size: teams.workgroup(),
         team: teams.members,
         teams: teams.in_workgroup,
+        cells_of_entry: teams.members,
         block,
         layered: false,
         list: list as u32,

@@ -5,7 +5,7 @@ use super::{sample_lines, scatter};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
 use crate::engine::spirv;
-use crate::vulkan::{Specialized, VulkanError};
+use crate::vulkan::{Specialized, Teams, VulkanError};
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,9 +196,10 @@ const BLOCKS_AT_ONCE: u32 = 4;
 const BLOCK: u32 = 64;
 
 impl SampleBlocks {
-    /// Blocks of kernels whose teams have `members` invocations.
+    /// Blocks of kernels that work by these teams.
     #[must_use]
-    pub fn new(members: u32, options: SampleOptions) -> Self {
+    pub fn new(teams: Teams, options: SampleOptions) -> Self {
+        let members = teams.members;
         let rows = options.samples.min(BLOCK).div_ceil(members);
         let block = members * Variant::of(TileList::Plain, false, rows).rows;
         let one_cell = options.takes_one_cell();
@@ -212,8 +213,10 @@ impl SampleBlocks {
         };
         let [left, unlisted] =
             [one_cell, true].map(|one_cell| taking(blocks_of(options.samples), one_cell));
-        let first = if options.by_lines() {
-            taking(1, one_cell)
+        let first = if options.by_lines() && one_cell {
+            members * options.teams_of_cell(teams)
+        } else if options.by_lines() {
+            1
         } else {
             left
         };
@@ -256,6 +259,7 @@ impl SampleBlocks {
             local_size: teams.workgroup(),
             team: teams.members,
             teams: teams.in_workgroup,
+            cells_of_entry: teams.members,
             per_sample: options.records == RecordRate::Sample,
             has_mask: masked,
             list: list as u32,

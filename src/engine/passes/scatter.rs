@@ -18,7 +18,7 @@ pub(crate) fn pass(
     options: &SampleOptions,
 ) -> Result<Pass, VulkanError> {
     let scatter = layout.kernel(&spirv::Scatter {
-        team: layout.gpu.limits().teams.members,
+        cells_of_entry: layout.gpu.limits().teams.members,
         has_mask: options.has_mask,
         locations: options.cells.are_locations(),
         points: options.cells.are_points(),

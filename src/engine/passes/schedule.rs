@@ -16,11 +16,14 @@ pub(crate) fn pass(
     cells: Cells,
     load: spirv::SchedulePush,
 ) -> Result<Pass, VulkanError> {
-    let teams = layout.gpu.limits().teams;
+    // A single team works, so the largest one is the fastest.
+    let all = layout.gpu.limits().teams;
+    let teams = all.larger(32);
     let schedule = layout.kernel(&spirv::Schedule {
-        local_size: teams.workgroup(),
+        local_size: all.workgroup(),
         team: teams.members,
-        teams: teams.in_workgroup,
+        teams: all.in_workgroup,
+        cells_of_entry: all.members,
         locations: cells.are_locations(),
         points: cells.are_points(),
     })?;

@@ -20,6 +20,7 @@ pub(crate) fn pass(
         local_size: teams.workgroup(),
         team: teams.members,
         teams: teams.in_workgroup,
+        cells_of_entry: teams.members,
         locations: cells.are_locations(),
         points: cells.are_points(),
     })?;

@@ -173,7 +173,7 @@ impl Sampler {
         } = *context;
         let cells = options.cells;
         let limits = layout.gpu.limits();
-        let blocks = SampleBlocks::new(limits.teams.members, *options);
+        let blocks = SampleBlocks::new(limits.teams, *options);
         let load = Load::new(limits, blocks, capacity.layers);
         // Drivers take longest to compile the kernels of `sample`, so these have their own thread.
         let (sample, others) = std::thread::scope(|scope| {

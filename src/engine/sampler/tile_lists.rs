@@ -56,7 +56,7 @@ impl TileLists {
         let (layout, scene) = (context.layout, context.scene);
         let limits = layout.gpu.limits();
         let options = context.sample_options(Cells::Occluders, 1);
-        let blocks = SampleBlocks::new(limits.teams.members, options);
+        let blocks = SampleBlocks::new(limits.teams, options);
         let load = Load::new(limits, blocks, context.capacity.layers);
         Ok(Self([
             cull::pass(layout, scene, CullFilter::Touching)?,

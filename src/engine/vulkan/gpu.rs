@@ -372,6 +372,19 @@ impl Teams {
         }
     }
 
+    /// The largest teams of at most `most` invocations that fit into subgroups of a known size.
+    pub(crate) fn larger(self, most: u32) -> Self {
+        let members = self
+            .preferred_subgroup
+            .map_or(self.members, |subgroup| subgroup.min(most))
+            .max(self.members);
+        Self {
+            members,
+            in_workgroup: (self.workgroup() / members).max(1),
+            ..self
+        }
+    }
+
     /// Number of invocations of a workgroup.
     pub(crate) fn workgroup(self) -> u32 {
         self.members * self.in_workgroup

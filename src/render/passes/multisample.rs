@@ -11,8 +11,8 @@ use crate::vulkan::{Specialized, VulkanError};
 pub(crate) fn pass(layout: &FrameLayout) -> Result<Pass, VulkanError> {
     let teams = layout.gpu.limits().teams;
     let multisample = layout.kernel(&spirv::Multisample {
-        team: teams.members,
         teams: teams.in_workgroup,
+        cells_of_entry: teams.members,
     })?;
     let dispatch = multisample.dispatch((), Size::Items(1));
     Ok(Pass::named(spirv::Multisample::INTERFACE).dispatch(dispatch))
