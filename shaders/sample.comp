@@ -185,6 +185,7 @@ void main() {
             }
             if (LOCATIONS) cell_id = cell.location;
             uint number = location_group.w + uint(bitCount(cells_word & ((1u << bit) - 1u)));
+            left_over = false;
 #ifdef UNLISTED
             see_owners(cell, owner_of(cell.first, number, block * BLOCK));
 #else
@@ -192,7 +193,7 @@ void main() {
             uint listed = subgroupShuffle(my_count, cell.member);
             cell.complete = listed <= KEPT;
             bool out_of_trips = trips > MOST_TRIPS;
-            if (out_of_trips && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], 1u);
+            if (out_of_trips) leave_block(COUNTER_STALLED);
             cell.entries = out_of_trips ? 0u : cell.complete ? listed : count;
 
             begin_cell(cell);
@@ -213,7 +214,7 @@ void main() {
                 unsettled |= settled ? 0u : 1u << bit;
             }
 #endif
-            my_header = lane == cell.member ? records_made : my_header;
+            my_header = lane == cell.member ? left_over ? uvec2(0u, LEFT_BLOCK) : records_made : my_header;
         } while (++cell.member < group);
         uint number = location_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
         if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;

@@ -2,13 +2,22 @@
 #ifndef RECORDS_GLSL
 #define RECORDS_GLSL
 
+// Whether a block of the present cell lacked room or iterations. Its cell then keeps the colour that it had.
+bool left_over = false;
+
+// Counts a block that is left, once for the whole subgroup.
+void leave_block(uint counter) {
+    if (subgroupElect()) atomicAdd(counters[counter], 1u);
+    left_over = true;
+}
+
 // Allocates records, once for the whole subgroup. Returns the first one, and whether they fit.
 uint allocate_records(uint count, out bool fits) {
     uint base = 0u;
     if (subgroupElect() && count != 0u) base = atomicAdd(counters[COUNTER_RECORDS], count);
     base = subgroupBroadcastFirst(base);
     fits = base + count <= frame.record_capacity;
-    if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+    if (!fits) leave_block(COUNTER_UNFINISHED);
     return base;
 }
 
