@@ -158,7 +158,7 @@ impl Plan {
                 Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
-            let needed = plan.shrink(scene, image, taken);
+            let needed = plan.shrink(scene, image, allowed, taken);
             let fits = pixels <= most
                 && plan.sizes.largest_storage() <= limits.max_storage_bytes
                 && plan.sizes.largest_texels() <= limits.max_texel_elements;
@@ -177,7 +177,8 @@ impl Plan {
         }
     }
 
-    /// Plans an image in one region, whatever its size.
+    /// Plans an image in one region, whatever its size. Without a limit for memory, the policy's usual one decides how large
+    /// rounds are.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
@@ -189,7 +190,11 @@ impl Plan {
         taken: u64,
     ) -> Result<Self, EngineError> {
         let mut plan = Self::with_region(image, scene, limits, 0, capacity, image.size)?;
-        let needed = plan.shrink(scene, image, &|_| taken);
+        // No triangle is left out, because the image may be on the screen before anyone asks.
+        plan.sizes.survivor_capacity = scene.triangle_slots();
+        let usual = || RoundPolicy::of(limits).usual_memory(capacity);
+        let wanted = image.max_memory.or_else(usual);
+        let needed = plan.shrink(scene, image, wanted, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
         match image.max_memory {
             Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
@@ -198,19 +203,18 @@ impl Plan {
     }
 
     /// Reduces the room for visibility samples, which makes more rounds, until the plan and all other users fit into
-    /// the allowed memory, if possible. Returns the number of bytes.
+    /// `wanted` bytes, if possible. Returns the number of bytes.
     fn shrink(
         &mut self,
         scene: &dyn Content,
         image: &ImageRequest<'_>,
+        wanted: Option<u64>,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> u64 {
         let all = |plan: &Self| plan.bytes(scene, image) + taken(&plan.sizes);
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
-        while image.max_memory.is_some_and(|allowed| needed > allowed)
-            && self.sizes.record_capacity > 1 << 16
-        {
+        while wanted.is_some_and(|wanted| needed > wanted) && self.sizes.record_capacity > 1 << 16 {
             self.sizes.record_capacity /= 2;
             self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(FEWEST_CANDIDATES);
             needed = all(self);
