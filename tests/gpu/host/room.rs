@@ -114,7 +114,6 @@ fn drawn(size: [u32; 2]) -> Drawn {
 fn crowded(size: [u32; 2]) -> Options {
     Options::new(size[0], size[1])
         .detection(Detection::Every)
-        .samples(256)
         .shading(Shading::Sample)
         .thin(false)
         .flat_background(true)
@@ -129,16 +128,17 @@ fn has_room_later(gpu: &mut Headless) {
     let machine = Machine::new(gpu, &world);
     let lent = world.lent(&PLACED);
     let drawn = drawn(SIZE);
-    let see = |options: Options| {
+    let see = |options: Options, times| {
         let base = Base::Colors(&drawn);
-        machine.see_again(&PLACED, &lent, base, options, 4)
+        machine.see_again(&PLACED, &lent, base, options, times)
     };
-    let growing = see(crowded(SIZE));
+    let growing = see(crowded(SIZE), 4);
     assert!(left(&growing[0]) > 0);
     assert_eq!(left(&growing[3]), 0);
     let whole = &growing[3].colors;
     assert!(whole.iter().all(|color| color[0] < 2.0));
-    for seen in &growing {
+    let fixed = see(crowded(SIZE).fixed_memory(true), 2);
+    for seen in growing.iter().chain(&fixed) {
         // Pixels have all of their samples, or keep what the host has drawn.
         let pixels = seen.colors.iter().zip(whole.iter().zip(&drawn.colors));
         let mut kept = 0;
@@ -157,11 +157,9 @@ fn has_room_later(gpu: &mut Headless) {
             .all(|seen| bytes(seen) == bytes(&growing[last]))
     );
 
-    let fixed = see(crowded(SIZE).fixed_memory(true));
     for seen in &fixed {
-        assert_eq!(left(seen), left(&growing[0]));
+        assert!(left(seen) > 0);
         assert_eq!(bytes(seen), bytes(&growing[0]));
-        assert!(bits(&seen.colors) == bits(&growing[0].colors));
     }
 }
 
@@ -187,15 +185,16 @@ fn the_next_recording_of_a_list_has_more_room() {
             jacobian: [[1.0, 0.0], [0.0, 1.0]],
         };
         let locations: Vec<_> = (0..SIZE[0] * SIZE[1]).map(location).collect();
-        let see = |options| machine.see_list_again(&PLACED, &locations, options, 4);
-        let growing = see(crowded(SIZE));
+        let see = |options, times| machine.see_list_again(&PLACED, &locations, options, times);
+        let growing = see(crowded(SIZE), 4);
         let left = |(_, outcome): &(_, gpc::host::ListOutcome)| outcome.left_over;
         assert!(left(&growing[0]) > 0);
         assert_eq!(left(&growing[3]), 0);
         let whole = &growing[3].0;
         let [r, g, b] = SKY;
         let background = [r, g, b, 1.0];
-        for seen in &growing {
+        let fixed = see(crowded(SIZE).fixed_memory(true), 2);
+        for seen in growing.iter().chain(&fixed) {
             let mut kept = 0;
             for (found, whole) in seen.0.iter().zip(whole) {
                 assert!(found == whole || *found == background, "{found:?}");
@@ -203,8 +202,12 @@ fn the_next_recording_of_a_list_has_more_room() {
             }
             assert_eq!(kept > 0, left(seen) > 0);
         }
-        for seen in see(crowded(SIZE).fixed_memory(true)) {
-            assert_eq!(left(&seen), left(&growing[0]));
+        for seen in &fixed {
+            assert!(left(seen) > 0);
+            assert_eq!(
+                seen.1.statistics.memory_bytes,
+                growing[0].1.statistics.memory_bytes
+            );
         }
     });
 }
@@ -307,6 +310,41 @@ fn the_table_says_what_frames_take() {
                 (known / found - 1.0).abs() < 0.02,
                 "{known} is {found} now; see GPC_ROOM"
             );
+        }
+    }
+}
+
+#[test]
+fn tmp_large() {
+    if std::env::var_os("GPC_TMP").is_none() {
+        return;
+    }
+    let world = World::new();
+    let lent = world.lent(&PLACED);
+    let mut seens = Vec::new();
+    for (size, samples) in [([1920, 1080], 64), ([3840, 2160], 64)] {
+        for local in [8_u64] {
+            within(gpu_of(local << 30), |gpu| {
+                let machine = Machine::new(gpu, &world);
+                let options = Options::new(size[0], size[1])
+                    .detection(Detection::Every)
+                    .samples(samples);
+                let before = std::time::Instant::now();
+                let seen = machine.see_lent(&PLACED, &lent, Base::Nothing, options);
+                let s = &seen.outcome.statistics;
+                eprintln!(
+                    "{size:?} {samples} samples, {local} GiB: {:?}, left {}, superpixels {}, rounds {} of {}, {} bytes, {} records, gpu {} ms",
+                    before.elapsed(),
+                    seen.outcome.left_over,
+                    s.superpixels,
+                    s.rounds,
+                    seen.rounds,
+                    s.memory_bytes,
+                    s.records,
+                    s.gpu_ms()
+                );
+                seens.push(seen.outcome.left_over);
+            });
         }
     }
 }
