@@ -70,3 +70,24 @@ fn is_refusal(error: &HostError) -> bool {
         )
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A frame goes on with the memory that it has if there is no more, and does not ask for the same again.
+    #[test]
+    fn a_refusal_is_remembered() {
+        let mut growth = Growth::default();
+        let more = Capacity::default().with_lists(4);
+        let refused = |error: VulkanError| Err::<(), _>(HostError::from(error));
+        let full = VulkanError::OutOfMemory {
+            what: "candidates".to_owned(),
+            bytes: 1 << 40,
+        };
+        assert!(matches!(growth.made(more, refused(full)), Ok(None)));
+        assert_eq!(growth.refused, Some(more));
+        assert!(growth.made(more, refused(VulkanError::DeviceLost)).is_err());
+        assert!(matches!(growth.made(more, Ok(7)), Ok(Some(7))));
+    }
+}
