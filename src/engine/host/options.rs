@@ -49,8 +49,8 @@ pub struct Options {
     /// Whether the host's shading computes the colours of all pixels, so that the colour image may have any contents
     /// before. Otherwise only superpixels are shaded, and drawn over the image's contents.
     pub shade_all: bool,
-    /// Largest number of bytes of device memory for a frame. With `None`, a frame takes at most 1 GiB on GPUs with memory
-    /// of their own if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
+    /// Largest number of bytes of device memory for a frame. With `None`, a first frame takes at most 960 MiB besides its
+    /// triangles on GPUs with memory of their own, if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
     pub max_memory: Option<u64>,
     /// Whether the memory of a frame stays as it is. Otherwise [`Frame::record`](super::Frame::record) makes more if the last
     /// recording was left unfinished.

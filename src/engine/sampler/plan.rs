@@ -192,7 +192,7 @@ impl Plan {
         let mut plan = Self::with_region(image, scene, limits, 0, capacity, image.size)?;
         // No triangle is left out, because the image may be on the screen before anyone asks.
         plan.sizes.survivor_capacity = scene.triangle_slots();
-        let usual = || RoundPolicy::of(limits).usual_memory(capacity);
+        let usual = || Some(RoundPolicy::of(limits).usual_memory(capacity)? + taken);
         let wanted = image.max_memory.or_else(usual);
         let needed = plan.shrink(scene, image, wanted, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;

@@ -20,8 +20,9 @@ pub(crate) enum RoundPolicy {
 const PLENTY: u64 = 2 << 30;
 /// Divisor of the local memory: a round's visibility samples may take this part of it.
 const PART: u64 = 32;
-/// Number of bytes that a host's frame may take if nothing else is known.
-const USUAL_MEMORY: u64 = 1 << 30;
+/// Number of bytes that a host's frame may take besides its triangles if nothing else is known: 1 GiB less 64 MiB for a million
+/// triangles.
+const USUAL_MEMORY: u64 = 960 << 20;
 /// Number of bytes of a visibility sample in all buffers of a round.
 const RECORD_BYTES: u64 = 44;
 
@@ -36,8 +37,8 @@ impl RoundPolicy {
         }
     }
 
-    /// Number of bytes that a host's frame may take with this capacity, if the host names no other limit; `None` for no
-    /// limit.
+    /// Number of bytes that a host's frame may take with this capacity besides its triangles, if the host names no other limit;
+    /// `None` for no limit.
     pub fn usual_memory(self, capacity: Capacity) -> Option<u64> {
         match self {
             Self::Small => None,
