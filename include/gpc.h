@@ -673,8 +673,8 @@ typedef struct GpcOptions {
     // Offsets of the samples from the pixel's centre in pixels, with GPC_PATTERN_LIST; otherwise ignored. x points to
     // the right and y down, each at least -0.5 and below 0.5. Read during the call only.
     const float (*locations)[2];
-    // Largest number of bytes of device memory for a frame. With 0, a frame takes at most 1 GiB on GPUs with memory of
-    // their own if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
+    // Largest number of bytes of device memory for a frame. With 0, a first frame takes at most 960 MiB besides its
+    // triangles on GPUs with memory of their own, if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
     uint64_t max_memory;
     // Number of growths, with GPC_DETECTION_CONTRAST: 0 to 8, or GPC_GROWTHS_OF_SAMPLES. In each growth, pixels that
     // contrast with a neighbouring superpixel become superpixels too.
