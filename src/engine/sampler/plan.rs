@@ -342,3 +342,107 @@ impl Plan {
         self.sizes.bytes() + images
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::sampler::SuperpixelOptions;
+    use ash::vk;
+
+    /// A million triangles.
+    struct Triangles;
+
+    impl Content for Triangles {
+        fn triangle_slots(&self) -> u32 {
+            1_000_000
+        }
+
+        fn is_instanced(&self) -> bool {
+            false
+        }
+
+        fn has_mask(&self) -> bool {
+            false
+        }
+
+        fn has_blend(&self) -> bool {
+            false
+        }
+
+        fn has_high_frequency(&self) -> bool {
+            true
+        }
+
+        fn is_mostly_high_frequency(&self) -> bool {
+            false
+        }
+
+        fn is_tinted(&self) -> bool {
+            false
+        }
+
+        fn bin_count(&self) -> u32 {
+            2
+        }
+    }
+
+    /// Limits of a GPU with `local_bytes` bytes of its own.
+    fn gpu(local_bytes: u64) -> Limits {
+        Limits {
+            device_name: String::new(),
+            driver: String::new(),
+            device_type: vk::PhysicalDeviceType::DISCRETE_GPU,
+            local_bytes,
+            lanes: 32,
+            subgroup_size: 32,
+            can_require_subgroup_size: true,
+            max_image_side: 1 << 15,
+            snap: 0.0,
+            max_texel_elements: 1 << 27,
+            buffer_alignment: 16,
+            max_storage_bytes: u64::from(u32::MAX),
+            timestamp_period: 1.0,
+            max_submitted_samples: 1 << 27,
+            sample_counts: vk::SampleCountFlags::TYPE_1,
+            conditional_rendering: true,
+            max_unused_pipelines: 64,
+        }
+    }
+
+    /// A host's frame takes at most 960 MiB on a GPU of any size if the host names no bound, and as much as one that it names.
+    #[test]
+    fn a_hosts_frame_has_a_usual_bound_on_gpus() {
+        for size in [[640, 360], [1920, 1080], [3840, 2160]] {
+            for samples in [64, 256, 1024] {
+                let method = Method::from(SuperpixelOptions::new(samples));
+                let taken = |local: u64, max_memory| {
+                    let image = ImageRequest {
+                        size,
+                        region: None,
+                        method: &method,
+                        attributes: false,
+                        max_memory,
+                    };
+                    let limits = gpu(local << 30);
+                    let plan = Plan::whole(&image, &Triangles, &limits, Capacity::default(), 0);
+                    let plan = plan.unwrap();
+                    (plan.bytes(&Triangles, &image), plan.sizes.record_capacity)
+                };
+                for local in [2, 8, 24, 141] {
+                    let (bytes, records) = taken(local, None);
+                    assert!(bytes <= 960 << 20, "{size:?}, {samples}, {local}: {bytes}");
+                    assert!(
+                        records >= 1 << 20,
+                        "{size:?}, {samples}, {local}: {records}"
+                    );
+                }
+                let (bytes, records) = taken(141, Some(4 << 30));
+                assert!(bytes <= 4 << 30, "{bytes}");
+                assert!(records >= taken(141, None).1, "{records}");
+                if size[0] > 1920 {
+                    assert!(bytes > 1 << 30, "{bytes}");
+                }
+            }
+        }
+    }
+}
