@@ -444,7 +444,8 @@ typedef struct GpcOutcome {
     const void *next;
     // Number of rounds that had work.
     uint32_t rounds;
-    // Number of superpixels and tiles for which memory did not suffice. gpc_frame_grow makes a frame with more memory.
+    // Number of superpixels and tiles for which memory or GpcOptions.max_rounds did not suffice; these keep the colours that
+    // they had. The frame's next recording has more memory, unless GpcOptions.fixed_memory is set.
     uint64_t left_over;
     // Number of superpixels.
     uint64_t superpixels;
@@ -664,22 +665,23 @@ typedef struct GpcOptions {
     // Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
     // Superpixels that these rounds leave keep their drawn colours and are counted as left over.
     //
-    // 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
-    // without work take next to no time on devices with GpcDevice.conditional_rendering. On others each takes a little, and
-    // the time of the callback's commands.
+    // 0 allows as many rounds as any image may need. Rounds without work take next to no time on devices with
+    // GpcDevice.conditional_rendering. On others each takes a little, and the time of the callback's commands.
     uint32_t max_rounds;
     // Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     uint32_t location_count;
     // Offsets of the samples from the pixel's centre in pixels, with GPC_PATTERN_LIST; otherwise ignored. x points to
     // the right and y down, each at least -0.5 and below 0.5. Read during the call only.
     const float (*locations)[2];
-    // Largest number of bytes of device memory for a frame; 0 for no limit.
+    // Largest number of bytes of device memory for a frame. With 0, a first frame takes at most 960 MiB besides its
+    // triangles on GPUs with memory of their own, if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
     uint64_t max_memory;
     // Number of growths, with GPC_DETECTION_CONTRAST: 0 to 8, or GPC_GROWTHS_OF_SAMPLES. In each growth, pixels that
     // contrast with a neighbouring superpixel become superpixels too.
     uint32_t growths;
-    // 0.
-    uint32_t reserved;
+    // VK_TRUE if the memory of a frame or list stays as it is; VK_FALSE if gpc_frame_record and gpc_list_record make
+    // more after a recording that was left unfinished.
+    VkBool32 fixed_memory;
 } GpcOptions;
 
 // State of an image, as in VkImageMemoryBarrier2.
@@ -821,8 +823,8 @@ typedef struct GpcListOutcome {
     const void *next;
     // Number of locations that lie outside of the image or are not finite; these show the background.
     uint32_t left_out;
-    // Number of cells and tiles for which memory did not suffice; these show the background. gpc_list_grow makes a
-    // list with more memory.
+    // Number of cells and tiles for which memory or GpcOptions.max_rounds did not suffice; these show the background.
+    // The list's next recording has more memory, unless GpcOptions.fixed_memory is set.
     uint64_t left_over;
     // Number of visibility samples that were shaded.
     uint64_t visibility_samples;
@@ -927,7 +929,7 @@ GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
 
 // Makes a frame like `frame`, for the same buffers and kinds of images, with more of the memory that the last
 // recording lacked. If it lacked none, the new frame has as much memory as the old one. The old frame still has to be
-// destroyed.
+// destroyed. With GpcOptions.fixed_memory, this is the way to more memory; otherwise gpc_frame_record takes care of it.
 //
 // Threads: no other call uses the frame at the same time. Lifetime: the lent buffers and alpha maps outlive the new
 // frame too.
@@ -947,9 +949,12 @@ GpcResult gpc_frame_resize(struct GpcFrame *frame,
                            uint32_t height);
 
 // Records the antialiasing of the images that the application has drawn, such as the current image of a swapchain. The
-// images have the kinds and the size for which the frame was created. The call neither submits nor waits, and
-// allocates no device memory; it updates descriptor sets of the frame, so the commands of the frame's last recording
-// must be done.
+// images have the kinds and the size for which the frame was created. The call neither submits nor waits. It updates
+// descriptor sets of the frame, so the commands of the frame's last recording must be done.
+//
+// The call allocates no device memory, with one exception: if the last recording left work over for want of memory, the
+// frame first gets more of it, as by gpc_frame_resize. If the device has no more, the frame keeps what it has.
+// GpcOptions.fixed_memory forbids this.
 //
 // `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
 // The application must bind and push its state again afterwards. `user` is passed to `shade`, whose shaders write no
@@ -959,7 +964,8 @@ GpcResult gpc_frame_resize(struct GpcFrame *frame,
 // the same time.
 // Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers,
 // the images and the objects that `shade` records outlive the execution of the commands.
-// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY; GPC_RESULT_DEVICE_LOST
+// and GPC_RESULT_VULKAN while the frame gets more memory. Nothing is recorded then.
 GpcResult gpc_frame_record(struct GpcFrame *frame,
                            VkCommandBuffer commands,
                            const struct GpcImages *images,
@@ -1041,7 +1047,8 @@ GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
                           struct GpcList **list);
 
 // Makes a list like `list`, for the same buffers, with more of the memory that the last recording lacked. If it lacked
-// none, the new list has as much memory as the old one. The old list still has to be destroyed.
+// none, the new list has as much memory as the old one. The old list still has to be destroyed. With
+// GpcOptions.fixed_memory, this is the way to more memory; otherwise gpc_list_record takes care of it.
 //
 // Threads: no other call uses the list at the same time. Lifetime: the lent buffers and views outlive the new list
 // too.
@@ -1049,8 +1056,11 @@ GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
 GpcResult gpc_list_grow(const struct GpcList *list,
                         struct GpcList **grown);
 
-// Records the sampling of locations. The call neither submits nor waits, allocates no device memory, and updates no
-// descriptor.
+// Records the sampling of locations. The call neither submits nor waits.
+//
+// The call allocates no device memory and updates no descriptor, with one exception: if the last recording left work over
+// for want of memory, the list first gets more of it. If the device has no more, the list keeps what it has.
+// GpcOptions.fixed_memory forbids this.
 //
 // `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
 // The application must bind and push its state again afterwards; the results are visible to all later commands. `user`
@@ -1060,7 +1070,8 @@ GpcResult gpc_list_grow(const struct GpcList *list,
 // same time.
 // Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and
 // the objects that `shade` records outlive the execution of the commands.
-// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY; GPC_RESULT_DEVICE_LOST
+// and GPC_RESULT_VULKAN while the list gets more memory. Nothing is recorded then.
 GpcResult gpc_list_record(struct GpcList *list,
                           VkCommandBuffer commands,
                           const struct GpcListScenery *scenery,

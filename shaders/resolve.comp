@@ -58,8 +58,11 @@ void main() {
     float covered = 0.0;
     uint filled = BY_LINES && (marks[item] >> bit & 1u) == 0u ? 1u : blocks;
     uint block = 0u;
+    bool left_over = false;
     do {
         uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
+        left_over = left_over || h.y == LEFT_BLOCK;
+        h.y = left_over ? 0u : h.y;
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
             uvec4 record = texelFetch(records, int(at));
@@ -78,5 +81,5 @@ void main() {
     if (mine && uncovered > 1e-3) background = behind(place);
 #endif
     sum = (sum + background * uncovered) * share;
-    if (mine) write(place, sum);
+    if (mine && !left_over) write(place, sum);
 }

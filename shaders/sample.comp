@@ -171,6 +171,7 @@ void main() {
             }
             if (LOCATIONS) cell_id = cell.location;
             uint number = location_group.w + uint(bitCount(cells_word & ((1u << bit) - 1u)));
+            left_over = false;
 #ifdef UNLISTED
             see_owners(cell, owner_of(cell.first, number, block * BLOCK));
 #else
@@ -178,7 +179,7 @@ void main() {
             uint listed = of_member(my_count, cell.member);
             cell.complete = listed <= KEPT;
             bool out_of_trips = trips > MOST_TRIPS;
-            if (out_of_trips && member() == 0u) atomicAdd(counters[COUNTER_STALLED], 1u);
+            if (out_of_trips) leave_block(COUNTER_STALLED);
             cell.entries = out_of_trips ? 0u : cell.complete ? listed : count;
 
             begin_cell(cell);
@@ -197,7 +198,7 @@ void main() {
                 records_made = record_surfaces(cell, cell_id);
             }
 #endif
-            my_header = lane == cell.member ? records_made : my_header;
+            my_header = lane == cell.member ? left_over ? uvec2(0u, LEFT_BLOCK) : records_made : my_header;
         } while (++cell.member < group);
         uint number = location_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
         if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;

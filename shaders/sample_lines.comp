@@ -536,7 +536,7 @@ void main() {
         fits = fits && !failed;
         uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
         uint cell_id = LOCATIONS ? location : pixel.x | pixel.y << 16;
-        if (!failed && lane == 0u) headers[min(header.z + (location_group.w + first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
+        if (!failed && lane == 0u) headers[min(header.z + (location_group.w + first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : LEFT_BLOCK);
         left |= failed ? 1u << bit : 0u;
         float weight = float(frame.sample_count) * (1.0 / float(ALL_BITS));
         [[unroll]] for (uint h = 0u; h < HELD; h++) {

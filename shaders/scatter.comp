@@ -114,7 +114,7 @@ void show_to(Candidate t, vec3 least, vec2 center, Cell cell, uint s) {
     } else if (depth > owner.x) {
         if (push.step_ == SCATTER_COUNT) {
             atomicAdd(candidates_out[o].w, 1u);
-        } else if (owner.w != 0u) {
+        } else if (owner.w != 0u && owner.w != NO_ROOM_FOR_LAYERS) {
             uint slot = atomicAdd(candidates_out[o].z, 1u);
             candidates_out[slot] = uvec4(depth, t.id, o, 0u);
         }
@@ -170,7 +170,7 @@ void place(uint i) {
     fits = fits && first + count <= owners_room();
     candidates_out[i].z = first;
     if (fits) return;
-    candidates_out[i].w = 0u;
+    candidates_out[i].w = NO_ROOM_FOR_LAYERS;
     atomicAdd(counters[few ? COUNTER_UNFINISHED : COUNTER_STALLED], 1u);
 }
 
@@ -179,7 +179,7 @@ void place(uint i) {
 void order(uint i) {
     uvec4 own = candidates_out[i], owner = candidates_out[min(own.z, owners_room() - 1u)];
     uint count = owner.w, first = owner.z - count, before = 0u, j = 0u;
-    // If there was no room for the owner's layers, this vector is a remnant of another round.
+    // If there was no room for the owner's layers, this vector is a remnant of another round: then no `i` is in the range.
     if (own.z >= counters[COUNTER_OWNERS] || i < first || i >= owner.z) return;
     while (j < count) {
         uvec2 other = candidates_out[first + j].xy;

@@ -7,6 +7,7 @@
 #define BLOCK_GLSL
 #include "owners.glsl"
 #include "place.glsl"
+#include "records.glsl"
 
 const uint BLOCK = ROWS * TEAM;                        // samples of a block
 
@@ -134,15 +135,18 @@ uint first_layer[ROWS];
 // Loads what `scatter` has found that the samples see, from owner number `first` on.
 void see_owners(Cell cell, uint first) {
     uint last = max(cell.samples, 1u) - 1u;
-    bool fits = first + last < owners_room();
-    if (!fits && member() == 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+    bool fits = first + last < owners_room(), lacks = false;
+    if (!fits) leave_block(COUNTER_UNFINISHED);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         bool exists = fits && sample_of(g) < cell.samples;
         uvec4 owner = texelFetch(candidates, int(exists ? first + sample_of(g) : 0u));
+        lacks = lacks || exists && owner.w == NO_ROOM_FOR_LAYERS;
+        exists = exists && owner.w != NO_ROOM_FOR_LAYERS;
         id[g] = exists && owner.y != 0u ? ~owner.y : 0u;
         layers[g] = exists ? owner.w : 0u;
         first_layer[g] = owner.z - owner.w;
     }
+    left_over = left_over || team_any(lacks);
 }
 #else
 // Whether triangle `by` at depth `d` is seen in place of what row `g` has seen so far.
@@ -230,7 +234,7 @@ void show_candidates(Cell cell) {
             } while (pending != 0u);
         }
     } while (++batch < batches && trips <= MOST_TRIPS);
-    if (batch < batches && member() == 0u) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (batch < batches) leave_block(COUNTER_STALLED);
 }
 
 #endif

@@ -9,6 +9,9 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "interface.glsl"
 
+// In place of the number of records in a header: its block lacked room or iterations, so that the cell keeps its colour.
+const uint LEFT_BLOCK = 0x80000000u;
+
 // Pixel positions are relative to the screen's centre, x right, y down. A region is the part of the screen that this frame
 // renders; pixel (0, 0) is its upper left one.
 layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
@@ -84,7 +87,7 @@ layout(std430, set = SET_DATA, binding = BINDING_TILE_LISTS) buffer TileLists { 
 layout(std430, set = SET_DATA, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
 layout(set = SET_DATA, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl
 layout(std430, set = SET_DATA, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
-layout(std430, set = SET_DATA, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
+layout(std430, set = SET_DATA, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count or LEFT_BLOCK
 layout(set = SET_DATA, binding = BINDING_RECORDS) uniform utextureBuffer records;
 layout(std430, set = SET_DATA, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };
 layout(set = SET_DATA, binding = BINDING_SHADED) uniform textureBuffer shaded;

@@ -210,7 +210,7 @@ uvec2 record_layers(Cell cell, uint cell_id) {
         fits = add_nodes(cell_id, cell.samples, EACH || layer >= SHARED_LAYERS) && fits;
         layer++;
     } while (more && trips <= MOST_TRIPS);
-    if (member() == 0u && more) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (more) leave_block(COUNTER_STALLED);
     return add_leaves(cell_id, cell.samples, fits);
 }
 

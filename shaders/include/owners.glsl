@@ -2,10 +2,12 @@
 // cell, a vector that is called its owner; then, behind the owners of all tiles of the round, a vector for each BLEND layer.
 // Floats are stored as bits:
 //   owner: (depth of the nearest opaque or alpha-tested surface, complement of its ID or 0 for none, a cursor over its layers
-//     that is the end of these when all are placed, number of layers)
+//     that is the end of these when all are placed, number of layers or NO_ROOM_FOR_LAYERS)
 //   layer: (depth, ID, index of the owner; ID of the layer that has this place in the order from the farthest one on)
 #ifndef OWNERS_GLSL
 #define OWNERS_GLSL
+
+const uint NO_ROOM_FOR_LAYERS = ~0u;
 
 // Index of a sample's owner. Every cell has room for `frame.sample_count` samples; some cells have fewer.
 uint owner_of(uint first_candidate, uint cell, uint sample_) {

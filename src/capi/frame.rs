@@ -135,7 +135,8 @@ pub struct GpcOutcome {
     pub next: *const c_void,
     /// Number of rounds that had work.
     pub rounds: u32,
-    /// Number of superpixels and tiles for which memory did not suffice. gpc_frame_grow makes a frame with more memory.
+    /// Number of superpixels and tiles for which memory or GpcOptions.max_rounds did not suffice; these keep the colours that
+    /// they had. The frame's next recording has more memory, unless GpcOptions.fixed_memory is set.
     pub left_over: u64,
     /// Number of superpixels.
     pub superpixels: u64,
@@ -203,7 +204,7 @@ pub unsafe extern "C" fn gpc_frame_create(
 
 /// Makes a frame like `frame`, for the same buffers and kinds of images, with more of the memory that the last
 /// recording lacked. If it lacked none, the new frame has as much memory as the old one. The old frame still has to be
-/// destroyed.
+/// destroyed. With GpcOptions.fixed_memory, this is the way to more memory; otherwise gpc_frame_record takes care of it.
 ///
 /// Threads: no other call uses the frame at the same time. Lifetime: the lent buffers and alpha maps outlive the new
 /// frame too.
@@ -243,9 +244,12 @@ pub unsafe extern "C" fn gpc_frame_resize(
 }
 
 /// Records the antialiasing of the images that the application has drawn, such as the current image of a swapchain. The
-/// images have the kinds and the size for which the frame was created. The call neither submits nor waits, and
-/// allocates no device memory; it updates descriptor sets of the frame, so the commands of the frame's last recording
-/// must be done.
+/// images have the kinds and the size for which the frame was created. The call neither submits nor waits. It updates
+/// descriptor sets of the frame, so the commands of the frame's last recording must be done.
+///
+/// The call allocates no device memory, with one exception: if the last recording left work over for want of memory, the
+/// frame first gets more of it, as by gpc_frame_resize. If the device has no more, the frame keeps what it has.
+/// GpcOptions.fixed_memory forbids this.
 ///
 /// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
 /// The application must bind and push its state again afterwards. `user` is passed to `shade`, whose shaders write no
@@ -255,7 +259,8 @@ pub unsafe extern "C" fn gpc_frame_resize(
 /// the same time.
 /// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers,
 /// the images and the objects that `shade` records outlive the execution of the commands.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY; GPC_RESULT_DEVICE_LOST
+/// and GPC_RESULT_VULKAN while the frame gets more memory. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_record(
     frame: *mut GpcFrame,

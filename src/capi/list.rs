@@ -151,8 +151,8 @@ pub struct GpcListOutcome {
     pub next: *const c_void,
     /// Number of locations that lie outside of the image or are not finite; these show the background.
     pub left_out: u32,
-    /// Number of cells and tiles for which memory did not suffice; these show the background. gpc_list_grow makes a
-    /// list with more memory.
+    /// Number of cells and tiles for which memory or GpcOptions.max_rounds did not suffice; these show the background.
+    /// The list's next recording has more memory, unless GpcOptions.fixed_memory is set.
     pub left_over: u64,
     /// Number of visibility samples that were shaded.
     pub visibility_samples: u64,
@@ -220,7 +220,8 @@ pub unsafe extern "C" fn gpc_list_create(
 }
 
 /// Makes a list like `list`, for the same buffers, with more of the memory that the last recording lacked. If it lacked
-/// none, the new list has as much memory as the old one. The old list still has to be destroyed.
+/// none, the new list has as much memory as the old one. The old list still has to be destroyed. With
+/// GpcOptions.fixed_memory, this is the way to more memory; otherwise gpc_list_record takes care of it.
 ///
 /// Threads: no other call uses the list at the same time. Lifetime: the lent buffers and views outlive the new list
 /// too.
@@ -239,8 +240,11 @@ pub unsafe extern "C" fn gpc_list_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Records the sampling of locations. The call neither submits nor waits, allocates no device memory, and updates no
-/// descriptor.
+/// Records the sampling of locations. The call neither submits nor waits.
+///
+/// The call allocates no device memory and updates no descriptor, with one exception: if the last recording left work over
+/// for want of memory, the list first gets more of it. If the device has no more, the list keeps what it has.
+/// GpcOptions.fixed_memory forbids this.
 ///
 /// `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the lent family.
 /// The application must bind and push its state again afterwards; the results are visible to all later commands. `user`
@@ -250,7 +254,8 @@ pub unsafe extern "C" fn gpc_list_grow(
 /// same time.
 /// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and
 /// the objects that `shade` records outlive the execution of the commands.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY; GPC_RESULT_DEVICE_LOST
+/// and GPC_RESULT_VULKAN while the list gets more memory. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_record(
     list: *mut GpcList,

@@ -1,7 +1,7 @@
 //! Options of antialiasing.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes, unused};
+use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
 use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
 use crate::sampling::Pattern;
@@ -114,28 +114,29 @@ pub struct GpcOptions {
     /// Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
     /// Superpixels that these rounds leave keep their drawn colours and are counted as left over.
     ///
-    /// 0 allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need. Rounds
-    /// without work take next to no time on devices with GpcDevice.conditional_rendering. On others each takes a little, and
-    /// the time of the callback's commands.
+    /// 0 allows as many rounds as any image may need. Rounds without work take next to no time on devices with
+    /// GpcDevice.conditional_rendering. On others each takes a little, and the time of the callback's commands.
     pub max_rounds: u32,
     /// Number of pairs in `locations`: equal to `samples`, with GPC_PATTERN_LIST.
     pub location_count: u32,
     /// Offsets of the samples from the pixel's centre in pixels, with GPC_PATTERN_LIST; otherwise ignored. x points to
     /// the right and y down, each at least -0.5 and below 0.5. Read during the call only.
     pub locations: *const [f32; 2],
-    /// Largest number of bytes of device memory for a frame; 0 for no limit.
+    /// Largest number of bytes of device memory for a frame. With 0, a first frame takes at most 960 MiB besides its
+    /// triangles on GPUs with memory of their own, if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
     pub max_memory: u64,
     /// Number of growths, with GPC_DETECTION_CONTRAST: 0 to 8, or GPC_GROWTHS_OF_SAMPLES. In each growth, pixels that
     /// contrast with a neighbouring superpixel become superpixels too.
     pub growths: u32,
-    /// 0.
-    pub reserved: u32,
+    /// VK_TRUE if the memory of a frame or list stays as it is; VK_FALSE if gpc_frame_record and gpc_list_record make
+    /// more after a recording that was left unfinished.
+    pub fixed_memory: vk::Bool32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcOptions {
     const NAME: &'static str = "GpcOptions";
-    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, reserved);
+    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory);
 
     fn defaults() -> Self {
         let defaults = Options::new(0, 0);
@@ -175,7 +176,6 @@ impl GpcOptions {
     /// # Safety
     /// With `GpcPattern::List`, `locations` points to as many pairs as `location_count` says.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {
-        unused("GpcOptions.reserved", self.reserved)?;
         let shadings = [
             (
                 GpcShading::Triangle as u32,
@@ -246,6 +246,7 @@ impl GpcOptions {
             sharp: flag("GpcOptions.sharp", self.sharp)?,
             shade_all: flag("GpcOptions.shade_all", self.shade_all)?,
             max_memory: (self.max_memory != 0).then_some(self.max_memory),
+            fixed_memory: flag("GpcOptions.fixed_memory", self.fixed_memory)?,
             max_rounds: (self.max_rounds != 0).then_some(self.max_rounds),
         })
     }

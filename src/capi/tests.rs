@@ -2,8 +2,9 @@
 
 use super::error::{Error, GpcResult, answer, last_error};
 use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
+use super::options::GpcOptions;
 use super::version::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
-use crate::host::{Antialiaser, Frame, List};
+use crate::host::{Antialiaser, Frame, List, ListOptions};
 use std::ffi::c_void;
 
 #[test]
@@ -35,6 +36,19 @@ fn objects_can_be_used_from_threads_as_the_header_says() {
     shared::<Antialiaser>();
     shared::<Frame>();
     shared::<List>();
+}
+
+/// Frames make more memory when they need it, unless the application forbids it.
+#[test]
+fn memory_is_fixed_if_the_application_says_so() {
+    let mut options = GpcOptions::defaults();
+    for (found, fixed) in [(0, false), (1, true)] {
+        options.fixed_memory = found;
+        // SAFETY: the pattern is no list.
+        let options = unsafe { options.options() }.unwrap();
+        assert_eq!(options.fixed_memory, fixed);
+        assert_eq!(ListOptions::from(&options).fixed_memory, fixed);
+    }
 }
 
 #[test]

@@ -241,7 +241,7 @@ impl Renderer {
 
     /// Capacity for the first frame of a scene.
     pub(super) fn first_capacity(&self) -> Capacity {
-        Capacity::first(RoundPolicy::of(self.gpu.limits()))
+        Capacity::usual(RoundPolicy::of(self.gpu.limits()))
     }
 
     /// Checks that a scene belongs to this renderer's device.

@@ -13,6 +13,7 @@ mod hosts;
 mod passes;
 mod pipeline;
 mod plot;
+mod room;
 mod sets;
 mod superpixel_price;
 mod table;

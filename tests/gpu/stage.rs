@@ -3,6 +3,7 @@
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use ash::vk;
 use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
 use gpc::render::{
@@ -27,6 +28,20 @@ pub fn cells(settings: &Settings) -> CellOptions {
     }
 }
 
+/// Lets a device be planned for as the test run asks. With the environment variable `GPC_TEST_DEVICE=gpu`, this is a GPU
+/// with 8 GiB of memory of its own: rounds, room, subgroups and submissions are those of such a device.
+pub fn asked(limits: &mut Limits) {
+    match std::env::var("GPC_TEST_DEVICE").as_deref() {
+        Err(std::env::VarError::NotPresent) => {}
+        Ok("gpu") => {
+            limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
+            limits.local_bytes = 8 << 30;
+            limits.max_submitted_samples = 1 << 27;
+        }
+        other => panic!("GPC_TEST_DEVICE is {other:?}; it can be gpu, or absent"),
+    }
+}
+
 /// Idle devices. Tests reuse them, because a new device compiles all its pipelines anew. Each device has its own
 /// instance, and therefore its own messages of the validation layer.
 static IDLE: Mutex<Vec<Headless>> = Mutex::new(Vec::new());
@@ -42,9 +57,12 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     let mut gpu = known.unwrap_or_else(|| {
         let options = HeadlessOptions::default().validation(true);
         // Most of the time goes to making pipelines, and many tests use the same ones.
-        let keep = |limits: &mut Limits| limits.max_unused_pipelines = 256;
-        // SAFETY: keeping more pipelines only takes more memory.
-        unsafe { Headless::within(&options, keep) }.unwrap()
+        let limit = |limits: &mut Limits| {
+            limits.max_unused_pipelines = 256;
+            asked(limits);
+        };
+        // SAFETY: keeping more pipelines only takes more memory, as does planning for a device with more memory.
+        unsafe { Headless::within(&options, limit) }.unwrap()
     });
     test(&mut gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());

@@ -701,9 +701,9 @@ static void frames(void) {
     options.growths = 300;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.growths is 300; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
     options.growths = 3;
-    options.reserved = 1;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.reserved is 1; it can be 0");
-    options.reserved = 0;
+    options.fixed_memory = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.fixed_memory is 2; it can be VK_FALSE (0), VK_TRUE (1)");
+    options.fixed_memory = 0;
     options.width = 0;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "an image of 0 x 64 pixels");
     options.width = SIDE;

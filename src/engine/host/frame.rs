@@ -2,6 +2,7 @@
 
 use super::base::Base;
 use super::draw::PlacedDraws;
+use super::growth::Growth;
 use super::lending::Lending;
 use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
@@ -14,7 +15,7 @@ use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{PixelCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{SamplerSettings, Statistics};
 use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
 use ash::vk;
@@ -59,7 +60,8 @@ impl<'a> Scenery<'a> {
 pub struct Outcome {
     /// Statistics of the recording.
     pub statistics: Statistics,
-    /// Number of superpixels and tiles for which memory did not suffice. [`Frame::grow`] makes a frame with more.
+    /// Number of superpixels and tiles for which memory or [`Options::max_rounds`] did not suffice; these keep the colours that
+    /// they had. The frame's next recording has more memory, unless [`Options::fixed_memory`] is set.
     pub left_over: u64,
 }
 
@@ -69,6 +71,7 @@ pub struct Frame {
     work: Work,
     kinds: ImageKinds,
     options: Options,
+    growth: Growth,
     /// Last: layouts go after what was made with them.
     shared: Arc<Shared>,
 }
@@ -230,7 +233,7 @@ impl Frame {
         kinds: &ImageKinds,
         options: &Options,
     ) -> Result<Self, HostError> {
-        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
+        let capacity = Capacity::default();
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, kinds, options, capacity) }
     }
@@ -263,6 +266,7 @@ impl Frame {
             lending,
             kinds: *kinds,
             options: options.clone(),
+            growth: Growth::default(),
             shared: shared.clone(),
         })
     }
@@ -285,6 +289,13 @@ impl Frame {
         self.work.scratch.bytes()
     }
 
+    /// Number of rounds of a recording, with or without work: so many times the host's shading is called.
+    /// [`Options::shade_all`] adds one call.
+    #[must_use]
+    pub fn rounds(&self) -> u32 {
+        self.work.sampler.rounds()
+    }
+
     /// Changes the size of the images, in pixels. Pipelines are kept, and so is shared memory that suffices. Memory of the frame alone,
     /// which is small, is made anew. If shared memory does not suffice, the first frame that is resized makes more, and the others
     /// share it.
@@ -303,12 +314,33 @@ impl Frame {
         let (shared, lending) = (&self.shared, &self.lending);
         self.work = Work::new(shared, lending, &self.kinds, &options, capacity)?;
         self.options = options;
+        self.growth = Growth::default();
         self.lending.forget_recording();
         Ok(())
     }
 
+    /// Gives the frame more of the memory that the last recording lacked, if its commands are done and the host allows it.
+    fn make_room(&mut self) -> Result<(), HostError> {
+        if self.options.fixed_memory {
+            return Ok(());
+        }
+        let tiles = self.work.plan.sizes.tiles();
+        let sampler = &self.work.sampler;
+        let Some(capacity) = self.growth.wanted(&self.lending, sampler, tiles)? else {
+            return Ok(());
+        };
+        let (shared, lending) = (&self.shared, &self.lending);
+        let larger = Work::new(shared, lending, &self.kinds, &self.options, capacity);
+        if let Some(larger) = self.growth.made(capacity, larger)? {
+            self.work = larger;
+            self.lending.forget_recording();
+        }
+        Ok(())
+    }
+
     /// Makes a frame for the same buffers and kinds of images, with more of the memory that the last recording lacked. If it lacked
-    /// none, the new frame has as much. [`Options::max_rounds`] stays as it is.
+    /// none, the new frame has as much. [`Options::max_rounds`] stays as it is. With [`Options::fixed_memory`], this is the way to more
+    /// memory; otherwise [`Self::record`] takes care of it.
     ///
     /// # Errors
     /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
@@ -331,11 +363,16 @@ impl Frame {
     }
 
     /// Records the antialiasing of a frame, of which the host has drawn what it lends: in any images of the kinds and the size
-    /// that the frame was prepared for, such as the swapchain's image at hand. It submits nothing, waits for nothing and allocates
-    /// nothing on the device. It updates descriptor sets of the frame's own, for which the last recording has to be done.
+    /// that the frame was prepared for, such as the swapchain's image at hand. It submits nothing and waits for nothing.
+    /// It updates descriptor sets of the frame's own, for which the last recording has to be done.
+    ///
+    /// It allocates nothing on the device, with one exception: if the last recording left work [over](Outcome::left_over) for
+    /// want of memory, the frame first gets more of it, as by [`Self::resize`]. If the device has no more, the frame keeps what it
+    /// has. [`Options::fixed_memory`] forbids this.
     ///
     /// # Errors
-    /// If images or scenery do not fit what the frame was prepared for. Nothing is recorded then.
+    /// If images or scenery do not fit what the frame was prepared for; if the device is lost while the frame gets more memory.
+    /// Nothing is recorded then.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
@@ -374,6 +411,7 @@ impl Frame {
         let gpu = self.shared.gpu.clone();
         images.check(&self.kinds, &self.options, gpu.limits().max_image_side)?;
         let plane = self.plane(scenery, images)?;
+        self.make_room()?;
         let uniform = self.uniform(&placed, scenery, images, &plane);
         let work = &mut self.work;
         let Some(set) = work.resources.set(0) else {

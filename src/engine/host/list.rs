@@ -1,6 +1,7 @@
 //! Lists of sample locations that a host lends. They are sampled instead of an image's pixels.
 
 use super::draw::PlacedDraws;
+use super::growth::Growth;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
@@ -11,7 +12,7 @@ use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{ListCells, RoundPolicy, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{SamplerSettings, Statistics, check_image_size};
 use crate::engine::spirv::frame_set;
 use crate::vulkan::{DescriptorSets, Memory, Recorder, TexelView, Timings};
@@ -56,8 +57,8 @@ pub struct Location {
 pub struct ListOutcome {
     /// Statistics of the recording.
     pub statistics: Statistics,
-    /// Number of cells and tiles for which memory did not suffice; these show the background. [`List::grow`] makes a
-    /// list with more memory.
+    /// Number of cells and tiles for which memory or [`ListOptions::max_rounds`] did not suffice; these show the
+    /// background. The list's next recording has more memory, unless [`ListOptions::fixed_memory`] is set.
     pub left_over: u64,
     /// Number of locations that lie outside of the image or are not finite; these show the background.
     pub left_out: u32,
@@ -66,8 +67,16 @@ pub struct ListOutcome {
 /// Pipelines and memory to sample a host's locations, for one of its frames in flight.
 pub struct List {
     lending: Lending,
+    work: Work,
     list: LocationList,
     options: ListOptions,
+    growth: Growth,
+    /// Dropped last, because layouts must outlive the objects that were made with them.
+    shared: Arc<Shared>,
+}
+
+/// Objects of a list that depend on its capacity.
+struct Work {
     settings: SamplerSettings,
     resources: Resources,
     targets: RasterTargets,
@@ -77,8 +86,6 @@ pub struct List {
     memory: Memory,
     is_uploaded: bool,
     _locations: TexelView,
-    /// Dropped last, because layouts must outlive the objects that were made with them.
-    shared: Arc<Shared>,
 }
 
 impl LocationList {
@@ -127,41 +134,21 @@ impl LocationList {
     }
 }
 
-impl List {
+impl Work {
     /// # Safety
-    /// As [`super::Antialiaser::prepare_list`].
-    pub(super) unsafe fn new(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
-        list: &LocationList,
-        options: &ListOptions,
-    ) -> Result<Self, HostError> {
-        let capacity = Capacity::first(RoundPolicy::of(shared.gpu.limits()));
-        // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, list, options, capacity) }
-    }
-
-    unsafe fn with_capacity(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
+    /// The buffers of the list are as [`LocationList`] says, and outlive the returned value.
+    unsafe fn new(
+        shared: &Shared,
+        lending: &Lending,
         list: &LocationList,
         options: &ListOptions,
         capacity: Capacity,
     ) -> Result<Self, HostError> {
-        let gpu = &shared.gpu;
-        let limits = gpu.limits();
-        let layout = &shared.frame;
+        let (gpu, layout) = (&shared.gpu, &shared.frame);
         let settings = options.sampler();
-        settings.check()?;
-        check_image_size(options.size)?;
-        geometry.check(gpu)?;
-        check_size(options.size)?;
-        let texels = limits.max_texel_elements / 2;
-        let most = texels.min(limits.max_storage_bytes / LocationList::LOCATION_BYTES);
-        list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
-        let memory = Memory::new(gpu.clone(), options.max_memory);
-        // SAFETY: passed on to the caller.
-        let lending = unsafe { Lending::new(shared, memory.clone(), geometry) }?;
+        let allowed = options.max_memory;
+        let allowed = allowed.map(|most| most.saturating_sub(lending.bytes()));
+        let memory = Memory::new(gpu.clone(), allowed);
         let content = &lending.content;
         let cells = ListCells {
             cells: if options.samples == 1 {
@@ -175,7 +162,7 @@ impl List {
         };
         let room = (list.capacity, padded(options.size));
         let sizes = cells.sizes(layout, content, &settings.cells, room, capacity);
-        sizes.check("the largest list of a recording", limits)?;
+        sizes.check("the largest list of a recording", gpu.limits())?;
         let (offsets, count) = cells.offsets(layout, &settings.cells)?;
         let single = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
@@ -220,9 +207,6 @@ impl List {
         }
         Ok(Self {
             timings: Timings::new(gpu),
-            lending,
-            list: *list,
-            options: options.clone(),
             settings,
             resources,
             targets,
@@ -231,6 +215,53 @@ impl List {
             memory,
             is_uploaded: false,
             _locations: locations,
+        })
+    }
+}
+
+impl List {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare_list`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &ListOptions,
+    ) -> Result<Self, HostError> {
+        let capacity = Capacity::default();
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, list, options, capacity) }
+    }
+
+    unsafe fn with_capacity(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &ListOptions,
+        capacity: Capacity,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        let limits = gpu.limits();
+        options.sampler().check()?;
+        check_image_size(options.size)?;
+        geometry.check(gpu)?;
+        check_size(options.size)?;
+        let texels = limits.max_texel_elements / 2;
+        let most = texels.min(limits.max_storage_bytes / LocationList::LOCATION_BYTES);
+        list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
+        let memory = Memory::new(gpu.clone(), options.max_memory);
+        // SAFETY: passed on to the caller.
+        let (lending, work) = unsafe {
+            let lending = Lending::new(shared, memory, geometry)?;
+            let work = Work::new(shared, &lending, list, options, capacity)?;
+            (lending, work)
+        };
+        Ok(Self {
+            lending,
+            work,
+            list: *list,
+            options: options.clone(),
+            growth: Growth::default(),
             shared: shared.clone(),
         })
     }
@@ -244,11 +275,12 @@ impl List {
     /// Number of bytes of device memory in use, without the host's buffers.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.memory.used()
+        self.lending.bytes() + self.work.memory.used()
     }
 
     /// Makes a list for the same buffers, with more of the memory that the last recording lacked. If it lacked none,
-    /// the new list has as much memory as this one. [`ListOptions::max_rounds`] stays the same.
+    /// the new list has as much memory as this one. [`ListOptions::max_rounds`] stays the same. With
+    /// [`ListOptions::fixed_memory`], this is the way to more memory; otherwise [`Self::record`] takes care of it.
     ///
     /// # Errors
     /// If memory runs out, or in the cases of [`Self::outcome`] if the last recording is not done.
@@ -256,18 +288,46 @@ impl List {
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let tiles = self.resources.sizes().tiles();
-        let capacity = self.lending.more(&self.sampler, tiles)?;
+        let tiles = self.work.resources.sizes().tiles();
+        let capacity = self.lending.more(&self.work.sampler, tiles)?;
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
     }
 
+    /// Gives the list more of the memory that the last recording lacked, if its commands are done and the host allows it.
+    ///
+    /// # Safety
+    /// The buffers of the list outlive this value.
+    unsafe fn make_room(&mut self) -> Result<(), HostError> {
+        if self.options.fixed_memory {
+            return Ok(());
+        }
+        let (work, lending) = (&self.work, &self.lending);
+        let tiles = work.resources.sizes().tiles();
+        let Some(capacity) = self.growth.wanted(lending, &work.sampler, tiles)? else {
+            return Ok(());
+        };
+        // SAFETY: passed on to the caller.
+        let larger =
+            unsafe { Work::new(&self.shared, lending, &self.list, &self.options, capacity) };
+        if let Some(larger) = self.growth.made(capacity, larger)? {
+            self.work = larger;
+            self.lending.forget_recording();
+        }
+        Ok(())
+    }
+
     /// Records the sampling of the first `count` locations. `shading` is called once for each round. The call neither
-    /// submits nor waits, allocates no device memory, and updates no descriptor.
+    /// submits nor waits.
+    ///
+    /// It allocates no device memory and updates no descriptor, with one exception: if the last recording left work
+    /// [over](ListOutcome::left_over) for want of memory, the list first gets more of it. If the device has no more, the
+    /// list keeps what it has. [`ListOptions::fixed_memory`] forbids this.
     ///
     /// # Errors
-    /// If the draws or locations exceed a capacity, or a draw is invalid. Nothing is recorded then.
+    /// If the draws or locations exceed a capacity, or a draw is invalid; if the device is lost while the list gets more
+    /// memory. Nothing is recorded then.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the antialiaser's
@@ -297,29 +357,32 @@ impl List {
                 capacity: self.list.capacity,
             });
         }
+        // SAFETY: passed on to the caller.
+        unsafe { self.make_room() }?;
         let uniform = self.uniform(&placed);
         let plane = self.plane();
         let footprints = self.footprints();
         let gpu = self.shared.gpu.clone();
-        let resources = &self.resources;
+        let work = &mut self.work;
+        let resources = &work.resources;
         let Some(set) = resources.set(0) else {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &recorder;
         self.lending.record_begin(
             recorder,
             placed.triangles,
-            &mut self.is_uploaded,
+            &mut work.is_uploaded,
             |recorder| {
                 resources.record_upload(recorder);
-                self.targets.record_unused(recorder);
+                work.targets.record_unused(recorder);
             },
         );
         let lending = &self.lending;
         lending.record_triangles(recorder, &placed);
-        let boxes = self.settings.filter == TextureFilter::Boxes;
+        let boxes = work.settings.filter == TextureFilter::Boxes;
         let visible = VisibilityUniform {
             list: 1,
             ..Lending::visible(&plane, footprints.place, boxes)
@@ -329,7 +392,7 @@ impl List {
             resources.record_background(recorder, count, uniform.background, 0);
         }
         resources.record_begin(recorder, set, &uniform);
-        let shading = lending.shading(shading, &self.visibility_set, resources);
+        let shading = lending.shading(shading, &work.visibility_set, resources);
         let run = SamplerRun {
             resources,
             set,
@@ -337,7 +400,7 @@ impl List {
             list: (count, ListLength::Known),
             index: 0,
         };
-        self.sampler.record(recorder, &run, &shading);
+        work.sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the host guarantees that the buffer has room for the colours of `capacity` locations.
         unsafe {
@@ -359,18 +422,19 @@ impl List {
             statistics,
             left_over,
         } = self.lending.outcome(
-            (&self.sampler, self.resources.sizes()),
-            (&self.timings, self.memory.used()),
+            (&self.work.sampler, self.work.resources.sizes()),
+            (&self.work.timings, self.memory_bytes()),
         )?;
         Ok(ListOutcome {
             statistics,
             left_over,
-            left_out: self.sampler.left_out()?,
+            left_out: self.work.sampler.left_out()?,
         })
     }
 
     fn footprints(&self) -> Footprints {
-        Footprints::new(self.settings.filter, self.settings.cells.samples)
+        let settings = &self.work.settings;
+        Footprints::new(settings.filter, settings.cells.samples)
     }
 
     fn plane(&self) -> ClipPlane {
@@ -378,14 +442,14 @@ impl List {
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
-        let (settings, geometry) = (&self.settings, &self.lending.geometry);
-        let sizes = self.resources.sizes();
+        let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
+        let sizes = self.work.resources.sizes();
         let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border, also outside of the image.
             size: sizes.region,
             ..plane_block(&geometry.clip, &self.plane(), self.options.size)
         };
-        let samples = self.sampler.samples();
+        let samples = self.work.sampler.samples();
         frame_uniform(
             &scene_block(geometry, placed),
             &plane,

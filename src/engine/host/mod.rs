@@ -23,6 +23,7 @@ mod draw;
 mod error;
 mod frame;
 mod geometry;
+mod growth;
 mod images;
 mod lending;
 mod list;

@@ -49,13 +49,16 @@ pub struct Options {
     /// Whether the host's shading computes the colours of all pixels, so that the colour image may have any contents
     /// before. Otherwise only superpixels are shaded, and drawn over the image's contents.
     pub shade_all: bool,
-    /// Largest number of bytes of device memory for a frame; `None` for no limit.
+    /// Largest number of bytes of device memory for a frame. With `None`, a first frame takes at most 960 MiB besides its
+    /// triangles on GPUs with memory of their own, if the image has up to 3840 x 2160 pixels, and as much as it needs otherwise.
     pub max_memory: Option<u64>,
+    /// Whether the memory of a frame stays as it is. Otherwise [`Frame::record`](super::Frame::record) makes more if the last
+    /// recording was left unfinished.
+    pub fixed_memory: bool,
     /// Largest number of rounds for the detected superpixels, and for each growth; this bounds the time of a recording.
     /// Superpixels that these rounds leave keep their drawn colours and are counted as left over.
     ///
-    /// `None` allows as many rounds as any image may need, or, on GPUs with plenty of memory, as images usually need.
-    /// Rounds without work take next to no time on devices with
+    /// `None` allows as many rounds as any image may need. Rounds without work take next to no time on devices with
     /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and little on others.
     pub max_rounds: Option<u32>,
 }
@@ -79,6 +82,7 @@ impl Options {
             sharp: true,
             shade_all: false,
             max_memory: None,
+            fixed_memory: false,
             max_rounds: None,
         }
     }
@@ -140,6 +144,9 @@ pub struct ListOptions {
     pub sharp: bool,
     /// Largest number of bytes of device memory for a list; `None` for no limit.
     pub max_memory: Option<u64>,
+    /// Whether the memory of a list stays as it is. Otherwise [`List::record`](super::List::record) makes more if the last
+    /// recording was left unfinished.
+    pub fixed_memory: bool,
     /// Largest number of rounds; this bounds the time of a recording. Locations that these rounds leave show the
     /// background and are counted as left over. `None` is as in [`Options::max_rounds`].
     pub max_rounds: Option<u32>,
@@ -191,6 +198,7 @@ impl From<&Options> for ListOptions {
             background: options.background,
             sharp: options.sharp,
             max_memory: options.max_memory,
+            fixed_memory: options.fixed_memory,
             max_rounds: options.max_rounds,
         }
     }
@@ -204,6 +212,7 @@ setters! {
         background: Option<[f32; 3]> = "the background as linear light; `None` for transparent",
         sharp: bool = "whether textures are filtered over the area that each sample represents",
         max_memory: Option<u64> = "the largest number of bytes of device memory for a list",
+        fixed_memory: bool = "whether the memory of a list stays as it is",
         max_rounds: Option<u32> = "the largest number of rounds",
     }
 }
@@ -223,6 +232,7 @@ setters! {
         sharp: bool = "whether textures are filtered over the area that each sample represents",
         shade_all: bool = "whether the host's shading computes the colours of all pixels",
         max_memory: Option<u64> = "the largest number of bytes of device memory for a frame",
+        fixed_memory: bool = "whether the memory of a frame stays as it is",
         max_rounds: Option<u32> = "the largest number of rounds for the detected superpixels, and for each growth",
     }
 }

@@ -10,6 +10,8 @@ use crate::engine::passes::LongLists;
 
 /// Factor for the number of rounds from which on more rounds no longer help.
 const MANY_ROUNDS: u32 = 8;
+/// Factor for the room for lists, and number of layers, from which on more of them is not tried.
+const MOST_GROWTH: u32 = 1 << 16;
 
 /// Capacity of a frame. It is raised if a frame turns out to need more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,8 +44,8 @@ impl Capacity {
         }
     }
 
-    /// Capacity for the first frame on a device.
-    pub fn first(policy: RoundPolicy) -> Self {
+    /// Capacity for the first of a device's frames that are made again if they need more rounds than images usually do.
+    pub fn usual(policy: RoundPolicy) -> Self {
         Self {
             rounds: match policy {
                 RoundPolicy::Small => None,
@@ -51,6 +53,16 @@ impl Capacity {
             },
             ..Self::default()
         }
+    }
+
+    /// Whether more than this may be tried: memory that has grown so much no longer helps.
+    pub fn can_grow(&self) -> bool {
+        self.lists.max(self.layers) < MOST_GROWTH
+    }
+
+    /// Factor by which the memory has grown since the first frame.
+    pub fn growth(&self) -> u64 {
+        u64::from(self.lists.max(self.layers / Self::LAYERS))
     }
 
     /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may

@@ -220,6 +220,12 @@ impl Sampler {
         self.rounds = self.rounds.map(|rounds| rounds.min(most));
     }
 
+    /// Number of rounds that a run records, with or without work.
+    pub fn rounds(&self) -> u32 {
+        let [first, grown] = self.rounds;
+        first + grown * self.growths() as u32
+    }
+
     /// Capacity with which the sampler was made.
     pub fn capacity(&self) -> Capacity {
         self.capacity

@@ -158,7 +158,7 @@ impl Plan {
                 Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
-            let needed = plan.shrink(scene, image, taken);
+            let needed = plan.shrink(scene, image, allowed, taken);
             let fits = pixels <= most
                 && plan.sizes.largest_storage() <= limits.max_storage_bytes
                 && plan.sizes.largest_texels() <= limits.max_texel_elements;
@@ -177,7 +177,8 @@ impl Plan {
         }
     }
 
-    /// Plans an image in one region, whatever its size.
+    /// Plans an image in one region, whatever its size. Without a limit for memory, the policy's usual one decides how large
+    /// rounds are.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if the plan exceeds the allowed memory or the device's buffer sizes.
@@ -189,7 +190,11 @@ impl Plan {
         taken: u64,
     ) -> Result<Self, EngineError> {
         let mut plan = Self::with_region(image, scene, limits, 0, capacity, image.size)?;
-        let needed = plan.shrink(scene, image, &|_| taken);
+        // No triangle is left out, because the image may be on the screen before anyone asks.
+        plan.sizes.survivor_capacity = scene.triangle_slots();
+        let usual = || Some(RoundPolicy::of(limits).usual_memory(capacity)? + taken);
+        let wanted = image.max_memory.or_else(usual);
+        let needed = plan.shrink(scene, image, wanted, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
         match image.max_memory {
             Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
@@ -198,19 +203,18 @@ impl Plan {
     }
 
     /// Reduces the room for visibility samples, which makes more rounds, until the plan and all other users fit into
-    /// the allowed memory, if possible. Returns the number of bytes.
+    /// `wanted` bytes, if possible. Returns the number of bytes.
     fn shrink(
         &mut self,
         scene: &dyn Content,
         image: &ImageRequest<'_>,
+        wanted: Option<u64>,
         taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> u64 {
         let all = |plan: &Self| plan.bytes(scene, image) + taken(&plan.sizes);
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
-        while image.max_memory.is_some_and(|allowed| needed > allowed)
-            && self.sizes.record_capacity > 1 << 16
-        {
+        while wanted.is_some_and(|wanted| needed > wanted) && self.sizes.record_capacity > 1 << 16 {
             self.sizes.record_capacity /= 2;
             self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(FEWEST_CANDIDATES);
             needed = all(self);
@@ -335,5 +339,109 @@ impl Plan {
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
         self.sizes.bytes() + images
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::sampler::SuperpixelOptions;
+    use ash::vk;
+
+    /// A million triangles.
+    struct Triangles;
+
+    impl Content for Triangles {
+        fn triangle_slots(&self) -> u32 {
+            1_000_000
+        }
+
+        fn is_instanced(&self) -> bool {
+            false
+        }
+
+        fn has_mask(&self) -> bool {
+            false
+        }
+
+        fn has_blend(&self) -> bool {
+            false
+        }
+
+        fn has_high_frequency(&self) -> bool {
+            true
+        }
+
+        fn is_mostly_high_frequency(&self) -> bool {
+            false
+        }
+
+        fn is_tinted(&self) -> bool {
+            false
+        }
+
+        fn bin_count(&self) -> u32 {
+            2
+        }
+    }
+
+    /// Limits of a GPU with `local_bytes` bytes of its own.
+    fn gpu(local_bytes: u64) -> Limits {
+        Limits {
+            device_name: String::new(),
+            driver: String::new(),
+            device_type: vk::PhysicalDeviceType::DISCRETE_GPU,
+            local_bytes,
+            lanes: 32,
+            subgroup_size: 32,
+            can_require_subgroup_size: true,
+            max_image_side: 1 << 15,
+            snap: 0.0,
+            max_texel_elements: 1 << 27,
+            buffer_alignment: 16,
+            max_storage_bytes: u64::from(u32::MAX),
+            timestamp_period: 1.0,
+            max_submitted_samples: 1 << 27,
+            sample_counts: vk::SampleCountFlags::TYPE_1,
+            conditional_rendering: true,
+            max_unused_pipelines: 64,
+        }
+    }
+
+    /// A host's frame takes at most 960 MiB on a GPU of any size if the host names no bound, and as much as one that it names.
+    #[test]
+    fn a_hosts_frame_has_a_usual_bound_on_gpus() {
+        for size in [[640, 360], [1920, 1080], [3840, 2160]] {
+            for samples in [64, 256, 1024] {
+                let method = Method::from(SuperpixelOptions::new(samples));
+                let taken = |local: u64, max_memory| {
+                    let image = ImageRequest {
+                        size,
+                        region: None,
+                        method: &method,
+                        attributes: false,
+                        max_memory,
+                    };
+                    let limits = gpu(local << 30);
+                    let plan = Plan::whole(&image, &Triangles, &limits, Capacity::default(), 0);
+                    let plan = plan.unwrap();
+                    (plan.bytes(&Triangles, &image), plan.sizes.record_capacity)
+                };
+                for local in [2, 8, 24, 141] {
+                    let (bytes, records) = taken(local, None);
+                    assert!(bytes <= 960 << 20, "{size:?}, {samples}, {local}: {bytes}");
+                    assert!(
+                        records >= 1 << 20,
+                        "{size:?}, {samples}, {local}: {records}"
+                    );
+                }
+                let (bytes, records) = taken(141, Some(4 << 30));
+                assert!(bytes <= 4 << 30, "{bytes}");
+                assert!(records >= taken(141, None).1, "{records}");
+                if size[0] > 1920 {
+                    assert!(bytes > 1 << 30, "{bytes}");
+                }
+            }
+        }
     }
 }

@@ -1,16 +1,15 @@
 //! Policy for dividing a frame's samples into rounds.
 
+use super::Capacity;
 use super::plan::MOST_RECORDS;
 use crate::vulkan::Limits;
 
 /// Policy for dividing a frame's samples into rounds, which depends on the kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RoundPolicy {
-    /// Small rounds, whose memory stays in the caches of a CPU. The recording has all rounds that any image may need,
-    /// because a CPU skips a round without work in microseconds.
+    /// Small rounds, whose memory stays in the caches of a CPU.
     Small,
-    /// Large rounds, for devices with plenty of memory. The recording has the rounds that images usually need, because
-    /// a GPU is idle during each barrier. A frame that needs more rounds reports it, and is made again.
+    /// Large rounds, for devices with plenty of memory, because a GPU is idle during each barrier.
     Large {
         /// Largest number of visibility samples in a round.
         records: u64,
@@ -21,6 +20,9 @@ pub(crate) enum RoundPolicy {
 const PLENTY: u64 = 2 << 30;
 /// Divisor of the local memory: a round's visibility samples may take this part of it.
 const PART: u64 = 32;
+/// Number of bytes that a host's frame may take besides its triangles if nothing else is known: 1 GiB less 64 MiB for a million
+/// triangles.
+const USUAL_MEMORY: u64 = 960 << 20;
 /// Number of bytes of a visibility sample in all buffers of a round.
 const RECORD_BYTES: u64 = 44;
 
@@ -32,6 +34,15 @@ impl RoundPolicy {
         } else {
             let records = limits.local_bytes / (PART * RECORD_BYTES);
             Self::Large { records }
+        }
+    }
+
+    /// Number of bytes that a host's frame may take with this capacity besides its triangles, if the host names no other limit;
+    /// `None` for no limit.
+    pub fn usual_memory(self, capacity: Capacity) -> Option<u64> {
+        match self {
+            Self::Small => None,
+            Self::Large { .. } => Some(USUAL_MEMORY.saturating_mul(capacity.growth())),
         }
     }
 

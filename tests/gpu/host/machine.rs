@@ -28,6 +28,8 @@ pub struct Seen {
     pub outcome: Outcome,
     /// Numbers of workgroups of the shading dispatches, call by call.
     pub dispatched: Vec<u32>,
+    /// Number of rounds of the recording.
+    pub rounds: u32,
 }
 
 /// Largest number of shading calls that are recorded.
@@ -439,6 +441,18 @@ impl<'a> Machine<'a> {
 
     /// Result of a frame as [`Self::see`] gives it, with the caller's buffers.
     pub fn see_lent(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options) -> Seen {
+        self.see_again(way, lent, base, options, 1).pop().unwrap()
+    }
+
+    /// Results of `times` recordings of one frame, each over the same images of the host.
+    pub fn see_again(
+        &self,
+        way: &Way,
+        lent: &Lent,
+        base: Base<'_>,
+        options: Options,
+        times: usize,
+    ) -> Vec<Seen> {
         let size = way.around(options.size);
         let lending = Lending::new(self, way, lent);
         let corner_bytes = 48 * u64::from(lent.triangle_count);
@@ -506,26 +520,43 @@ impl<'a> Machine<'a> {
             assert!(is_not_done(frame.outcome().err()));
             // SAFETY: lent objects outlive all frames.
             assert!(is_not_done(unsafe { frame.grow() }.err()));
+        }
+        let mut see = || {
             shading.calls.set(0);
-        }
-        self.run(
-            size,
-            &mut frame,
-            (&images, &scenery),
-            &shading,
-            &pictures,
-            (&color, &read_back),
-        );
-        let outcome = frame.outcome().unwrap();
-        Seen {
-            colors: read_back.read(pixels).unwrap().to_vec(),
-            corners: corners
-                .read(3 * lent.triangle_count as usize)
-                .unwrap()
-                .to_vec(),
-            outcome,
-            dispatched: (dispatched.read(shading.calls.get() as usize).unwrap()).to_vec(),
-        }
+            self.run(
+                size,
+                &mut frame,
+                (&images, &scenery),
+                &shading,
+                &pictures,
+                (&color, &read_back),
+            );
+            let (calls, triangles) = (shading.calls.get(), lent.triangle_count as usize);
+            Seen {
+                colors: read_back.read(pixels).unwrap().to_vec(),
+                corners: corners.read(3 * triangles).unwrap().to_vec(),
+                outcome: frame.outcome().unwrap(),
+                dispatched: (dispatched.read(calls.min(CALLS) as usize).unwrap()).to_vec(),
+                rounds: frame.rounds(),
+            }
+        };
+        (0..times).map(|_| see()).collect()
+    }
+
+    /// Memory of a frame that is prepared for a number of triangles, in bytes, and the number of rounds of its recordings.
+    pub fn prepared(&self, way: &Way, triangles: u32, options: &Options) -> (u64, u32) {
+        let lending = Lending::new(self, way, &self.world.lent(way));
+        let geometry = Geometry {
+            triangle_capacity: triangles,
+            ..lending.geometry
+        };
+        let kinds = ImageKinds {
+            color_format: vk::Format::B8G8R8A8_SRGB,
+            ..KINDS
+        };
+        // SAFETY: lent objects outlive the frame, of which no command is recorded.
+        let frame = unsafe { self.antialiaser.prepare(&geometry, &kinds, options) }.unwrap();
+        (frame.memory_bytes(), frame.rounds())
     }
 
     /// Pictures that the library makes of several lists of draws, each in a frame of its own. The commands of the
@@ -700,6 +731,19 @@ impl<'a> Machine<'a> {
         locations: &[Location],
         options: Options,
     ) -> (Vec<[f32; 4]>, ListOutcome) {
+        self.see_list_again(way, locations, options, 1)
+            .pop()
+            .unwrap()
+    }
+
+    /// Results of `times` recordings of one list.
+    pub fn see_list_again(
+        &self,
+        way: &Way,
+        locations: &[Location],
+        options: Options,
+        times: usize,
+    ) -> Vec<(Vec<[f32; 4]>, ListOutcome)> {
         let lent = self.world.lent(way);
         let lending = Lending::new(self, way, &lent);
         let corners = self.read_back(48 * u64::from(lent.triangle_count));
@@ -731,15 +775,18 @@ impl<'a> Machine<'a> {
             // SAFETY: lent objects outlive all lists.
             assert!(is_not_done(unsafe { list.grow() }.err()));
         }
-        submit(&self.gpu, |commands| {
-            // SAFETY: the commands are waited for; all handles outlive them.
-            unsafe {
-                list.record(commands, &lent.draws, count, &shading).unwrap();
-                self.show_to_host(commands);
-            }
-        });
-        let seen = colors.read(locations.len()).unwrap().to_vec();
-        (seen, list.outcome().unwrap())
+        let mut see = || {
+            submit(&self.gpu, |commands| {
+                // SAFETY: the commands are waited for; all handles outlive them.
+                unsafe {
+                    list.record(commands, &lent.draws, count, &shading).unwrap();
+                    self.show_to_host(commands);
+                }
+            });
+            let seen = colors.read(locations.len()).unwrap().to_vec();
+            (seen, list.outcome().unwrap())
+        };
+        (0..times).map(|_| see()).collect()
     }
 
     fn shading<'s>(

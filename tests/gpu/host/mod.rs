@@ -14,6 +14,7 @@ mod lent;
 mod list;
 mod machine;
 mod mask;
+mod room;
 mod rounds;
 mod viewport;
 mod world;
