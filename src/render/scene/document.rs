@@ -46,7 +46,7 @@ pub struct Document {
     pub environments: Vec<Option<Arc<Environment>>>,
     /// Number of materials in the file; they come first among the scene's materials.
     pub file_materials: usize,
-    /// Indices of materials that are unlit copies, and of their originals.
+    /// Indices of materials and of their unlit copies, ascending.
     pub unlit_copies: Vec<(usize, usize)>,
 }
 
