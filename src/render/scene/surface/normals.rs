@@ -10,26 +10,25 @@ pub fn is_usable(n: &[f32; 3]) -> bool {
 
 /// Turns triangles around whose corners' normals point to their back, so that the front is the side of the normals. For formats
 /// whose order of corners is no convention.
-pub fn turn_to_normals(
-    triangles: &mut [[u32; 3]],
-    positions: &[[f32; 3]],
-    normals: &[[f32; 3]],
-) {
+pub fn turn_to_normals(triangles: &mut [[u32; 3]], positions: &[[f32; 3]], normals: &[[f32; 3]]) {
     if normals.is_empty() {
         return;
     }
     let vector = |stream: &[[f32; 3]], v: u32| Vec3::from_array(stream[v as usize]).as_dvec3();
     let usable = |v: &u32| is_usable(&normals[*v as usize]);
-    triangles.par_iter_mut().with_min_len(16_384).for_each(|triangle| {
-        let [a, b, c] = triangle.map(|v| vector(positions, v));
-        let corners = triangle.iter().filter(|v| usable(v));
-        let normal: DVec3 = corners
-            .map(|&v| vector(normals, v).normalize_or_zero())
-            .sum();
-        if normal.dot((b - a).cross(c - a)) < 0.0 {
-            triangle.swap(1, 2);
-        }
-    });
+    triangles
+        .par_iter_mut()
+        .with_min_len(16_384)
+        .for_each(|triangle| {
+            let [a, b, c] = triangle.map(|v| vector(positions, v));
+            let corners = triangle.iter().filter(|v| usable(v));
+            let normal: DVec3 = corners
+                .map(|&v| vector(normals, v).normalize_or_zero())
+                .sum();
+            if normal.dot((b - a).cross(c - a)) < 0.0 {
+                triangle.swap(1, 2);
+            }
+        });
 }
 
 /// Replaces normals without a direction by the mean of the normals of adjacent faces, weighted by area. Returns the
