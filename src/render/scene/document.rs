@@ -175,6 +175,13 @@ pub struct Displacements {
     pub tangents: Vec<[f32; 3]>,
 }
 
+impl Displacements {
+    /// Whether any stream is there.
+    pub fn displaces(&self) -> bool {
+        !(self.positions.is_empty() && self.normals.is_empty() && self.tangents.is_empty())
+    }
+}
+
 /// Four joints and their weights for every vertex. The weights of all sets of a vertex sum to 1.
 #[derive(Clone, Debug, Default)]
 pub struct Influences {

@@ -110,7 +110,11 @@ impl Chosen {
             (1, Some(layer)) => Ok(layer),
             _ => Err(format!(
                 "{}it has the channels {}; what is read is R, G and B, Y alone, or a layer's R, G and B if only one layer has them",
-                if headers.iter().all(|header| header.deep) { "its data are deep; " } else { "" },
+                if headers.iter().all(|header| header.deep) {
+                    "its data are deep; "
+                } else {
+                    ""
+                },
                 names.join(", ")
             )),
         }
@@ -155,10 +159,16 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
         }
     };
     let black = move || vec![[0.0; 4]; width * height];
-    let reader = read().no_deep_data().largest_resolution_level().specific_channels();
+    let reader = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels();
     let bytes = Cursor::new(bytes);
     let pixels = match chosen {
-        Chosen::Colors { rgb: [r, g, b], alpha } => reader
+        Chosen::Colors {
+            rgb: [r, g, b],
+            alpha,
+        } => reader
             .required(r)
             .required(g)
             .required(b)

@@ -42,10 +42,14 @@ pub fn environment(path: &Path) -> anyhow::Result<(Environment, Vec<String>)> {
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
     let ([width, height], mut colors) = decode_light(&bytes, &file.to_string())?;
     let (infinite, bound) = bound_light(&mut colors);
-    let warning = format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
+    let warning =
+        format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
     let environment = Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))?;
-    Ok((environment, Vec::from_iter((infinite > 0).then_some(warning))))
+    Ok((
+        environment,
+        Vec::from_iter((infinite > 0).then_some(warning)),
+    ))
 }
 
 /// The scene's name for output files: its file's name without the extension.

@@ -118,7 +118,8 @@ impl<'d, 's> Placer<'d, 's> {
         let weighted = |weights: &[f64]| {
             let of_primitive = |primitive: &'d Primitive| {
                 let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
-                let weighted = weighted.filter(|(weight, _)| **weight != 0.0);
+                let weighted =
+                    weighted.filter(|(weight, (_, target))| **weight != 0.0 && target.displaces());
                 let weighted = weighted.map(|(weight, (index, target))| (*weight, index, target));
                 weighted.collect()
             };

@@ -165,8 +165,7 @@ fn read_keyframes(
     if !expected || output.count % keyframes != 0 {
         return Err(output.fault(format!(
             "{} elements do not fit {} keyframes of {interpolation:?} {target}",
-            output.count,
-            input.count
+            output.count, input.count
         )));
     }
     let width = per_keyframe * output.components;

@@ -78,13 +78,19 @@ fn decode_data(rest: &str) -> Result<Fetched, String> {
     }
     let has_space = data.iter().any(u8::is_ascii_whitespace);
     let data = match has_space {
-        true => Cow::Owned(data.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect()),
+        true => Cow::Owned(
+            data.iter()
+                .copied()
+                .filter(|b| !b.is_ascii_whitespace())
+                .collect(),
+        ),
         false => data,
     };
     let bytes = BASE64
         .decode(&*data)
         .map_err(|error| format!("the data URI's base64 is broken: {error}"))?;
-    let note = has_space.then(|| "the data URI's base64 has white space, which is ignored".to_owned());
+    let note =
+        has_space.then(|| "the data URI's base64 has white space, which is ignored".to_owned());
     Ok(Fetched { bytes, note })
 }
 
@@ -157,7 +163,7 @@ mod tests {
         assert_eq!(bytes("data:x/base64,AAEC"), b"AAEC");
         assert!(fetch("data:;base64").is_err());
         assert!(fetch("data:;base64,A").is_err());
-        for spaced in ["data:;base64,AA\nEC\r\n", "data:;base64, AAE%0AC="] {
+        for spaced in ["data:;base64,AA\nEC\r\n", "data:;base64, AAE%0AC"] {
             let Fetched { bytes, note } = fetch(spaced).unwrap();
             assert_eq!(bytes, [0, 1, 2]);
             assert!(note.unwrap().contains("white space"));
