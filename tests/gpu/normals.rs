@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
+use gpc::camera::Camera;
 use gpc::reference::reflection::{Surface, reflected};
 use gpc::render::{Headless, SceneRequest};
 use gpc::scene::{
@@ -17,7 +18,7 @@ const PIXELS: usize = (SIZE[0] * SIZE[1]) as usize;
 const COLOR: [f32; 3] = [0.8, 0.4, 0.2];
 /// Direction to the light.
 const LIGHT: DVec3 = DVec3::new(0.48, 0.64, 0.6);
-/// Angle, in radians, by which a normal turns.
+/// Angle, in radians, by which a normal turns; distance, in distances of the surface, by which the eye moves.
 const TURN: f64 = 2e-4;
 
 fn lit(roughness: f32, lobes: Lobes) -> Material {
@@ -44,6 +45,7 @@ fn seen(
     material: &Material,
     (normals, tangents): (&[DVec3], &[DVec3]),
     light: f32,
+    eye: DVec3,
 ) -> Vec<DVec3> {
     let mut stage = Stage::new(vec![material.clone()]);
     let corners = [[-0.4, -0.4], [-0.4, 0.4], [0.4, 0.4], [0.4, -0.4]];
@@ -69,7 +71,7 @@ fn seen(
     }];
     let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, &once(SIZE)).unwrap();
-    let rendered = gpu.render(&mut frame, &camera()).unwrap();
+    let rendered = gpu.render(&mut frame, &Camera { eye, ..camera() }).unwrap();
     assert!(rendered.attributes.iter().all(|pixel| pixel.id != 0));
     let colors = rendered.colors.iter();
     colors
@@ -107,7 +109,7 @@ fn turned(normals: &[DVec3], random: &mut Random) -> Vec<DVec3> {
 }
 
 #[test]
-fn small_turns_of_the_normal_are_small_changes_of_the_colour() {
+fn small_turns_of_normal_or_view_are_small_changes_of_the_colour() {
     on_gpu(|gpu| {
         let plain = Lobes::default();
         let sheen = Sheen {
@@ -173,19 +175,24 @@ fn small_turns_of_the_normal_are_small_changes_of_the_colour() {
         for (name, material) in all {
             let before = normals(&mut random);
             let after = turned(&before, &mut random);
-            let [first, second] =
-                [&before, &after].map(|normals| seen(gpu, &material, (normals, &[]), 3.0));
+            let moved = TURN * unit(&mut random);
+            let [first, turned, moved] = [
+                (&before, DVec3::ZERO),
+                (&after, DVec3::ZERO),
+                (&before, moved),
+            ]
+            .map(|(normals, eye)| seen(gpu, &material, (normals, &[]), 3.0, eye));
             for pixel in 0..PIXELS {
-                let off = (first[pixel] - second[pixel]).abs().max_element();
-                assert!(
-                    off < 60.0 * TURN,
-                    "{name}: {} and {} for {} and {}, seen from {}",
-                    first[pixel],
-                    second[pixel],
-                    before[pixel],
-                    after[pixel],
-                    to_eye(pixel)
-                );
+                for (what, second) in [("normal", turned[pixel]), ("view", moved[pixel])] {
+                    let off = (first[pixel] - second).abs().max_element();
+                    assert!(
+                        off < 60.0 * TURN,
+                        "{name}: {} and {second} for a {what} about {} and {}",
+                        first[pixel],
+                        before[pixel],
+                        to_eye(pixel)
+                    );
+                }
             }
         }
     });
@@ -221,8 +228,8 @@ fn stretched_reflections_fade_with_their_axis() {
         };
         let tangents: Vec<_> = (0..PIXELS).map(along).collect();
         let after = turned(&before, &mut random);
-        let [first, second] =
-            [&before, &after].map(|normals| seen(gpu, &material, (normals, &tangents), 3.0));
+        let [first, second] = [&before, &after]
+            .map(|normals| seen(gpu, &material, (normals, &tangents), 3.0, DVec3::ZERO));
         for pixel in 0..PIXELS {
             let off = (first[pixel] - second[pixel]).abs().max_element();
             assert!(off < 60.0 * TURN, "{} and {}", first[pixel], second[pixel]);
@@ -238,7 +245,8 @@ fn light_on_normals_of_any_direction_is_the_twins() {
             let material = lit(roughness, Lobes::default());
             let normals = normals(&mut random);
             // The studio lights both images, so that it cancels.
-            let [lit, dark] = [3.0, 0.0].map(|light| seen(gpu, &material, (&normals, &[]), light));
+            let [lit, dark] =
+                [3.0, 0.0].map(|light| seen(gpu, &material, (&normals, &[]), light, DVec3::ZERO));
             let mut away = 0;
             for pixel in 0..PIXELS {
                 let surface = Surface {
