@@ -346,8 +346,9 @@ fn a_sun_of_one_texel_is_a_smooth_highlight() {
             assert!(peak > 2.0, "{peak}");
             for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 let off = (found - expected).abs() / peak;
+                let most = if roughness < 0.2 { 0.08 } else { 0.05 };
                 assert!(
-                    off < 0.05,
+                    off < most,
                     "roughness {roughness}, {i}: {found}, expected {expected} of {peak}"
                 );
             }

@@ -182,7 +182,15 @@ fn small_turns_of_normal_or_view_are_small_changes_of_the_colour() {
                 (&before, moved),
             ]
             .map(|(normals, eye)| seen(gpu, &material, (normals, &[]), 3.0, eye));
-            for pixel in 0..PIXELS {
+            // Where both eye and light graze a surface, a lobe of the model rises from 0 to its full height within less than a turn.
+            let grazed = |pixel: usize| {
+                let normal = before[pixel];
+                [to_eye(pixel), LIGHT]
+                    .map(|d| normal.dot(d).abs())
+                    .iter()
+                    .all(|cosine| *cosine < 0.05)
+            };
+            for pixel in (0..PIXELS).filter(|pixel| !grazed(*pixel)) {
                 for (what, second) in [("normal", turned[pixel]), ("view", moved[pixel])] {
                     let off = (first[pixel] - second).abs().max_element();
                     assert!(
