@@ -128,8 +128,9 @@ void main() {
         Surface s;
         s.normal = normal;
         if (NORMAL_TEXTURE != 0u) s.normal = bumped(READ(NORMAL_TEXTURE, place), factors.normal_scale, tangent, bitangent, normal);
-        s.normal = facing(s.normal, to_eye);
-        float n_v = max(dot(s.normal, to_eye), 1e-4);
+        s.mirror = facing(s.normal, to_eye);
+        float share = facing_share(s.normal, to_eye);
+        float n_v = max(dot(s.mirror, to_eye), 1e-4);
 
         EmissiveMetallic emissive_metallic = emissive_metallic_of(m);
         vec4 metallic_roughness = READ(METALLIC_ROUGHNESS_TEXTURE, place);
@@ -154,8 +155,10 @@ void main() {
         s.roughness = clamp(s.roughness, 0.04, 1.0);
         s.alpha = s.roughness * s.roughness;
         if (IRIDESCENCE) s.f0 = film_f0(place, s.f0, n_v);
+        s.f0 *= share;
+        s.f90 *= share;
         if (ANISOTROPY) draw_out(s, place, tangent, bitangent);
-        vec3 mirror = ANISOTROPY ? bent_normal(s, to_eye) : s.normal;
+        vec3 mirror = ANISOTROPY ? bent_normal(s, to_eye) : s.mirror;
         vec2 split = environment_brdf(s.roughness, n_v);
         vec3 reflected = s.f0 * split.x + s.f90 * split.y;
 
@@ -185,7 +188,7 @@ void main() {
         Sheen sheen;
         vec3 of_sheen = vec3(0.0);
         if (SHEEN) {
-            sheen = read_sheen(place, n_v);
+            sheen = read_sheen(place, n_v, share);
             of_sheen = sheen.color * sheen.albedo * irradiance * ambient;
         }
         Coat coat;
@@ -212,7 +215,7 @@ void main() {
                 }
                 e *= light_share(shadow_place, shadows, l);
                 radiance += reflect_light(s, to_eye, to_light, e);
-                if (SHEEN) of_sheen += sheen_light(sheen, s.normal, to_eye, to_light, e);
+                if (SHEEN) of_sheen += sheen_light(sheen, s.normal, s.mirror, to_eye, to_light, e);
                 if (CLEARCOAT) of_coat += coat_light(coat, to_eye, to_light, e);
             }
         }

@@ -1,12 +1,13 @@
 // glTF's metallic-roughness BRDF (glTF 2.0, appendix B): GGX with height-correlated Smith visibility, Schlick
-// Fresnel and a Lambertian base.
+// Fresnel and a Lambertian base. Twin: `gpc::reference::reflection`.
 #ifndef BRDF_GLSL
 #define BRDF_GLSL
 
 const float PI = 3.14159265359;
 
 struct Surface {
-    vec3 normal;
+    vec3 normal;        // decides how much light arrives
+    vec3 mirror;        // the normal for reflections, on the side of the eye
     vec3 diffuse;       // albedo of the base
     vec3 through;       // albedo of the base for light from behind
     vec3 f0;            // reflectance at normal incidence
@@ -68,8 +69,8 @@ vec2 environment_brdf(float roughness, float n_v) {
 // behind is transmitted, with DIFFUSE_TRANSMISSION.
 vec3 reflect_light(Surface s, vec3 v, vec3 l, vec3 e) {
     vec3 h = normalize(v + l);
-    float toward = dot(s.normal, l), n_l = max(toward, 0.0), n_v = max(dot(s.normal, v), 1e-4);
-    float n_h = max(dot(s.normal, h), 0.0), v_h = max(dot(v, h), 0.0);
+    float toward = dot(s.normal, l), n_l = max(toward, 0.0), n_v = max(dot(s.mirror, v), 1e-4);
+    float n_h = max(dot(s.mirror, h), 0.0), v_h = max(dot(v, h), 0.0);
     float lobe = ANISOTROPY ? ggx_anisotropic(s, v, l, h, n_h, n_l, n_v) : ggx(s.alpha, n_h, n_l, n_v);
     vec3 f = fresnel(s, v_h);
     vec3 r = (remaining(f) * s.diffuse / PI + f * lobe) * e * n_l;

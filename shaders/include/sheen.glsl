@@ -18,10 +18,11 @@ float sheen_albedo(float roughness, float n_v) {
     return min(exp(exponent), 1.0);
 }
 
-Sheen read_sheen(Place place, float n_v) {
+// `share` is the share of its reflections that the surface keeps.
+Sheen read_sheen(Place place, float n_v, float share) {
     SheenFactors given = sheen_of(place.material);
     Sheen sheen;
-    sheen.color = given.color * READ(SHEEN_COLOR_TEXTURE, place).rgb;
+    sheen.color = given.color * READ(SHEEN_COLOR_TEXTURE, place).rgb * share;
     sheen.roughness = clamp(given.roughness * READ(SHEEN_ROUGHNESS_TEXTURE, place).a, 0.15, 1.0);
     sheen.albedo = sheen_albedo(sheen.roughness, n_v);
     return sheen;
@@ -32,9 +33,9 @@ float sheen_passes(Sheen sheen) {
     return 1.0 - greatest(sheen.color) * sheen.albedo;
 }
 
-vec3 sheen_light(Sheen sheen, vec3 normal, vec3 v, vec3 l, vec3 e) {
+vec3 sheen_light(Sheen sheen, vec3 normal, vec3 mirror, vec3 v, vec3 l, vec3 e) {
     vec3 h = normalize(v + l);
-    float n_l = max(dot(normal, l), 0.0), n_v = max(dot(normal, v), 1e-4), n_h = clamp(dot(normal, h), 0.0, 1.0);
+    float n_l = max(dot(normal, l), 0.0), n_v = max(dot(mirror, v), 1e-4), n_h = clamp(dot(mirror, h), 0.0, 1.0);
     float sharpness = 1.0 / (sheen.roughness * sheen.roughness);
     float distribution = (2.0 + sharpness) * pow(1.0 - n_h * n_h, 0.5 * sharpness) / (2.0 * PI);
     return sheen.color * distribution / (4.0 * (n_l + n_v - n_l * n_v)) * n_l * e;

@@ -15,6 +15,7 @@ pub mod edge;
 mod exact;
 pub mod grow;
 pub mod prefilter;
+pub mod reflection;
 pub mod sample_lines;
 pub mod schedule;
 pub mod shadow;

@@ -1,6 +1,8 @@
 //! Prefiltered reflection of an environment along a surface's normal: the average that `prefilter` computes from
 //! cubes.
 
+use std::f64::consts::PI;
+
 use glam::{DMat3, DVec3};
 
 /// A cube map, face by face in Vulkan's order, row by row.
@@ -80,4 +82,20 @@ pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
         weights += z;
     }
     sum / weights
+}
+
+/// Share of the light from a direction, per solid angle, in the reflection of a surface seen along its normal: the GGX
+/// distribution with this roughness, times the cosine. `cosine` is that of the angle between the direction and the normal.
+#[must_use]
+pub fn density(alpha: f64, cosine: f64) -> f64 {
+    let square = alpha * alpha;
+    let distribution =
+        |n_h_squared: f64| square / (PI * (n_h_squared * (square - 1.0) + 1.0).powi(2));
+    // The mean cosine of the lobe, in closed form; it is 1/4 for the widest.
+    let (b, end) = (square - 1.0, 1.0 / (1.0 + square));
+    let mean = match b.abs() < 1e-4 {
+        true => 0.25,
+        false => 2.0 * (square / (b * b) * (1.0 + b * end).ln() - end / b) - end,
+    };
+    distribution((1.0 + cosine) / 2.0) / 4.0 * cosine.max(0.0) / mean
 }

@@ -120,6 +120,19 @@ fn the_sky_is_seen_behind_the_scene() {
 }
 
 #[test]
+fn infinite_light_is_bounded_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    exr::prelude::write_rgb_file(folder.path().join("sun.exr"), 16, 8, |x, y| {
+        let light = if (x, y) == (8, 2) { f32::INFINITY } else { 1.0 };
+        (light, light, light)
+    })
+    .unwrap();
+    render(folder.path(), "a.png", &["--environment", "sun.exr"])
+        .ok()
+        .says(&["sun.exr: 1 pixels are infinitely bright and are taken as 65504"]);
+}
+
+#[test]
 fn what_is_no_environment_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("sky.hdr"), b"no sky").unwrap();

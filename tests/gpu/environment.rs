@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use gpc::color::srgb;
+use gpc::reference::prefilter::density;
 use gpc::render::{Headless, SceneRequest};
 use gpc::sampling::Pattern;
 use gpc::scene::{
@@ -14,7 +15,7 @@ use gpc::scene::{
 use serde_json::json;
 
 use crate::scene_builder::Builder;
-use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
+use crate::stage::{Stage, camera, centre, everywhere, flat, on_gpu, once, seen_at};
 
 /// Size of the image; it is odd, so that a pixel's centre is the image's centre.
 const SIZE: [u32; 2] = [9, 9];
@@ -284,4 +285,142 @@ fn a_files_own_light_shines_as_an_image_does() {
             assert!(off < 2e-3 * radiance, "{found:?}, not {expected:?}");
         }
     });
+}
+
+/// A sky with a single bright texel: every roughness reflects it as a round spot with the map's light, which is what averaging
+/// many directions gives.
+#[test]
+fn a_sun_of_one_texel_is_a_smooth_highlight() {
+    const SUN: f64 = 5e4;
+    let (width, height) = (256_u32, 128_u32);
+    let place = (90, 40);
+    let pixels = (0..width * height).map(|i| match (i % width, i / width) == place {
+        true => [SUN as f32; 3],
+        false => [0.5; 3],
+    });
+    let sky = Environment::from_equirectangular(width, height, pixels.collect()).unwrap();
+    let towards = |x: f64, y: f64| {
+        let longitude = (x / f64::from(width) - 0.5) * std::f64::consts::TAU;
+        let latitude = (0.5 - y / f64::from(height)) * std::f64::consts::PI;
+        let ((sin, cos), (up, across)) = (longitude.sin_cos(), latitude.sin_cos());
+        DVec3::new(sin * across, up, -cos * across)
+    };
+    let middle = |i: u32| f64::from(i) + 0.5;
+    let sun = towards(middle(place.0), middle(place.1));
+    let (right, up) = sun.any_orthonormal_pair();
+    on_gpu(|gpu| {
+        for roughness in [0.15_f64, 0.2, 0.3, 0.5, 0.7, 1.0] {
+            let alpha = roughness * roughness;
+            // Reflected directions in a row through the sun, over twice the width of the highlight.
+            let step = 6.0 * alpha.min(0.3) / f64::from(WIDE[0]);
+            let reflected = |pixel: u32| {
+                let [x, y] = [pixel % WIDE[0], pixel / WIDE[0]].map(f64::from);
+                let off = [
+                    x - f64::from(WIDE[0]) / 2.0,
+                    (y - f64::from(WIDE[1]) / 2.0) * 3.0,
+                ];
+                (sun + step * (off[0] * right + off[1] * up)).normalize()
+            };
+            let directions: Vec<DVec3> = (0..WIDE[0] * WIDE[1]).map(reflected).collect();
+            let found = reflections(gpu, &sky, roughness as f32, &directions);
+            // The average over the texels around the sun, each divided into small parts.
+            let mut parts = Vec::new();
+            const FINE: u32 = 12;
+            for (dx, dy) in (0..4 * FINE).flat_map(|x| (0..4 * FINE).map(move |y| (x, y))) {
+                let at = |place: u32, d: u32| middle(place) - 2.0 + middle(d) / f64::from(FINE);
+                let direction = towards(at(place.0, dx), at(place.1, dy));
+                let across = (1.0 - direction.y * direction.y).sqrt();
+                let cell = std::f64::consts::TAU * std::f64::consts::PI
+                    / f64::from(width * height * FINE * FINE);
+                let light = sky.radiance(direction).x - 0.5;
+                parts.push((direction, light * cell * across));
+            }
+            let average = |towards: &DVec3| {
+                let of_sun = parts
+                    .iter()
+                    .map(|(d, light)| light * density(alpha, d.dot(*towards)));
+                0.5 + of_sun.sum::<f64>()
+            };
+            let expected: Vec<f64> = directions.iter().map(average).collect();
+            let peak = expected.iter().copied().fold(0.0, f64::max);
+            assert!(peak > 2.0, "{peak}");
+            for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let off = (found - expected).abs() / peak;
+                let most = if roughness < 0.2 { 0.08 } else { 0.05 };
+                assert!(
+                    off < most,
+                    "roughness {roughness}, {i}: {found}, expected {expected} of {peak}"
+                );
+            }
+            // Nor are there edges: the second differences are those of the average.
+            for row in 0..WIDE[1] as usize {
+                let row = row * WIDE[0] as usize..(row + 1) * WIDE[0] as usize;
+                let bends = |values: &[f64]| -> Vec<f64> {
+                    values
+                        .windows(3)
+                        .map(|w| (w[0] - 2.0 * w[1] + w[2]) / peak)
+                        .collect()
+                };
+                let (found, expected) = (bends(&found[row.clone()]), bends(&expected[row]));
+                let sharpest = expected
+                    .iter()
+                    .fold(0.0, |most: f64, bend| most.max(bend.abs()));
+                let found = found
+                    .iter()
+                    .fold(0.0, |most: f64, bend| most.max(bend.abs()));
+                assert!(
+                    found < 1.3 * sharpest + 2e-3,
+                    "roughness {roughness}: {found}, {sharpest}"
+                );
+            }
+        }
+    });
+}
+
+/// Size of an image whose pixels see one direction each.
+const WIDE: [u32; 2] = [48, 5];
+
+/// Radiance around each of these directions, averaged over the lobe of a white metal of this roughness.
+fn reflections(
+    gpu: &mut Headless,
+    sky: &Environment,
+    roughness: f32,
+    directions: &[DVec3],
+) -> Vec<f64> {
+    let metal = Material {
+        metallic: 1.0,
+        ..white(roughness, Lobes::default())
+    };
+    let mut stage = Stage::new(vec![metal]);
+    let corners = [[-0.4, -0.4], [-0.4, 0.4], [0.4, 0.4], [0.4, -0.4]];
+    let mut normals = Vec::new();
+    for (pixel, direction) in directions.iter().enumerate() {
+        let [x, y] = centre(pixel, WIDE);
+        stage.add_quad(
+            0,
+            corners.map(|[dx, dy]| seen_at([x + dx, y + dy], 1.0, WIDE[1])),
+        );
+        let to_eye = -DVec3::from_array(seen_at([x, y], 1.0, WIDE[1]).map(f64::from)).normalize();
+        normals.push((to_eye + *direction).normalize());
+    }
+    let uniform = self::sky(|_| [1.0; 3]);
+    let mut seen = |sky: &Environment| -> Vec<f64> {
+        let (mut scene, mut pose) = stage.build();
+        scene.environment = Some(Arc::new(sky.clone()));
+        let of_normal = |n: &DVec3| [n.as_vec3().to_array(); 6];
+        pose.geometry.streams.normals = normals.iter().flat_map(of_normal).collect();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
+        let mut frame = gpu.prepare(&prepared, &once(WIDE)).unwrap();
+        let rendered = gpu.render(&mut frame, &camera()).unwrap();
+        rendered
+            .colors
+            .iter()
+            .map(|color| f64::from(color[0]))
+            .collect()
+    };
+    let (lit, share) = (seen(sky), seen(&uniform));
+    lit.iter()
+        .zip(share)
+        .map(|(lit, share)| lit / share)
+        .collect()
 }

@@ -27,6 +27,7 @@ mod mask;
 #[path = "../common/meshes.rs"]
 mod meshes;
 mod methods;
+mod normals;
 mod partition;
 mod pose;
 mod prefilter;

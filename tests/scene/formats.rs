@@ -26,6 +26,43 @@ fn refused(bytes: &[u8], message: &str) {
 const QUAD: &str = "# a comment\nmtllib quad.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
     vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3 4/4\n";
 
+/// The order of a file's corners means nothing if the file has normals: a front is where these point.
+#[test]
+fn normals_decide_which_side_of_a_face_is_its_front() {
+    let obj =
+        |corners: &str, z: i32| format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 {z}\nf {corners}\n");
+    let ply = |corners: &str, z: i32| {
+        let head = "ply\nformat ascii 1.0\nelement vertex 3\n";
+        let axes = ["x", "y", "z", "nx", "ny", "nz"].map(|axis| format!("property float {axis}\n"));
+        let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        let vertices = ["0 0 0", "1 0 0", "0 1 0"].map(|v| format!("{v} 0 0 {z}\n"));
+        format!(
+            "{head}{}{faces}{}3 {corners}\n",
+            axes.concat(),
+            vertices.concat()
+        )
+    };
+    for z in [1, -1] {
+        for file in [
+            obj("1//1 2//1 3//1", z),
+            obj("1//1 3//1 2//1", z),
+            ply("0 1 2", z),
+            ply("0 2 1", z),
+        ] {
+            let geometry = pose(file.as_bytes()).1.geometry;
+            let [a, b, c] = geometry.triangles[0]
+                .map(|v| glam::Vec3::from_array(geometry.positions[v as usize]));
+            assert_eq!((b - a).cross(c - a), glam::Vec3::Z * z as f32, "{file}");
+            let kept = geometry
+                .streams
+                .normals
+                .iter()
+                .all(|n| *n == [0., 0., z as f32]);
+            assert!(kept, "{:?}", geometry.streams.normals);
+        }
+    }
+}
+
 #[test]
 fn obj_has_its_mtl_colours_and_textures() {
     let folder = tempfile::tempdir().unwrap();

@@ -139,6 +139,91 @@ fn repetition_is_bounded() {
     assert!(matches!(error, Err(SceneError::TooLarge { .. })));
 }
 
+/// A material that needs tangents does without those that a file has wrong, whether it has textures or not.
+#[test]
+fn unusable_tangents_are_generated() {
+    let good = [[1., 0., 0., 1.]; 3];
+    for (tangents, is_usable) in [
+        (vec![[0., 0., 0., 1.]; 3], false),
+        (vec![[1., 0., 0., 1.], [0.; 4], [1., 0., 0., 1.]], false),
+        (vec![[f32::NAN, 0., 0., 1.]; 3], false),
+        (vec![[1., 0., 0., 1.]; 2], false),
+        (good.to_vec(), true),
+    ] {
+        for (has_normals, has_uvs) in [(true, true), (true, false), (false, true)] {
+            let mut builder = Builder::new();
+            let mut attributes = json!({
+                "POSITION": builder.floats(&TRIANGLE), "TANGENT": builder.floats(&tangents),
+            });
+            if has_normals {
+                attributes["NORMAL"] = builder.floats(&[[0., 0., 1.]; 3]).into();
+            }
+            if has_uvs {
+                // u grows along y.
+                attributes["TEXCOORD_0"] = builder.floats(&[[0., 0.], [0., 1.], [1., 0.]]).into();
+            }
+            let anisotropy = json!({"KHR_materials_anisotropy": {"anisotropyStrength": 0.8}});
+            let material = builder.push("materials", json!({"extensions": anisotropy}));
+            builder.json["extensionsUsed"] = json!(["KHR_materials_anisotropy"]);
+            let primitive = json!({"attributes": attributes, "material": material});
+            builder.node_with(primitive, json!({}));
+            let loaded = builder.load().unwrap();
+            let told = loaded
+                .warnings
+                .iter()
+                .any(|text| text.to_lowercase().contains("tangent"));
+            assert_eq!(told, has_normals && !is_usable, "{:?}", loaded.warnings);
+            for [x, y, z, _] in builder.pose().geometry.streams.tangents {
+                let expected = match (has_normals && is_usable, has_uvs) {
+                    (true, _) => [1., 0., 0.],
+                    (false, true) => [0., 1., 0.],
+                    // Any direction across the normal.
+                    (false, false) => [x, (1.0 - x * x).sqrt().copysign(y), 0.],
+                };
+                let off = [x - expected[0], y - expected[1], z - expected[2]];
+                assert!(
+                    off.iter().all(|d| d.abs() < 1e-6),
+                    "{tangents:?}: {x} {y} {z}"
+                );
+            }
+        }
+    }
+}
+
+/// The tip of a fan takes neither the square of its triangles' number in time, nor their number in calls.
+#[test]
+fn crowded_vertices_have_tangents() {
+    const TRIANGLES: u32 = 300_000;
+    let mut builder = Builder::new();
+    let turn = |i: u32| f64::from(i) / f64::from(TRIANGLES) * std::f64::consts::TAU;
+    let rim = |i: u32| [turn(i).cos() as f32, turn(i).sin() as f32];
+    let places: Vec<[f32; 2]> = std::iter::once([0., 0.])
+        .chain((0..TRIANGLES).map(rim))
+        .collect();
+    let positions: Vec<[f32; 3]> = places.iter().map(|[x, y]| [*x, *y, 0.]).collect();
+    let triangles = (0..TRIANGLES).flat_map(|i| [0, 1 + i, 1 + (i + 1) % TRIANGLES]);
+    let indices: Vec<u8> = triangles.flat_map(u32::to_le_bytes).collect();
+    let attributes = json!({
+        "POSITION": builder.floats(&positions),
+        "NORMAL": builder.floats(&vec![[0., 0., 1.]; positions.len()]),
+        // Texture coordinates turned by a quarter: u grows along y.
+        "TEXCOORD_0": builder.floats(&places.iter().map(|[x, y]| [*y, *x]).collect::<Vec<_>>()),
+    });
+    let indices = builder.accessor("SCALAR", 5125, &indices, json!({}));
+    let texture = builder.texture([128, 128, 255]);
+    let material = builder.push("materials", json!({"normalTexture": {"index": texture}}));
+    builder.node_with(
+        json!({"attributes": attributes, "indices": indices, "material": material}),
+        json!({}),
+    );
+    let tangents = builder.pose().geometry.streams.tangents;
+    assert_eq!(tangents.len(), positions.len());
+    for [x, y, z, sign] in tangents {
+        let off = [x, y - 1.0, z, sign - 1.0].map(f32::abs);
+        assert!(off.iter().all(|d| *d < 1e-2), "{x} {y} {z} {sign}");
+    }
+}
+
 #[test]
 fn deep_hierarchies_do_not_overflow_the_stack() {
     const DEPTH: usize = 200_000;

@@ -81,3 +81,36 @@ fn every_file_ends_in_a_scene_or_an_error_with_its_name() {
     assert!(valid >= 40, "only {valid} reports without errors");
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }
+
+/// URIs that other programs write or read lead to their files; those that lead nowhere are named.
+#[test]
+#[cfg_attr(not(shared_files), ignore = "../shared is missing")]
+fn uris_of_other_programs_are_read_or_named() {
+    let files = gltf_files(&shared("reports/16-gltf-uri"));
+    assert!(files.len() >= 18, "only {} files", files.len());
+    for path in files {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let loaded = match (name, Scene::load(&path)) {
+            ("utf16", Err(error)) => {
+                assert!(error.to_string().contains("neither a GLB"), "{error}");
+                continue;
+            }
+            (_, loaded) => loaded.unwrap(),
+        };
+        // On some systems, the case of letters in a file's name does not matter.
+        let is_tolerated = ["backslash", "backslash-up", "data-newline", "case"].contains(&name);
+        let has_images = !["bin-query", "trailing", "data-urlsafe", "case"].contains(&name);
+        let images = loaded.scene.images.len();
+        match name {
+            "case" => assert_eq!(images == 0, !loaded.warnings.is_empty()),
+            "data-urlsafe" => assert!(loaded.warnings[0].contains("/images/0/uri"), "{name}"),
+            _ => assert_eq!(
+                (images == 1, loaded.warnings.len()),
+                (has_images, usize::from(is_tolerated)),
+                "{name}"
+            ),
+        }
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        assert!(!pose.geometry.triangles.is_empty(), "{name}");
+    }
+}

@@ -394,6 +394,41 @@ fn broken_channels_leave_the_rest_in_motion() {
     assert_eq!(x_of_first_corner(&builder, 1.0), 3.0);
 }
 
+#[test]
+fn keyframes_that_repeat_a_time_are_left_out() {
+    let times = [0., 1., 1., 1., 2.];
+    let values = [1., 3., 90., 91., 5.].map(|x| [x, 0., 0.]);
+    let mut builder = animated(json!({}), "translation", "LINEAR", &times, &values);
+    // Another channel with the same times: in-tangents, values and out-tangents.
+    let cubic = [0., 1., 0., 0., 2., 0., 9., 9., 9., 9., 9., 9., 0., 4., 0.].map(|x| [x; 3]);
+    let output = builder.floats(&cubic);
+    let animation = &mut builder.json["animations"][0];
+    let channels = animation["channels"].as_array_mut().unwrap();
+    channels.push(json!({"sampler": 1, "target": {"node": 0, "path": "scale"}}));
+    let samplers = animation["samplers"].as_array_mut().unwrap();
+    samplers.push(json!({"input": 1, "output": output, "interpolation": "CUBICSPLINE"}));
+    let warnings = builder.load().unwrap().warnings;
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    let told = "/accessors/1: 2 of 5 keyframes repeat the time of the one before and are left out";
+    assert!(
+        warnings.iter().any(|text| text.contains(told)),
+        "{warnings:?}"
+    );
+    let corners_at = |time| corners(&at(&builder, Some("move"), time).geometry, 0);
+    for (time, place, scale) in [(0.5, 2., 1.5), (1., 3., 2.), (1.5, 4., 3.), (2., 5., 4.)] {
+        let [a, b, _] = corners_at(time);
+        assert_near([a, b], [[place, 0., 0.], [place + scale, 0., 0.]]);
+    }
+
+    let times = [0., 2., 1.];
+    let builder = animated(json!({}), "translation", "LINEAR", &times, &values[..3]);
+    let warnings = builder.load().unwrap().warnings;
+    assert!(
+        warnings.iter().any(|text| text.contains("do not ascend")),
+        "{warnings:?}"
+    );
+}
+
 /// A triangle with normals and two targets: one moves it along z, the other rotates the normals.
 fn morphed(mesh_weights: Value, node: Value) -> Builder {
     let mut builder = Builder::new();

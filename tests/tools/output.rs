@@ -1,9 +1,13 @@
 //! Image files: readers find what was written.
 
-use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read as read_exr};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, ReadChannels, ReadLayers, Vec2, WritableImage, f16, read as read_exr,
+};
 use gpc::color::srgb;
 use gpc::output::{
-    Aov, AovKind, Format, OutputError, Picture, decode, encode, encode_aov, read, write_atomically,
+    Aov, AovKind, Format, OutputError, Picture, bound_light, decode, decode_light, decode_linear,
+    encode, encode_aov, read, write_atomically,
 };
 use gpc::render::PixelAttributes;
 use std::io::Cursor;
@@ -128,6 +132,95 @@ fn exr_holds_the_very_floats_and_ids() {
     );
     assert_eq!(*find("normal.Y"), FlatSamples::F32(vec![0.0, 1.0, 1.0]));
     assert_eq!(channels.len(), 11);
+}
+
+/// An EXR file of 2 x 1 pixels at `start`, in a display window of `size` that starts at (3, 4).
+fn exr_file(channels: &[(&str, FlatSamples)], start: [i32; 2], size: [usize; 2]) -> Vec<u8> {
+    let channel = |(name, samples): &(&str, FlatSamples)| AnyChannel::new(*name, samples.clone());
+    let mut layer = Layer::new(
+        (2, 1),
+        LayerAttributes::default(),
+        Encoding::UNCOMPRESSED,
+        AnyChannels::sort(channels.iter().map(channel).collect()),
+    );
+    layer.attributes.layer_position = Vec2(start[0], start[1]);
+    let window = IntegerBounds::new((3, 4), (size[0], size[1]));
+    let mut bytes = Cursor::new(Vec::new());
+    Image::new(ImageAttributes::new(window), layer)
+        .write()
+        .to_buffered(&mut bytes)
+        .unwrap();
+    bytes.into_inner()
+}
+
+fn two(first: f32, second: f32) -> FlatSamples {
+    FlatSamples::F32(vec![first, second])
+}
+
+#[test]
+fn exr_is_placed_in_its_display_window() {
+    let colors = [("R", two(1., 2.)), ("G", two(3., 4.)), ("B", two(5., 6.))];
+    let (first, second, none) = ([1., 3., 5., 1.], [2., 4., 6., 1.], [0.; 4]);
+    for (start, size, expected) in [
+        ([3, 4], [2, 1], vec![first, second]),
+        ([4, 5], [3, 2], vec![none, none, none, none, first, second]),
+        // Beyond the left border, and wholly outside.
+        ([2, 4], [2, 1], vec![second, none]),
+        ([-9, 4], [2, 1], vec![none, none]),
+    ] {
+        let (found, pixels) = decode_linear(&exr_file(&colors, start, size), "x").unwrap();
+        assert_eq!(found.map(|side| side as usize), size);
+        assert_eq!(pixels, expected, "{start:?}");
+    }
+}
+
+#[test]
+fn exr_channels_are_read_or_named() {
+    let read = |channels: &[(&str, FlatSamples)]| {
+        decode_linear(&exr_file(channels, [3, 4], [2, 1]), "x").map(|(_, pixels)| pixels)
+    };
+    let grey = read(&[("Y", two(0.5, 2.0))]).unwrap();
+    assert_eq!(grey, [[0.5, 0.5, 0.5, 1.0], [2.0, 2.0, 2.0, 1.0]]);
+    let layer = |name: &str| ["R", "G", "B", "A"].map(|channel| format!("{name}.{channel}"));
+    let of = |names: &[String]| {
+        let named = |(i, name): (usize, &String)| (name.clone(), two(i as f32, 9.0));
+        names.iter().enumerate().map(named).collect::<Vec<_>>()
+    };
+    let with_names = |named: &[(String, FlatSamples)]| {
+        let channels: Vec<_> = named
+            .iter()
+            .map(|(name, s)| (name.as_str(), s.clone()))
+            .collect();
+        read(&channels)
+    };
+    let beauty = with_names(&of(&layer("beauty"))).unwrap();
+    assert_eq!(beauty[0], [0.0, 1.0, 2.0, 3.0]);
+    for (named, told) in [
+        (of(&[layer("sun"), layer("sky")].concat()), "sky.A, sky.B"),
+        (of(&["Y", "RY", "BY"].map(String::from)), "BY, RY, Y"),
+        (of(&["Z".to_owned()]), "the channels Z;"),
+    ] {
+        let error = with_names(&named).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+#[test]
+fn infinite_light_is_bounded() {
+    let halves = |a: f32, b: f32| FlatSamples::F16(vec![f16::from_f32(a), f16::from_f32(b)]);
+    let red = ("R", halves(f32::INFINITY, 2.0));
+    let half = exr_file(
+        &[red, ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))],
+        [3, 4],
+        [2, 1],
+    );
+    let (_, mut colors) = decode_light(&half, "x").unwrap();
+    assert_eq!(bound_light(&mut colors), (1, 65_504.0));
+    assert_eq!(colors, [[65_504.0, 1.0, 1.0], [2.0, 3.0, 3.0]]);
+    let mut brighter = [[f32::INFINITY; 3], [1e6, 0.0, 0.0]];
+    assert_eq!(bound_light(&mut brighter), (1, 1e6));
+    assert_eq!(brighter, [[1e6; 3], [1e6, 0.0, 0.0]]);
+    assert_eq!(bound_light(&mut [[f32::NAN, 1.0, -1.0]]).0, 0);
 }
 
 #[test]

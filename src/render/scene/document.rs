@@ -46,7 +46,7 @@ pub struct Document {
     pub environments: Vec<Option<Arc<Environment>>>,
     /// Number of materials in the file; they come first among the scene's materials.
     pub file_materials: usize,
-    /// Indices of materials that are unlit copies, and of their originals.
+    /// Indices of materials and of their unlit copies, ascending.
     pub unlit_copies: Vec<(usize, usize)>,
 }
 
@@ -173,6 +173,13 @@ pub struct Displacements {
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     pub tangents: Vec<[f32; 3]>,
+}
+
+impl Displacements {
+    /// Whether any stream is there.
+    pub fn displaces(&self) -> bool {
+        !(self.positions.is_empty() && self.normals.is_empty() && self.tangents.is_empty())
+    }
 }
 
 /// Four joints and their weights for every vertex. The weights of all sets of a vertex sum to 1.

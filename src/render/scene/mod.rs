@@ -47,6 +47,7 @@ mod view;
 use std::{path::Path, sync::Arc};
 
 pub use edges::Edges;
+pub(crate) use environment::Sun;
 pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
 pub use geometry::{

@@ -1,8 +1,8 @@
 //! Decoding of image files, for comparisons and as inputs.
 
-use super::{OutputError, Picture, exr};
+use super::{OutputError, Picture, exr, radiance};
 use crate::color::srgb;
-use image::{ImageFormat, ImageReader};
+use image::ImageReader;
 use rayon::prelude::*;
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -90,7 +90,7 @@ pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
         exr::decode(bytes)
     } else {
-        radiance(bytes).map(|(size, colors)| (size, opaque(colors).collect()))
+        radiance::decode(bytes).map(|(size, colors)| (size, opaque(colors).collect()))
     };
     decoded.map_err(|reason| not_linear(name, reason))
 }
@@ -105,9 +105,25 @@ pub fn decode_light(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 3]>
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
         exr::decode(bytes).map(|(size, pixels)| (size, light(pixels).collect()))
     } else {
-        radiance(bytes)
+        radiance::decode(bytes)
     };
     decoded.map_err(|reason| not_linear(name, reason))
+}
+
+/// Replaces infinite light by the largest finite value of the image, but at least the largest of a half float, beyond which
+/// programs write infinity. Returns the number of colours that were changed, and the value.
+pub fn bound_light(colors: &mut [[f32; 3]]) -> (usize, f32) {
+    let finite = |x: &f32| x.is_finite();
+    let most = colors.as_flattened().iter().copied().filter(finite);
+    let most = most.fold(f32::from(half::f16::MAX), f32::max);
+    let mut changed = 0;
+    for color in colors {
+        if color.contains(&f32::INFINITY) {
+            changed += 1;
+            *color = color.map(|x| if x == f32::INFINITY { most } else { x });
+        }
+    }
+    (changed, most)
 }
 
 fn not_linear(name: &str, reason: String) -> OutputError {
@@ -129,21 +145,6 @@ fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
     let size = [image.width(), image.height()];
     let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
     Ok((size, pixels))
-}
-
-/// Size and linear colours of a Radiance image.
-fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
-    if !bytes.starts_with(b"#?") {
-        return Err("not of a known format".to_owned());
-    }
-    let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr)
-        .decode()
-        .map_err(|error| error.to_string())?;
-    let size = [image.width(), image.height()];
-    let numbers = image.into_rgb32f().into_raw();
-    let colors = bytemuck::try_cast_vec(numbers)
-        .unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
-    Ok((size, colors))
 }
 
 fn show_linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {

@@ -1,7 +1,9 @@
 //! OpenEXR files, read and written by the `exr` crate.
 
 use super::{Aov, OutputError, Picture, check_count};
+use ::exr::meta::header::Header;
 use ::exr::prelude::*;
+use std::collections::BTreeSet;
 use std::io::Cursor;
 
 /// Encodes a file with one part: the picture's R, G, B and A, and a layer for each AOV.
@@ -62,12 +64,74 @@ fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
 /// Largest number of pixels that is read, so that a header can't claim memory far beyond the file's size.
 const MAX_PIXELS: usize = 1 << 28;
 
-/// Size and pixels of the first layer that has R, G and B; alpha is 1 if the layer has none.
+/// Channels that an image is read from.
+#[derive(Debug, PartialEq)]
+enum Chosen {
+    Colors { rgb: [Text; 3], alpha: Text },
+    Luminance,
+}
+
+impl Chosen {
+    fn are_in(&self, header: &Header) -> bool {
+        let has = |name: &Text| header.channels.find_index_of_channel(name).is_some();
+        !header.deep
+            && match self {
+                Self::Colors { rgb, .. } => rgb.iter().all(has),
+                Self::Luminance => has(&Text::from("Y")),
+            }
+    }
+
+    /// Chooses R, G and B; otherwise Y, if it is luminance alone; otherwise the only layer with R, G and B.
+    fn of(headers: &[Header]) -> std::result::Result<Self, String> {
+        let colors = |layer: &str| {
+            let name = |channel: &str| Text::new_or_none(format!("{layer}{channel}"));
+            Some(Self::Colors {
+                rgb: [name("R")?, name("G")?, name("B")?],
+                alpha: name("A")?,
+            })
+        };
+        let is_there = |chosen: &Self| headers.iter().any(|header| chosen.are_in(header));
+        let names: Vec<String> = headers
+            .iter()
+            .flat_map(|header| &header.channels.list)
+            .map(|channel| channel.name.to_string())
+            .collect();
+        let has = |name: &str| names.iter().any(|known| known == name);
+        let luminance = Some(Self::Luminance).filter(|_| !has("RY") && !has("BY"));
+        let first = [colors(""), luminance].into_iter().flatten().find(is_there);
+        if let Some(chosen) = first {
+            return Ok(chosen);
+        }
+        let layers = names.iter().filter_map(|name| name.strip_suffix('R'));
+        let layers: BTreeSet<&str> = layers.filter(|layer| layer.ends_with('.')).collect();
+        let mut layers: Vec<Self> = layers.into_iter().filter_map(colors).collect();
+        layers.retain(is_there);
+        match (layers.len(), layers.pop()) {
+            (1, Some(layer)) => Ok(layer),
+            _ => Err(format!(
+                "{}it has the channels {}; what is read is R, G and B, Y alone, or a layer's R, G and B if only one layer has them",
+                if headers.iter().all(|header| header.deep) {
+                    "its data are deep; "
+                } else {
+                    ""
+                },
+                names.join(", ")
+            )),
+        }
+    }
+}
+
+/// Size and pixels of the first part that has R, G and B, or of what is [chosen](Chosen::of) otherwise; alpha is 1 if the part
+/// has none. The image is the display window: pixels outside the data window are transparent black, and data outside the display
+/// window are not part of the image.
 pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4]>), String> {
     let text = |error: Error| error.to_string();
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(text)?;
-    for header in &meta.headers {
-        let size = header.layer_size;
+    let chosen = Chosen::of(&meta.headers)?;
+    let header = meta.headers.iter().find(|header| chosen.are_in(header));
+    let header = header.ok_or("it has no image")?;
+    let window = header.shared_attributes.display_window;
+    for size in [header.layer_size, window.size] {
         if size.width().saturating_mul(size.height()) > MAX_PIXELS {
             return Err(format!(
                 "it has {} x {} pixels, more than the {MAX_PIXELS} that are read",
@@ -76,22 +140,59 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
             ));
         }
     }
-    let image = read()
+    let along = |start: i32, end: i32| i64::from(start) - i64::from(end);
+    let start = header.own_attributes.layer_position;
+    let (left, top) = (
+        along(start.x(), window.position.x()),
+        along(start.y(), window.position.y()),
+    );
+    let (width, height) = (window.size.width(), window.size.height());
+    let place = |start: i64, at: usize, side: usize| {
+        let at = usize::try_from(start + at as i64).ok();
+        at.filter(|at| *at < side)
+    };
+    let set = move |pixels: &mut Vec<[f32; 4]>, at: Vec2<usize>, value: [f32; 4]| {
+        let (x, y) = (place(left, at.x(), width), place(top, at.y(), height));
+        let index = x.zip(y).map(|(x, y)| y * width + x);
+        if let Some(pixel) = index.and_then(|index| pixels.get_mut(index)) {
+            *pixel = value;
+        }
+    };
+    let black = move || vec![[0.0; 4]; width * height];
+    let reader = read()
         .no_deep_data()
         .largest_resolution_level()
-        .rgba_channels(
-            |size, _| (size, vec![[0.0; 4]; size.area()]),
-            |(size, pixels), position, (r, g, b, a): (f32, f32, f32, f32)| {
-                if let Some(pixel) = pixels.get_mut(position.y() * size.width() + position.x()) {
-                    *pixel = [r, g, b, a];
-                }
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(text)?;
-    let (size, pixels) = image.layer_data.channel_data.pixels;
+        .specific_channels();
+    let bytes = Cursor::new(bytes);
+    let pixels = match chosen {
+        Chosen::Colors {
+            rgb: [r, g, b],
+            alpha,
+        } => reader
+            .required(r)
+            .required(g)
+            .required(b)
+            .optional(alpha, 1.0_f32)
+            .collect_pixels(
+                move |_, _| black(),
+                move |pixels, at, (r, g, b, a): (f32, f32, f32, f32)| set(pixels, at, [r, g, b, a]),
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(bytes)
+            .map(|image| image.layer_data.channel_data.pixels),
+        Chosen::Luminance => reader
+            .required("Y")
+            .optional("A", 1.0_f32)
+            .collect_pixels(
+                move |_, _| black(),
+                move |pixels, at, (y, a): (f32, f32)| set(pixels, at, [y, y, y, a]),
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(bytes)
+            .map(|image| image.layer_data.channel_data.pixels),
+    };
     let side = |side: usize| u32::try_from(side).map_err(|_| "a side is too long".to_owned());
-    Ok(([side(size.width())?, side(size.height())?], pixels))
+    Ok(([side(width)?, side(height)?], pixels.map_err(text)?))
 }

@@ -1,7 +1,7 @@
 //! Scenes from files and from standard input.
 
 use anyhow::Context;
-use gpc::output::decode_light;
+use gpc::output::{bound_light, decode_light};
 use gpc::scene::{Environment, Loaded, Scene};
 use std::io::Read;
 use std::path::Path;
@@ -36,13 +36,20 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
     })
 }
 
-/// Reads an equirectangular image as an environment.
-pub fn environment(path: &Path) -> anyhow::Result<Environment> {
+/// Reads an equirectangular image as an environment. Returns warnings too.
+pub fn environment(path: &Path) -> anyhow::Result<(Environment, Vec<String>)> {
     let file = path.display();
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
-    let ([width, height], colors) = decode_light(&bytes, &file.to_string())?;
-    Environment::from_equirectangular(width, height, colors)
-        .with_context(|| format!("{file} is no environment"))
+    let ([width, height], mut colors) = decode_light(&bytes, &file.to_string())?;
+    let (infinite, bound) = bound_light(&mut colors);
+    let warning =
+        format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
+    let environment = Environment::from_equirectangular(width, height, colors)
+        .with_context(|| format!("{file} is no environment"))?;
+    Ok((
+        environment,
+        Vec::from_iter((infinite > 0).then_some(warning)),
+    ))
 }
 
 /// The scene's name for output files: its file's name without the extension.

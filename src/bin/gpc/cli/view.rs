@@ -67,8 +67,12 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
     };
     let look = look(&args, background)?;
     let start = start(&args.camera)?;
+    let (environment, warnings) = args.appearance.environment()?;
+    for warning in &warnings {
+        log::warn!("{warning}");
+    }
     let appearance = Appearance {
-        environment: args.appearance.environment()?,
+        environment,
         edges: args.appearance.edges(),
     };
     let appearance_options = appearance_options(&args, &look);

@@ -1,6 +1,6 @@
 //! Lights in the form that shaders read.
 
-use crate::scene::{Light, LightKind};
+use crate::scene::{Light, LightKind, Sun};
 use glam::DVec3;
 
 /// `Light` of `shaders/include/frame.glsl`.
@@ -31,6 +31,19 @@ impl GpuLight {
             direction_kind: [direction.x, direction.y, direction.z, kind],
             color_scale: [light.color[0], light.color[1], light.color[2], scale],
             offset: [offset, 0.0, 0.0, 0.0],
+        }
+    }
+}
+
+impl GpuLight {
+    /// A sun of the environment, in the map's space.
+    pub(super) fn of_sun(sun: &Sun) -> Self {
+        let [direction, light] = [sun.direction, sun.light].map(|v| v.as_vec3());
+        Self {
+            position_range: [0.0; 4],
+            direction_kind: direction.extend(sun.solid_angle as f32).to_array(),
+            color_scale: light.extend(0.0).to_array(),
+            offset: [0.0; 4],
         }
     }
 }

@@ -21,7 +21,7 @@ use super::geometry::GpuGeometry;
 use crate::engine::data::Content;
 use crate::engine::data::upload::{Upload, Uploader};
 use crate::engine::pipelines::FrameLayout;
-use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
+use crate::scene::{DrawClass, Environment, Moment, Motion, Pose, Scene};
 use crate::vulkan::{Buffer, Memory, Recorder, TexelBuffer, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
@@ -109,14 +109,14 @@ impl GpuScene {
         let alphas: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
         let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &alphas));
         let materials = MaterialTable::new(&looks, slots, alphas);
-        let lights: Vec<GpuLight> = pose
-            .lights
-            .iter()
-            .map(|light| GpuLight::of_scene(light, geometry.origin))
-            .collect();
+        let surroundings = pose.environment(scene);
+        let suns = surroundings.map_or(&[][..], Environment::suns);
+        let lights = pose.lights.iter();
+        let lights = lights.map(|light| GpuLight::of_scene(light, geometry.origin));
+        // The environment's suns follow the scene's lights.
+        let lights: Vec<GpuLight> = lights.chain(suns.iter().map(GpuLight::of_sun)).collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let bins = bins.allocate(layout, &textures)?;
-        let surroundings = pose.environment(scene);
         let mut uploader = Uploader::new(memory);
         let (environment, environment_upload) =
             GpuEnvironment::new(layout, &mut uploader, surroundings)?;

@@ -95,12 +95,12 @@ pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
     1.0 / (square * square.sqrt())
 }
 
-/// Cube of an equirectangular image, followed by ever coarser averages of it down to one texel a face.
-pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
+/// Cube of an equirectangular image.
+pub(super) fn resampled(image: &Equirectangular) -> Cube {
     let side = (image.width / 4).next_power_of_two().clamp(LEAST, MOST);
     // Number of points along each axis that are averaged for a texel, so that no texel of the image is skipped.
     let points = (image.width / 4).div_ceil(side).max(2);
-    let finest = Cube::new(side, |face, x, y| {
+    Cube::new(side, |face, x, y| {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
         for row in 0..points {
             for column in 0..points {
@@ -111,7 +111,11 @@ pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
             }
         }
         (sum / weights).as_vec3().to_array()
-    });
+    })
+}
+
+/// A cube, followed by ever coarser averages of it down to one texel a face.
+pub(super) fn pyramid(finest: Cube) -> Vec<Cube> {
     let mut levels = vec![finest];
     while levels[levels.len() - 1].side > 1 {
         let coarser = halve(&levels[levels.len() - 1]);
@@ -120,6 +124,7 @@ pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
     levels
 }
 
+/// Cube of half the side, whose texels are averages.
 fn halve(fine: &Cube) -> Cube {
     Cube::new(fine.side / 2, |face, x, y| {
         let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
@@ -163,7 +168,7 @@ mod tests {
             height,
             pixels,
         };
-        let cube = &pyramid(&image)[0];
+        let cube = resampled(&image);
         for (direction, x, y) in [
             (DVec3::NEG_Z, 31.5, 15.5),
             (DVec3::X, 47.5, 15.5),

@@ -5,6 +5,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 use super::cube::{Cube, direction, solid_angle};
+use super::suns::Sun;
 
 /// Largest side of the faces that are integrated: a coarse cube suffices for the first three bands.
 const SIDE: u32 = 32;
@@ -31,8 +32,8 @@ const COSINE: [f64; 9] = {
     [1.0, one, one, one, two, two, two, two, two]
 };
 
-/// Spherical-harmonic coefficients of the irradiance / pi.
-pub(super) fn irradiance(pyramid: &[Cube]) -> [[f32; 3]; 9] {
+/// Spherical-harmonic coefficients of the irradiance / pi, due to a map and the suns that were taken out of it.
+pub(super) fn irradiance(pyramid: &[Cube], suns: &[Sun]) -> [[f32; 3]; 9] {
     let Some(cube) = pyramid.iter().find(|cube| cube.side <= SIDE) else {
         return [[0.0; 3]; 9];
     };
@@ -53,7 +54,14 @@ pub(super) fn irradiance(pyramid: &[Cube]) -> [[f32; 3]; 9] {
         }
     }
     let of_all = 4.0 * PI / weights;
-    std::array::from_fn(|i| (sums[i] * of_all * COSINE[i]).as_vec3().to_array())
+    let mut sums = sums.map(|sum| sum * of_all);
+    for sun in suns {
+        let values = basis(sun.direction);
+        sums.iter_mut()
+            .zip(values)
+            .for_each(|(s, v)| *s += sun.light * v);
+    }
+    std::array::from_fn(|i| (sums[i] * COSINE[i]).as_vec3().to_array())
 }
 
 #[cfg(test)]

@@ -3,11 +3,13 @@
 mod cube;
 mod equirectangular;
 mod harmonics;
+mod suns;
 
 use glam::{DMat3, DQuat, DVec3};
 
 use cube::Cube;
 use equirectangular::Equirectangular;
+pub(crate) use suns::Sun;
 
 /// Error: an image that is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -42,9 +44,10 @@ pub enum EnvironmentError {
 pub struct Environment {
     /// Image that the environment was made from; `None` if it was made from levels.
     image: Option<Equirectangular>,
-    /// The image as a cube, followed by ever coarser averages down to one texel a face. For an environment made from
-    /// levels, cube `i` of `n` is the reflection of surfaces with the perceptual roughness `i / (n - 1)`.
+    /// The image as a cube without the suns, followed by ever coarser averages down to one texel a face. For an environment made
+    /// from levels, cube `i` of `n` is the reflection of surfaces with the perceptual roughness `i / (n - 1)`.
     cubes: Vec<Cube>,
+    suns: Vec<Sun>,
     irradiance: [[f32; 3]; 9],
     /// Rotation from world space to the space of the map.
     rotation: DMat3,
@@ -82,11 +85,14 @@ impl Environment {
             height,
             pixels,
         };
-        let cubes = cube::pyramid(&image);
+        let mut finest = cube::resampled(&image);
+        let suns = suns::take(&mut finest);
+        let cubes = cube::pyramid(finest);
         Ok(Self {
             image: Some(image),
-            irradiance: harmonics::irradiance(&cubes),
+            irradiance: harmonics::irradiance(&cubes, &suns),
             cubes,
+            suns,
             rotation: DMat3::IDENTITY,
         })
     }
@@ -102,6 +108,7 @@ impl Environment {
         let cube = |(side, texels)| Cube { side, texels };
         Self {
             image: None,
+            suns: Vec::new(),
             cubes: levels.into_iter().map(cube).collect(),
             irradiance,
             rotation: DMat3::from_quat(rotation.inverse()),
@@ -129,6 +136,11 @@ impl Environment {
     /// Side of a face in texels and colours of each cube, the faces in Vulkan's order, row by row.
     pub(crate) fn cubes(&self) -> impl ExactSizeIterator<Item = (u32, &[[f32; 3]])> {
         self.cubes.iter().map(|cube| (cube.side, &cube.texels[..]))
+    }
+
+    /// Small bright parts that the cubes lack.
+    pub(crate) fn suns(&self) -> &[Sun] {
+        &self.suns
     }
 
     /// Coefficients, in the map's space, of the real spherical harmonics of the first three bands. The harmonics of a

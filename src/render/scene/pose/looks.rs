@@ -59,7 +59,7 @@ impl SceneAppearance {
             Described::Material(index) => {
                 if let Some(at_rest) = scene.materials.get(index) {
                     let material = descriptions.material(index, changes, at_rest, warnings)?;
-                    let unlit = copies(scene, index).map(|copy| {
+                    let unlit = unlit_copy(scene, index).map(|copy| {
                         let unlit = true;
                         let material = material.clone();
                         (copy, Material { unlit, ..material })
@@ -83,12 +83,11 @@ impl SceneAppearance {
     }
 }
 
-/// Indices of the unlit copies of a material.
-fn copies(scene: &Scene, material: usize) -> impl Iterator<Item = usize> {
-    let copies = scene.document.unlit_copies.iter();
-    copies
-        .filter(move |(_, of)| *of == material)
-        .map(|(copy, _)| *copy)
+/// Index of the unlit copy of a material, if it has one.
+fn unlit_copy(scene: &Scene, material: usize) -> Option<usize> {
+    let copies = &scene.document.unlit_copies;
+    let found = copies.binary_search_by_key(&material, |(of, _)| *of).ok()?;
+    copies.get(found).map(|(_, copy)| *copy)
 }
 
 /// Indices of the materials that channels change, with their unlit copies.
@@ -99,7 +98,7 @@ pub fn changing_materials(scene: &Scene, animation: &[Channel]) -> Vec<usize> {
         _ => None,
     });
     let mut all: Vec<usize> = materials
-        .flat_map(|index| iter::once(index).chain(copies(scene, index)))
+        .flat_map(|index| iter::once(index).chain(unlit_copy(scene, index)))
         .collect();
     all.sort_unstable();
     all.dedup();

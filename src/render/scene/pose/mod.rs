@@ -27,7 +27,7 @@ use looks::SceneAppearance;
 use motion::Moving;
 pub(crate) use motion::MovingBounds;
 pub use motion::{Moment, Motion, MotionPart};
-use placement::Placement;
+use placement::{Placement, Placer};
 
 /// Choice of a scene, an animation and a time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -172,6 +172,7 @@ fn show<'d>(
     let looks = SceneAppearance::new(scene, animation, request.time, warnings);
     let drawn = drawn_nodes(document, request.scene.or(document.default_scene));
 
+    let mut placer = Placer::new(document, &state, moving);
     let mut placements = Vec::new();
     let (mut lights, mut cameras) = (Vec::new(), Vec::new());
     for index in drawn {
@@ -205,7 +206,7 @@ fn show<'d>(
             }
         }
         if visible {
-            placements.extend(Placement::of_node(document, index, node, &state, moving));
+            placements.extend(placer.of_node(index, node));
         }
     }
     Ok(PoseContents {

@@ -1,15 +1,18 @@
 //! Placements: a primitive at one place, and the transform of its vertices to the world.
 
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use gltf::json::Node;
 
 use super::{copies, hierarchy::NodeStates, motion::Moving, primitives_of};
 use crate::scene::{
-    document::{Displacements, Document, Primitive},
+    document::{Displacements, Document, Primitive, Skin},
     geometry::length_scale,
 };
+
+/// Morph targets that have an effect: weight, index, displacements.
+type WeightedTargets<'d> = Arc<[(f64, usize, &'d Displacements)]>;
 
 /// A primitive, and the transform of its vertices to the world.
 #[derive(Clone, Debug)]
@@ -17,8 +20,7 @@ pub struct Placement<'d> {
     /// Index of the node, for messages.
     pub node: usize,
     pub primitive: &'d Primitive,
-    /// Morph targets that have an effect: weight, index, displacements.
-    pub targets: Arc<[(f64, usize, &'d Displacements)]>,
+    pub targets: WeightedTargets<'d>,
     motion: VertexMotion,
     /// Whether the device moves the vertices.
     pub moves: bool,
@@ -64,33 +66,95 @@ impl VertexTransform {
     }
 }
 
-impl<'d> Placement<'d> {
+/// Skin at one moment.
+struct SkinState {
+    /// Transform of every joint, from the space of the bound mesh to the world.
+    matrices: Arc<[DAffine3]>,
+    /// Whether all of them mirror.
+    mirrored: bool,
+    /// Whether a joint may move later.
+    moves: bool,
+}
+
+impl SkinState {
+    /// As the specification says, the transform of a node with the skin is ignored.
+    fn new(skin: &Skin, state: &NodeStates, moving: &Moving) -> Self {
+        let world = |joint: usize| state.world.get(joint).copied().unwrap_or_default();
+        let joints = skin.joints.iter().zip(&skin.inverse_bind);
+        let matrices: Arc<[_]> = joints.map(|(&joint, bind)| world(joint) * *bind).collect();
+        let mirrors = |joint: &DAffine3| joint.matrix3.determinant() < 0.0;
+        Self {
+            mirrored: matrices.iter().all(mirrors),
+            matrices,
+            moves: skin.joints.iter().any(|&joint| moving.places(joint)),
+        }
+    }
+}
+
+/// Makes the placements of nodes at one moment. What several nodes share is computed once.
+pub struct Placer<'d, 's> {
+    document: &'d Document,
+    state: &'s NodeStates,
+    moving: &'s Moving,
+    skins: HashMap<usize, SkinState>,
+    /// Targets of the primitives of each mesh with the mesh's own weights.
+    targets: HashMap<usize, Arc<[WeightedTargets<'d>]>>,
+}
+
+impl<'d, 's> Placer<'d, 's> {
+    pub fn new(document: &'d Document, state: &'s NodeStates, moving: &'s Moving) -> Self {
+        Self {
+            document,
+            state,
+            moving,
+            skins: HashMap::new(),
+            targets: HashMap::new(),
+        }
+    }
+
+    /// Targets of the primitives of a node's mesh.
+    fn targets_of(&mut self, index: usize, node: &'d Node) -> Arc<[WeightedTargets<'d>]> {
+        let document = self.document;
+        let weighted = |weights: &[f64]| {
+            let of_primitive = |primitive: &'d Primitive| {
+                let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
+                let weighted =
+                    weighted.filter(|(weight, (_, target))| **weight != 0.0 && target.displaces());
+                let weighted = weighted.map(|(weight, (index, target))| (*weight, index, target));
+                weighted.collect()
+            };
+            let primitives = primitives_of(document, node).iter();
+            primitives.map(of_primitive).collect()
+        };
+        let animated = self.state.weights.get(index).and_then(Option::as_deref);
+        match (animated, &node.weights, node.mesh) {
+            (Some(weights), ..) => weighted(weights),
+            (None, None, Some(mesh)) => {
+                let of_mesh = || weighted(&document.weights(index));
+                let known = self.targets.entry(mesh.value()).or_insert_with(of_mesh);
+                Arc::clone(known)
+            }
+            _ => weighted(&document.weights(index)),
+        }
+    }
+
     /// Placements of all primitives of a node, one for each time that it draws them.
-    pub fn of_node(
-        document: &'d Document,
-        index: usize,
-        node: &'d Node,
-        state: &NodeStates,
-        moving: &Moving,
-    ) -> Vec<Self> {
+    pub fn of_node(&mut self, index: usize, node: &'d Node) -> Vec<Placement<'d>> {
+        let document = self.document;
         let primitives = primitives_of(document, node);
         if primitives.is_empty() {
             return Vec::new();
         }
-        let animated = state.weights.get(index).cloned().flatten();
-        let weights = animated.unwrap_or_else(|| document.weights(index));
-        let targets: Vec<Arc<[_]>> = primitives
-            .iter()
-            .map(|primitive| {
-                let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
-                weighted
-                    .filter(|(weight, _)| **weight != 0.0)
-                    .map(|(weight, (index, target))| (*weight, index, target))
-                    .collect()
-            })
-            .collect();
+        let targets = self.targets_of(index, node);
+        let (state, moving) = (self.state, self.moving);
         let world = state.world.get(index).copied().unwrap_or_default();
-        let skin = joint_matrices(document, node, state);
+        let skin = node.skin.map(|skin| skin.value());
+        let skin = skin.and_then(|skin| Some((skin, document.skins.get(skin)?)));
+        let skin = skin.map(|(skin, found)| {
+            let known = self.skins.entry(skin);
+            &*known.or_insert_with(|| SkinState::new(found, state, moving))
+        });
+        let moves = moving.has(index) || skin.is_some_and(|skin| skin.moves);
 
         let mut placements = Vec::new();
         for copy in 0..copies(document, index) {
@@ -99,19 +163,16 @@ impl<'d> Placement<'d> {
                 .as_ref()
                 .and_then(|i| i.get(copy));
             let rigid = VertexTransform::new(world * instance.copied().unwrap_or_default());
-            for (primitive, targets) in primitives.iter().zip(&targets) {
-                let (motion, mirrored) = match &skin {
-                    Some(joints) if !primitive.influences.is_empty() => {
-                        let mirrors = |joint: &DAffine3| joint.matrix3.determinant() < 0.0;
-                        (
-                            VertexMotion::Skinned(Arc::clone(joints)),
-                            joints.iter().all(mirrors),
-                        )
+            for (primitive, targets) in primitives.iter().zip(targets.iter()) {
+                let (motion, mirrored) = match skin {
+                    Some(skin) if !primitive.influences.is_empty() => {
+                        let matrices = Arc::clone(&skin.matrices);
+                        (VertexMotion::Skinned(matrices), skin.mirrored)
                     }
                     _ => (VertexMotion::Rigid(rigid), rigid.sign < 0.0),
                 };
-                placements.push(Self {
-                    moves: moving.has(document, index, node),
+                placements.push(Placement {
+                    moves,
                     node: index,
                     primitive,
                     targets: Arc::clone(targets),
@@ -122,7 +183,9 @@ impl<'d> Placement<'d> {
         }
         placements
     }
+}
 
+impl<'d> Placement<'d> {
     /// Mesh of the placement; `None` unless a [`rigid`](Self::rigid) transform is all that tells placements of the mesh
     /// apart.
     pub fn mesh(&self) -> Option<&'d Primitive> {
@@ -246,15 +309,4 @@ fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
         otherwise
     };
     direction.as_vec3().to_array()
-}
-
-/// Matrices of the joints of a node's skin. As the specification says, the node's own transform is ignored.
-fn joint_matrices(document: &Document, node: &Node, state: &NodeStates) -> Option<Arc<[DAffine3]>> {
-    let skin = document.skins.get(node.skin?.value())?;
-    let joints = skin.joints.iter().zip(&skin.inverse_bind);
-    let matrices = joints.map(|(&joint, bind)| {
-        let world = state.world.get(joint).copied().unwrap_or_default();
-        world * *bind
-    });
-    Some(matrices.collect())
 }

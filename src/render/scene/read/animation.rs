@@ -36,7 +36,7 @@ pub fn read_all(
         descriptions: Descriptions::new(model),
         context,
         nodes,
-        cache: HashMap::new(),
+        cache: KeyframeCache::default(),
         materials,
         examined: 0,
     };
@@ -57,6 +57,8 @@ pub fn read_all(
                     .context
                     .tolerate(read.map(Some), "the channel is left out");
                 channels.extend(read.into_iter().flatten());
+                let notes = reader.cache.notes.drain(..);
+                reader.context.warnings.extend(notes);
             }
         }
         animations.push(channels);
@@ -131,18 +133,10 @@ fn read_keyframes(
     let interpolation = context
         .model
         .valid(&sampler.interpolation, &interpolation_place)?;
-    let times = context
+    let input = context
         .accessor(sampler.input, &format!("{place}/input"))?
         .expect_components(&[1])?
         .expect_type(&[ComponentType::F32])?;
-    let times = numbers(times, cache)?;
-    if !times.is_sorted_by(|a, b| a < b) {
-        return Err(Fault::new(
-            place,
-            "the times of the keyframes do not ascend strictly",
-        ));
-    }
-
     let components: &[usize] = match &target {
         Animated::Node(_, Property::Translation | Property::Scale) => &[3],
         Animated::Node(_, Property::Rotation) => &[4],
@@ -158,10 +152,11 @@ fn read_keyframes(
     let output = context
         .accessor(sampler.output, &format!("{place}/output"))?
         .expect_components(components)?;
-    let keyframes = match interpolation {
-        Interpolation::CubicSpline => 3 * times.len(),
-        Interpolation::Step | Interpolation::Linear => times.len(),
+    let parts = match interpolation {
+        Interpolation::CubicSpline => 3,
+        Interpolation::Step | Interpolation::Linear => 1,
     };
+    let keyframes = parts * input.count;
     let per_keyframe = output.count / keyframes;
     let expected = match target {
         Animated::Node(_, Property::MorphTargetWeights) => per_keyframe >= 1,
@@ -170,25 +165,113 @@ fn read_keyframes(
     if !expected || output.count % keyframes != 0 {
         return Err(output.fault(format!(
             "{} elements do not fit {} keyframes of {interpolation:?} {target}",
-            output.count,
-            times.len()
+            output.count, input.count
         )));
     }
+    let width = per_keyframe * output.components;
+    let times = cache.times(&input)?;
+    let values = cache.values(&output.normalized(), &times, parts * width)?;
     Ok(Channel {
         target,
         interpolation,
-        width: per_keyframe * output.components,
-        values: numbers(output.normalized(), cache)?,
-        times,
+        width,
+        values,
+        times: times.kept,
     })
+}
+
+/// Times of keyframes.
+#[derive(Clone)]
+struct KeyTimes {
+    /// JSON pointer to the accessor.
+    place: String,
+    /// Times, which ascend strictly.
+    kept: Arc<[f32]>,
+    /// Indices of the keyframes that repeat the time of the one before, ascending.
+    repeated: Arc<[usize]>,
+}
+
+impl KeyTimes {
+    fn new(accessor: &Accessor<'_>) -> Result<Self, Fault> {
+        let all = numbers(accessor)?;
+        if !all.is_sorted() {
+            return Err(accessor.fault("the times of the keyframes do not ascend"));
+        }
+        let repeats = |i: &usize| all[i - 1] == all[*i];
+        let repeated: Arc<[usize]> = (1..all.len()).filter(repeats).collect();
+        let mut kept = all;
+        kept.dedup();
+        Ok(Self {
+            place: accessor.place().to_owned(),
+            kept: kept.into(),
+            repeated,
+        })
+    }
+}
+
+/// Keyframes that were read already; samplers often share accessors.
+#[derive(Default)]
+struct KeyframeCache {
+    times: HashMap<String, Result<KeyTimes, Fault>>,
+    /// Values by the places of their own accessor and, if times repeat, of the times' accessor.
+    values: HashMap<(String, Option<String>), Arc<[f32]>>,
+    /// Faults that are tolerated.
+    notes: Vec<Fault>,
+}
+
+impl KeyframeCache {
+    /// Times of an accessor. A keyframe that repeats the time of the one before is left out with a note.
+    fn times(&mut self, accessor: &Accessor<'_>) -> Result<KeyTimes, Fault> {
+        if let Some(known) = self.times.get(accessor.place()) {
+            return known.clone();
+        }
+        let times = KeyTimes::new(accessor);
+        if let Ok(KeyTimes { repeated, .. }) = &times
+            && !repeated.is_empty()
+        {
+            let reason = format!(
+                "{} of {} keyframes repeat the time of the one before and are left out",
+                repeated.len(),
+                accessor.count
+            );
+            self.notes.push(accessor.fault(reason));
+        }
+        let place = accessor.place().to_owned();
+        self.times.entry(place).or_insert(times).clone()
+    }
+
+    /// Values of an accessor, `width` numbers for each keyframe, without those of the keyframes that `times` leaves out.
+    fn values(
+        &mut self,
+        accessor: &Accessor<'_>,
+        times: &KeyTimes,
+        width: usize,
+    ) -> Result<Arc<[f32]>, Fault> {
+        let repeats = !times.repeated.is_empty();
+        let key = (
+            accessor.place().to_owned(),
+            repeats.then(|| times.place.clone()),
+        );
+        if let Some(known) = self.values.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let mut values = numbers(accessor)?;
+        if repeats {
+            let keyframes = values.chunks(width).enumerate();
+            let kept = keyframes.filter(|(i, _)| times.repeated.binary_search(i).is_err());
+            values = kept.flat_map(|(_, value)| value).copied().collect();
+        }
+        let values: Arc<[f32]> = values.into();
+        self.values.insert(key, Arc::clone(&values));
+        Ok(values)
+    }
 }
 
 /// Reader of channels.
 struct ChannelReader<'c, 'm> {
     context: &'c mut Context<'m>,
     nodes: &'c [Node],
-    /// Numbers of accessors that were read already; samplers often share accessors.
-    cache: HashMap<String, Arc<[f32]>>,
+    cache: KeyframeCache,
     descriptions: Descriptions,
     materials: &'c [Material],
     /// Number of keyframes whose effect was examined.
@@ -269,15 +352,9 @@ enum AnimatedProperty {
 }
 
 /// Numbers of an accessor of up to four components.
-fn numbers(
-    accessor: Accessor<'_>,
-    cache: &mut HashMap<String, Arc<[f32]>>,
-) -> Result<Arc<[f32]>, Fault> {
-    if let Some(known) = cache.get(accessor.place()) {
-        return Ok(Arc::clone(known));
-    }
+fn numbers(accessor: &Accessor<'_>) -> Result<Vec<f32>, Fault> {
     accessor.check_justified()?;
-    let numbers: Arc<[f32]> = (0..accessor.count)
+    let numbers: Vec<f32> = (0..accessor.count)
         .flat_map(|i| {
             accessor
                 .floats::<4>(i)
@@ -289,6 +366,5 @@ fn numbers(
         let element = broken / accessor.components;
         return Err(accessor.fault(format!("element {element} is not finite")));
     }
-    cache.insert(accessor.place().to_owned(), Arc::clone(&numbers));
     Ok(numbers)
 }

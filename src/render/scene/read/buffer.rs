@@ -12,9 +12,12 @@ pub struct Buffers<'a> {
     model: &'a Model,
     binary: Option<&'a [u8]>,
     base: Option<&'a Path>,
-    loaded: Vec<OnceLock<Result<Cow<'a, [u8]>, Fault>>>,
+    loaded: Vec<OnceLock<Result<LoadedBuffer<'a>, Fault>>>,
     decoded: Vec<OnceLock<Result<Vec<u8>, Fault>>>,
 }
+
+/// The bytes of a buffer, and a fault that is tolerated.
+type LoadedBuffer<'a> = (Cow<'a, [u8]>, Option<Fault>);
 
 /// The bytes of a buffer view.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +48,12 @@ impl<'a> Buffers<'a> {
     /// Folder that relative URIs start from.
     pub fn base(&self) -> Option<&'a Path> {
         self.base
+    }
+
+    /// Faults of buffers that are tolerated.
+    pub fn notes(&self) -> impl Iterator<Item = Fault> {
+        let loaded = self.loaded.iter().filter_map(OnceLock::get);
+        loaded.flatten().filter_map(|(_, note)| note.clone())
     }
 
     /// The view `index`, referred to at the place `from`.
@@ -88,7 +97,8 @@ impl<'a> Buffers<'a> {
         let bytes = match self.loaded.get(buffer.value()) {
             Some(slot) => slot
                 .get_or_init(|| self.load(item, &buffer_place, buffer.value()))
-                .as_deref()
+                .as_ref()
+                .map(|(bytes, _)| &**bytes)
                 .map_err(Clone::clone)?,
             None => &[],
         };
@@ -108,13 +118,15 @@ impl<'a> Buffers<'a> {
             })
     }
 
-    fn load(&self, item: &'a Buffer, place: &str, index: usize) -> Result<Cow<'a, [u8]>, Fault> {
+    fn load(&self, item: &'a Buffer, place: &str, index: usize) -> Result<LoadedBuffer<'a>, Fault> {
         let length = item.byte_length.0;
-        let mut bytes = match (&item.uri, self.binary) {
-            (Some(uri), _) => uri::fetch(uri, self.base, length)
-                .map(Cow::Owned)
-                .map_err(|reason| Fault::new(format!("{place}/uri"), reason))?,
-            (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
+        let (mut bytes, note) = match (&item.uri, self.binary) {
+            (Some(uri), _) => {
+                let fault = |reason| Fault::new(format!("{place}/uri"), reason);
+                let fetched = uri::fetch(uri, self.base, length).map_err(fault)?;
+                (Cow::Owned(fetched.bytes), fetched.note.map(fault))
+            }
+            (None, Some(binary)) if index == 0 => (Cow::Borrowed(binary), None),
             _ => {
                 return Err(Fault::new(
                     place,
@@ -128,6 +140,6 @@ impl<'a> Buffers<'a> {
             Cow::Owned(bytes) => bytes.truncate(length),
             Cow::Borrowed(bytes) => *bytes = bytes.get(..length).unwrap_or(bytes),
         }
-        Ok(bytes)
+        Ok((bytes, note))
     }
 }

@@ -44,13 +44,14 @@ impl DecodedImages {
         let mut faults = Vec::new();
         for index in wanted {
             self.places.insert(index, None);
-            let encoded =
-                fetch(index, context.model, &context.buffers).and_then(|(bytes, place)| match self
-                    .admit(bytes)
-                {
+            let fetched = fetch(index, context.model, &context.buffers);
+            let encoded = fetched.and_then(|(bytes, place, note)| {
+                faults.extend(note);
+                match self.admit(bytes) {
                     Ok(encoded) => Ok((index, encoded, place)),
                     Err(reason) => Err(Fault::new(place, reason)),
-                });
+                }
+            });
             match encoded {
                 Ok(encoded) => accepted.push(encoded),
                 Err(fault) => faults.push(fault),
@@ -122,23 +123,26 @@ impl DecodedImages {
     }
 }
 
-/// The encoded bytes of an image, and its place.
+/// The encoded bytes of an image, its place, and a fault that is tolerated.
 fn fetch<'b>(
     index: usize,
     model: &Model,
     buffers: &'b Buffers<'_>,
-) -> Result<(Cow<'b, [u8]>, String), Fault> {
+) -> Result<(Cow<'b, [u8]>, String, Option<Fault>), Fault> {
     let (item, place) = model.get::<json::Image>(Index::new(index as u32), "/images")?;
-    let bytes = match (&item.uri, item.buffer_view) {
-        (Some(uri), _) => uri::fetch(uri, buffers.base(), MAX_FILE)
-            .map(Cow::Owned)
-            .map_err(|reason| Fault::new(format!("{place}/uri"), reason))?,
-        (None, Some(view)) => {
-            Cow::Borrowed(buffers.view(view, &format!("{place}/bufferView"))?.bytes)
+    match (&item.uri, item.buffer_view) {
+        (Some(uri), _) => {
+            let fault = |reason| Fault::new(format!("{place}/uri"), reason);
+            let fetched = uri::fetch(uri, buffers.base(), MAX_FILE).map_err(fault)?;
+            let note = fetched.note.map(fault);
+            Ok((Cow::Owned(fetched.bytes), place, note))
         }
-        _ => return Err(Fault::new(place, "has neither a URI nor a buffer view")),
-    };
-    Ok((bytes, place))
+        (None, Some(view)) => {
+            let view = buffers.view(view, &format!("{place}/bufferView"))?;
+            Ok((Cow::Borrowed(view.bytes), place, None))
+        }
+        _ => Err(Fault::new(place, "has neither a URI nor a buffer view")),
+    }
 }
 
 /// Encoding of an image.

@@ -56,7 +56,7 @@ pub fn read_all(
     Ok((meshes, copies))
 }
 
-/// Indices of materials that are unlit copies, and of their originals.
+/// Indices of materials and of their unlit copies, ascending.
 pub type UnlitCopies = Vec<(usize, usize)>;
 
 /// Makes points and lines without normals unlit, by copying their materials.
@@ -78,7 +78,7 @@ pub fn unlit_materials<'p>(
             materials.len() - 1
         });
     }
-    let mut copies: UnlitCopies = copies.into_iter().map(|(of, copy)| (copy, of)).collect();
+    let mut copies: UnlitCopies = copies.into_iter().collect();
     copies.sort_unstable();
     copies
 }

@@ -162,6 +162,7 @@ fn read_gltf(
         warnings,
     };
     let mut scene = read_scene(&mut context).map_err(malformed)?;
+    context.warnings.extend(context.buffers.notes());
     let warnings = context.warnings.into_vec();
     // The buffers are dropped, because data URIs are large and not needed any more.
     model.root.buffers.clear();

@@ -55,7 +55,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     let faults = RefCell::new(Vec::new());
     let load_mtl = |path: &Path| {
         let name = path.to_string_lossy();
-        let fetched = uri::fetch(&name, base, MAX_FILE);
+        let fetched = uri::fetch(&name, base, MAX_FILE).map(|file| file.bytes);
         let fetched = fetched.map_err(|reason| (reason, LoadError::OpenFileFailed));
         let parsed = fetched.and_then(|bytes| {
             tobj::load_mtl_buf(&mut complete_colours(&plain_text(&bytes)).as_slice())
@@ -308,7 +308,7 @@ fn read_material(
         // Programs on Windows write backslashes.
         let uri = name.replace('\\', "/");
         let image =
-            uri::fetch(&uri, base, MAX_FILE).and_then(|bytes| images.add(Cow::Owned(bytes)));
+            uri::fetch(&uri, base, MAX_FILE).and_then(|file| images.add(Cow::Owned(file.bytes)));
         match image {
             Ok(image) => {
                 material.base_color_texture = Some(TextureUse {

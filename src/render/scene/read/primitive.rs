@@ -132,26 +132,24 @@ pub fn read(
         shape
     };
 
+    let tangent_uv_set = material.tangent_uv_set();
+    let given = tangent_uv_set.and_then(|_| reader.tangents(&normals, &sources, notes));
+    let generated_from = tangent_uv_set.filter(|_| given.is_none() && !is_strokes);
     let mut primitive = Primitive {
         material: material_index,
         triangles,
         positions: shape,
         normals,
-        tangents: Vec::new(),
-        uvs: reader.uvs(&material, &sources, notes),
+        tangents: given.unwrap_or_default(),
+        uvs: reader.uvs(&material, generated_from, &sources, notes),
         colors: reader.colors(&sources, notes),
         targets: reader.targets(targets, &sources, notes),
         influences: reader.influences(&sources, notes),
         corners,
         edges: Vec::new(),
     };
-    if let Some(uv_set) = material.tangent_uv_set() {
-        let given = reader.tangents(&primitive.normals, &sources, notes);
-        match given {
-            Some(tangents) => primitive.tangents = tangents,
-            None if is_strokes => {}
-            None => tangent::generate(&mut primitive, uv_set),
-        }
+    if let Some(uv_set) = generated_from {
+        tangent::generate(&mut primitive, uv_set);
     }
     Ok(Some(primitive))
 }

@@ -9,7 +9,7 @@ use crate::scene::{
     error::{Fault, Warnings},
     material::{Image, Material, Texture},
     surface::{
-        normals::{is_usable, mend_normals},
+        normals::{is_usable, mend_normals, turn_to_normals},
         strokes, triangles,
     },
 };
@@ -191,6 +191,7 @@ impl FileObject {
             true => pick(&self.normals, &sources),
             false => Vec::new(),
         };
+        turn_to_normals(&mut self.triangles, &positions, &normals);
         let mended = mend_normals(&self.triangles, &positions, &mut normals);
         if mended > 0 {
             let reason =

@@ -96,15 +96,14 @@ impl<'r> Reader<'r, '_> {
         self.read(accessor, place, components, types, notes)
     }
 
-    /// Both UV sets, if `material` has textures or needs tangents that the file lacks.
+    /// Both UV sets, if `material` has textures or tangents have to be generated from the set `tangents`.
     pub fn uvs(
         &self,
         material: &Material,
+        tangents: Option<u32>,
         sources: &[u32],
         notes: &mut Vec<Fault>,
     ) -> Vec<[f32; 4]> {
-        let given = attribute_of(self.primitive, Semantic::Tangents).is_some();
-        let tangents = material.tangent_uv_set().filter(|_| !given);
         let textures = material.textures().map(|(_, used)| used.uv_set);
         let mut used = [false; 2];
         for set in textures.chain(tangents) {

@@ -3,31 +3,82 @@
 use std::collections::HashMap;
 
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::scene::document::{Displacements, Influences, Primitive};
 
+/// Largest number of corners of triangles in one position for which MikkTSpace averages tangents. Its time grows with the
+/// square of this number, and it calls itself as many times.
+const MOST_CORNERS: u32 = 256;
+
 /// Generates tangents of `primitive` for a normal texture on UV set `uv_set`. A vertex whose triangles have different
-/// tangents is split.
+/// tangents is split. A triangle with a corner where more than [`MOST_CORNERS`] corners meet follows its own texture
+/// coordinates.
 pub fn generate(primitive: &mut Primitive, uv_set: u32) {
     let mut corners = vec![None; 3 * primitive.triangles.len()];
-    let flat = primitive.is_flat();
+    let sorted = SortedFaces::new(primitive);
     let mut surface = MikktspacePrimitive {
         primitive,
-        flat,
+        faces: &sorted.averaged,
+        flat: primitive.is_flat(),
         first_uv: if uv_set == 0 { 0 } else { 2 },
         corners: &mut corners,
     };
-    let generated = generate_tangents(&mut surface);
-    if generated.is_err() {
-        corners.fill(None);
+    if generate_tangents(&mut surface).is_err() {
+        surface.corners.fill(None);
     }
+    surface.faces = &sorted.crowded;
+    for face in 0..sorted.crowded.len() {
+        surface.set_own_tangent(face);
+    }
+    take_over(primitive, &mut corners);
     split(primitive, &corners);
 }
 
-/// A primitive with the interface of MikkTSpace.
+/// Triangles of a primitive by the source of their tangents. Triangles with two corners in one position are in neither
+/// list: they have no area, and MikkTSpace searches all others for each of them.
+#[derive(Debug, Default, PartialEq)]
+struct SortedFaces {
+    /// Triangles for MikkTSpace.
+    averaged: Vec<u32>,
+    /// Triangles with a corner where too many meet.
+    crowded: Vec<u32>,
+}
+
+impl SortedFaces {
+    fn new(primitive: &Primitive) -> Self {
+        // Adding 0 turns a negative zero into a positive one.
+        let place = |v: u32| primitive.positions[v as usize].map(|x| (x + 0.0).to_bits());
+        let has_area = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(place);
+            a != b && b != c && c != a
+        };
+        let mut of_vertices = vec![0; primitive.positions.len()];
+        for &v in primitive.triangles.as_flattened() {
+            of_vertices[v as usize] += 1;
+        }
+        let mut of_places: HashMap<[u32; 3], u32> = HashMap::new();
+        for (v, corners) in (0..).zip(of_vertices) {
+            *of_places.entry(place(v)).or_default() += corners;
+        }
+        of_places.retain(|_, corners| *corners > MOST_CORNERS);
+        let is_crowded = |v: &u32| !of_places.is_empty() && of_places.contains_key(&place(*v));
+        let faces = (0..).zip(&primitive.triangles);
+        let (crowded, averaged): (Vec<_>, Vec<_>) = faces
+            .filter(|(_, triangle)| has_area(triangle))
+            .partition(|(_, triangle)| triangle.iter().any(is_crowded));
+        let indices = |faces: Vec<(u32, &[u32; 3])>| faces.into_iter().map(|(i, _)| i).collect();
+        Self {
+            averaged: indices(averaged),
+            crowded: indices(crowded),
+        }
+    }
+}
+
+/// Triangles of a primitive with the interface of MikkTSpace.
 struct MikktspacePrimitive<'p> {
     primitive: &'p Primitive,
+    faces: &'p [u32],
     flat: bool,
     first_uv: usize,
     corners: &'p mut [Option<[f32; 4]>],
@@ -35,13 +86,36 @@ struct MikktspacePrimitive<'p> {
 
 impl MikktspacePrimitive<'_> {
     fn vertex(&self, face: usize, corner: usize) -> usize {
-        self.primitive.triangles[face][corner] as usize
+        self.primitive.triangles[self.faces[face] as usize][corner] as usize
+    }
+
+    fn set(&mut self, face: usize, corner: usize, tangent: [f32; 4]) {
+        // The computation overflows for coordinates near the largest float.
+        let tangent = Some(tangent).filter(|t| t.iter().all(|x| x.is_finite()));
+        self.corners[3 * self.faces[face] as usize + corner] = tangent;
+    }
+
+    /// Sets the tangent of a triangle by itself: the direction in which its u grows.
+    fn set_own_tangent(&mut self, face: usize) {
+        let [a, b, c] = [0, 1, 2].map(|i| Vec3::from_array(self.position(face, i)).as_dvec3());
+        let [uv, uv_b, uv_c] =
+            [0, 1, 2].map(|i| Vec2::from_array(self.tex_coord(face, i)).as_dvec2());
+        let (to_b, to_c) = (uv_b - uv, uv_c - uv);
+        let area = to_b.perp_dot(to_c);
+        let along = ((b - a) * to_c.y - (c - a) * to_b.y) * area.signum();
+        for corner in 0..3 {
+            let normal = Vec3::from_array(self.normal(face, corner)).as_dvec3();
+            let tangent = along.reject_from_normalized(normal).try_normalize();
+            if let Some(t) = tangent.filter(|_| area != 0.0) {
+                self.set(face, corner, t.extend(-area.signum()).as_vec4().to_array());
+            }
+        }
     }
 }
 
 impl Geometry for MikktspacePrimitive<'_> {
     fn num_faces(&self) -> usize {
-        self.primitive.triangles.len()
+        self.faces.len()
     }
 
     fn num_vertices_of_face(&self, _face: usize) -> usize {
@@ -67,13 +141,27 @@ impl Geometry for MikktspacePrimitive<'_> {
     }
 
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, corner: usize) {
-        let tangent = tangent.map(|tangent| {
+        if let Some(tangent) = tangent {
             let [x, y, z, sign] = tangent.tangent_encoded();
             // In MikkTSpace v points up, in glTF down, so that the bitangent changes its sign.
-            [x, y, z, -sign]
-        });
-        // The computation overflows for coordinates near the largest float.
-        self.corners[3 * face + corner] = tangent.filter(|t| t.iter().all(|x| x.is_finite()));
+            self.set(face, corner, [x, y, z, -sign]);
+        }
+    }
+}
+
+/// Gives corners without a tangent the first one of their vertex.
+fn take_over(primitive: &Primitive, corners: &mut [Option<[f32; 4]>]) {
+    if !corners.contains(&None) {
+        return;
+    }
+    let mut first = vec![None; primitive.positions.len()];
+    let vertices = || primitive.triangles.as_flattened().iter();
+    for (&v, tangent) in vertices().zip(&*corners) {
+        let first = &mut first[v as usize];
+        *first = first.or(*tangent);
+    }
+    for (&v, tangent) in vertices().zip(corners) {
+        *tangent = tangent.or(first[v as usize]);
     }
 }
 

@@ -85,13 +85,14 @@ pub struct AppearanceArgs {
 }
 
 impl AppearanceArgs {
-    /// The environment that is asked for, if any.
-    pub fn environment(&self) -> anyhow::Result<Option<Arc<Environment>>> {
+    /// The environment that is asked for, if any, and warnings about it.
+    pub fn environment(&self) -> anyhow::Result<(Option<Arc<Environment>>, Vec<String>)> {
         let Some(file) = &self.environment else {
-            return Ok(None);
+            return Ok((None, Vec::new()));
         };
-        let turned = input::environment(file)?.turned(self.environment_rotation.to_radians());
-        Ok(Some(Arc::new(turned)))
+        let (environment, warnings) = input::environment(file)?;
+        let turned = environment.turned(self.environment_rotation.to_radians());
+        Ok((Some(Arc::new(turned)), warnings))
     }
 
     /// The edges to draw, if any.
@@ -160,9 +161,9 @@ impl ImageArgs {
             || self.appearance.environment(),
         );
         let mut loaded = loaded?;
-        if let Some(environment) = environment? {
-            loaded.scene.environment = Some(environment);
-        }
+        let (environment, warnings) = environment?;
+        loaded.scene.environment = environment;
+        loaded.warnings.extend(warnings);
         if let Some(edges) = self.appearance.edges() {
             loaded.scene.add_edges(&edges);
         }

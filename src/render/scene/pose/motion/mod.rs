@@ -13,12 +13,12 @@ use std::{
 };
 
 use glam::{DAffine3, DVec3};
-use gltf::json::{Node, animation::Property};
+use gltf::json::animation::Property;
 
 use super::{MovingPlacement, Placement, Pose, PoseContents, PoseRequest, light_of, looks, show};
 use crate::scene::{
     Light, Material, Scene, SceneCamera, SceneError,
-    document::{Animated, Channel, Described, Displacements, Document},
+    document::{Animated, Channel, Described, Displacements},
     error::Warnings,
 };
 
@@ -69,14 +69,14 @@ impl Moving {
         }
     }
 
-    /// Whether an animation moves or deforms the mesh of a node.
-    pub fn has(&self, document: &Document, index: usize, node: &Node) -> bool {
-        if self.places.is_empty() {
-            return false;
-        }
-        let skin = node.skin.and_then(|skin| document.skins.get(skin.value()));
-        let joints = skin.map_or(&[] as &[usize], |skin| &skin.joints);
-        self.places[index] || self.weights[index] || joints.iter().any(|&joint| self.places[joint])
+    /// Whether an animation moves a node.
+    pub fn places(&self, index: usize) -> bool {
+        self.places.get(index) == Some(&true)
+    }
+
+    /// Whether an animation moves a node or deforms its mesh by morph targets.
+    pub fn has(&self, index: usize) -> bool {
+        self.places(index) || self.weights.get(index) == Some(&true)
     }
 }
 
