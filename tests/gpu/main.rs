@@ -11,6 +11,7 @@ mod devices;
 mod difference;
 mod distribute;
 mod edges;
+mod encode;
 mod environment;
 mod extremes;
 mod filter;
