@@ -19,7 +19,11 @@ SONAME = libgpc.so.$(shell sed -n 's/^pub const GPC_ABI_VERSION: u32 = \(.*\);/\
 # Scene that `make view` opens.
 SCENE ?= assets/letters.glb
 
-.PHONY: help demo view test test-view test-drivers test-compilers test-bounds bench measure figures pictures lint shaders check-shaders \
+# Scenes that `make pack-gpu` packs besides those of assets/, and options of tools/pack-gpu.sh.
+SCENES ?=
+PACK ?=
+
+.PHONY: help demo view test test-view test-gpu pack-gpu test-drivers test-compilers test-bounds bench measure figures pictures lint shaders check-shaders \
 	header assets install dist test-dist
 
 help:
@@ -27,6 +31,8 @@ help:
 	@echo "make view           open a window on a scene; SCENE=... is the file"
 	@echo "make test           run all tests, without a GPU"
 	@echo "make test-view      run the tests of the window, on a display of their own"
+	@echo "make test-gpu       test the passes, images and hosts on this machine's GPU, and measure times there"
+	@echo "make pack-gpu       pack what test-gpu runs, for a machine with a GPU and without Rust; SCENES='...' are further scenes"
 	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
 	@echo "make test-compilers compile the kernels for GPUs that are not there, and check what their compilers say"
 	@echo "make test-bounds    check that no shader reads or writes beyond the end of a buffer"
@@ -62,6 +68,16 @@ test-view:
 	$(CARGO) build --release --features view --example window
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
 		$(CARGO) test --release --features view --bin gpc --test view
+
+# Lavapipe renders the images with which those of the GPU are compared.
+test-gpu:
+	@tools/setup.sh build lavapipe validation c
+	@tools/pack-gpu.sh $(PACK) out/gpu $(SCENES)
+	@out/gpu/run.py --out out/gpu-results
+
+pack-gpu:
+	@tools/setup.sh build lavapipe validation c
+	@tools/pack-gpu.sh $(PACK) out/gpc-gpu.tar.xz $(SCENES)
 
 # Takes an hour: each driver compiles all shaders.
 test-drivers:

@@ -325,9 +325,14 @@
 #define SCATTER_LAYERS 5u
 #define SCATTER_ORDER 6u
 
-// Formats that `encode` writes.
+// Formats that `encode` writes: premultiplied sRGB codes, premultiplied light, sRGB codes and straight alpha as in image files.
 #define ENCODE_RGBA8_SRGB 0u
 #define ENCODE_RGBA16F 1u
+#define ENCODE_STRAIGHT_RGBA8 2u
+// Words before the encoded pixels: two for each threshold of codes, those of colours before those of alpha.
+#define ENCODE_THRESHOLD_WORDS 1024u
+// Number of thresholds of a channel.
+#define ENCODE_THRESHOLDS 255u
 
 // Work lists of tiles, one for each kernel of `sample`: tiles with opaque triangles only; also with alpha-tested ones; also with
 // BLEND ones; tiles without a list of candidates. The lists' counters and indirect dispatches have the same order.

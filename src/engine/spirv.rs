@@ -913,7 +913,7 @@ impl Specialized for Encode {
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
             Use { set: 1, binding: frame_set::COLOR, access: Access::Read },
-            Use { set: 1, binding: frame_set::ENCODED, access: Access::Write },
+            Use { set: 1, binding: frame_set::ENCODED, access: Access::ReadWrite },
         ],
         push_bytes: 0,
         invocations: Invocations::Fixed(64),
@@ -3246,6 +3246,9 @@ pub const SCATTER_LAYERS: u32 = 5;
 pub const SCATTER_ORDER: u32 = 6;
 pub const ENCODE_RGBA8_SRGB: u32 = 0;
 pub const ENCODE_RGBA16F: u32 = 1;
+pub const ENCODE_STRAIGHT_RGBA8: u32 = 2;
+pub const ENCODE_THRESHOLD_WORDS: u32 = 1024;
+pub const ENCODE_THRESHOLDS: u32 = 255;
 pub const TILE_LIST_PLAIN: u32 = 0;
 pub const TILE_LIST_MASKED: u32 = 1;
 pub const TILE_LIST_BLENDED: u32 = 2;

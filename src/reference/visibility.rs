@@ -78,8 +78,13 @@ impl Surface {
         &self.edges
     }
 
+    /// Depth of the triangle's plane at a sample.
+    pub fn depth(&self, sample: [f64; 2]) -> f64 {
+        self.depth_and_size(sample)[0]
+    }
+
     /// Depth of the triangle's plane at a sample, and the size of the terms that add up to the depth.
-    fn depth(&self, sample: [f64; 2]) -> [f64; 2] {
+    fn depth_and_size(&self, sample: [f64; 2]) -> [f64; 2] {
         let values = self.edges.values(sample);
         // The order depends on the vertices alone, so that coincident triangles agree to the bit.
         let terms = self.order.map(|vertex| values[vertex] * self.z[vertex]);
@@ -144,7 +149,7 @@ pub fn nearest<'a>(
         if !surface.edges.covers(sample) {
             continue;
         }
-        let [depth, size] = surface.depth(sample);
+        let [depth, size] = surface.depth_and_size(sample);
         let from_far = if size > 0.0 { depth.abs() / size } else { 0.0 };
         seen.clip_margin = seen.clip_margin.min((1.0 - depth).abs()).min(from_far);
         if (0.0..=1.0).contains(&depth) {

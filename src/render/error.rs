@@ -46,6 +46,16 @@ pub enum RenderError {
     /// A scene is not on the device yet.
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,
+    /// A frame was prepared for another type of pixel than its image is read as.
+    #[error(
+        "the frame was prepared for pixels in the encoding {prepared:?}, and its image is read as {read:?}: name the same type of pixel in Headless::prepare_pixels and render_pixels"
+    )]
+    OtherPixels {
+        /// Encoding that the frame was prepared with; `None` for floats of 32 bits.
+        prepared: Option<super::Encoding>,
+        /// Encoding of the type of pixel.
+        read: Option<super::Encoding>,
+    },
     /// Result that the function of `Headless::stop_when` no longer wants.
     #[error("what was being made is no longer wanted")]
     Stopped,

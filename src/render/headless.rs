@@ -1,7 +1,7 @@
 //! Renderer with a device of its own, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
-use super::{EngineError, Frame, RenderError, Settings, Shadows, Statistics, Target};
+use super::{EngineError, Frame, Pixel, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::render::data::GpuScene;
 use crate::vulkan::{
@@ -38,11 +38,11 @@ impl HeadlessOptions {
 
 /// A rendered image and its statistics.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rendered {
+pub struct Rendered<P = [f32; 4]> {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Colours in linear light with premultiplied alpha, rows from the top.
-    pub colors: Vec<[f32; 4]>,
+    /// Colours, rows from the top: usually in linear light with premultiplied alpha; see [`Pixel`].
+    pub colors: Vec<P>,
     /// Attributes of each pixel, rows from the top; empty unless the settings ask for them.
     pub attributes: Vec<PixelAttributes>,
     /// Statistics of the frame.
@@ -73,25 +73,28 @@ fn pixel_count(settings: &Settings) -> u64 {
 }
 
 impl ReadBack {
-    const COLOR_BYTES: u64 = size_of::<[f32; 4]>() as u64;
     const ATTRIBUTE_BYTES: u64 = size_of::<PixelAttributes>() as u64;
 
-    /// Bytes of the memory for an image.
-    fn bytes(settings: &Settings) -> u64 {
+    /// Bytes of the memory for an image of pixels of a type.
+    fn bytes<P>(settings: &Settings) -> u64 {
         let attributes = if settings.attributes {
             Self::ATTRIBUTE_BYTES
         } else {
             0
         };
-        pixel_count(settings) * (Self::COLOR_BYTES + attributes)
+        pixel_count(settings) * (size_of::<P>() as u64 + attributes)
     }
 
-    /// Memory for a frame's image: `known` if it is large enough, otherwise new.
-    fn for_frame(gpu: &Arc<Gpu>, frame: &Frame, known: Option<Self>) -> Result<Self, RenderError> {
+    /// Memory for a frame's image of pixels of a type: `known` if it is large enough, otherwise new.
+    fn for_frame<P>(
+        gpu: &Arc<Gpu>,
+        frame: &Frame,
+        known: Option<Self>,
+    ) -> Result<Self, RenderError> {
         let settings = frame.settings();
         let pixels = pixel_count(settings);
         let needs = [
-            pixels * Self::COLOR_BYTES,
+            pixels * size_of::<P>() as u64,
             if settings.attributes {
                 pixels * Self::ATTRIBUTE_BYTES
             } else {
@@ -103,7 +106,8 @@ impl ReadBack {
             let bounded = settings.scene.max_memory.is_some();
             known.colors.size() >= needs[0]
                 && attributes >= needs[1]
-                && !(bounded && known.colors.size() + attributes > Self::bytes(settings).max(32))
+                && !(bounded
+                    && known.colors.size() + attributes > Self::bytes::<P>(settings).max(32))
         };
         if let Some(known) = known.filter(has_room) {
             return Ok(known);
@@ -276,20 +280,45 @@ impl Headless {
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        let reserved = ReadBack::bytes(settings);
+        self.prepare_pixels::<[f32; 4]>(scene, settings)
+    }
+
+    /// As [`Self::prepare`], for [`Self::render_pixels`] with pixels of this type.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub fn prepare_pixels<P: Pixel>(
+        &self,
+        scene: &PreparedScene,
+        settings: &Settings,
+    ) -> Result<Frame, RenderError> {
+        let reserved = ReadBack::bytes::<P>(settings);
         self.check(&scene.gpu_scene)?;
         let capacity = self.renderer.first_capacity().without_unlisted_tiles();
         self.renderer
-            .prepare_with(scene, settings, None, capacity, reserved)
+            .prepare_with(scene, settings, P::ENCODING, capacity, reserved)
     }
 
     /// Renders a frame and waits for it. If the frame's lists outgrow their memory, the frame is prepared again with
     /// more memory, so that the image does not depend on the first estimate.
     ///
     /// # Errors
-    /// [`RenderError::OtherDevice`] for a frame of another device; otherwise if the device is lost, or the lists do
-    /// not fit even into the largest memory.
+    /// [`RenderError::OtherDevice`] for a frame of another device, [`RenderError::OtherPixels`] for a frame that was prepared
+    /// for another type of pixel; otherwise if the device is lost, or the lists do not fit even into the largest memory.
     pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+        self.render_pixels(frame, camera)
+    }
+
+    /// As [`Self::render`], with pixels of the type for which [`Self::prepare_pixels`] has prepared the frame. An image of
+    /// `[u8; 4]` is encoded on the device, and a quarter of the bytes is read back.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn render_pixels<P: Pixel>(
+        &mut self,
+        frame: &mut Frame,
+        camera: &Camera,
+    ) -> Result<Rendered<P>, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
                 Err(RenderError::Engine(EngineError::Unfinished { .. })) => {
@@ -325,14 +354,20 @@ impl Headless {
         Ok(())
     }
 
-    pub(super) fn render_once(
+    pub(super) fn render_once<P: Pixel>(
         &mut self,
         frame: &mut Frame,
         camera: &Camera,
-    ) -> Result<Rendered, RenderError> {
+    ) -> Result<Rendered<P>, RenderError> {
         self.check(frame.scene())?;
+        if frame.encoding() != P::ENCODING {
+            return Err(RenderError::OtherPixels {
+                prepared: frame.encoding(),
+                read: P::ENCODING,
+            });
+        }
         let size = frame.settings().output_size();
-        let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;
+        let output = ReadBack::for_frame::<P>(&self.gpu, frame, self.output.take())?;
         let target = Target::Buffer {
             colors: output.colors.handle(),
             attributes: output.attributes.as_ref().map(Buffer::handle),

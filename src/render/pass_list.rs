@@ -80,7 +80,8 @@ impl Headless {
         frame: &mut Frame,
         camera: &Camera,
     ) -> Result<RecordedPasses, RenderError> {
-        let (rendered, passes) = self.passes_of(|headless| headless.render_once(frame, camera));
+        let (rendered, passes) =
+            self.passes_of(|headless| headless.render_once::<[f32; 4]>(frame, camera));
         rendered?;
         Ok(passes)
     }

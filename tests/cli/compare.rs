@@ -24,7 +24,7 @@ fn identical_images() {
         &["compare", "a.png", "same.png", "--json", "--max-rmse", "0"],
     )
     .ok();
-    let expected = serde_json::json!({ "rmse": 0.0, "psnr": null, "max": 0.0, "flip": 0.0 });
+    let expected = serde_json::json!({ "rmse": 0.0, "psnr": null, "max": 0.0, "over_2": 0, "over_8": 0, "flip": 0.0 });
     assert_eq!(run.json(), expected);
 }
 

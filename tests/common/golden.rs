@@ -12,9 +12,10 @@ const TOLERANCE: u8 = 3;
 /// Largest number of pixels that may differ by more.
 const OUTLIERS: usize = 10;
 
-/// Folder of the golden images.
+/// Folder of the golden images: in the repository, or in the folder `GPC_ROOT` on a machine without it.
 pub fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens")
+    let root = std::env::var_os("GPC_ROOT").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+    Path::new(&root).join("tests/goldens")
 }
 
 /// Compares an image with the golden image `name`.png in a folder.

@@ -1,14 +1,14 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{choices, help, hosts, passes, pipeline, plot, room, sets, superpixel_price};
+use crate::{choices, gpu, help, hosts, passes, pipeline, plot, room, sets, superpixel_price};
 use crate::{table, time_to_error};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 20] = [
+const PARTS: [(&str, Make); 21] = [
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
@@ -16,6 +16,7 @@ const PARTS: [(&str, Make); 20] = [
     ("superpixel-price", superpixel_price::table),
     ("quality", table::quality_by_scene),
     ("speed", table::speed),
+    ("gpu", gpu::table),
     ("motion", table::motion),
     ("variants", table::variants),
     ("growth", table::growth),

@@ -8,6 +8,7 @@ mod checks;
 mod choices;
 mod data;
 mod documents;
+mod gpu;
 mod help;
 mod hosts;
 mod passes;

@@ -1,8 +1,7 @@
 //! One device that simulates others: several teams in a subgroup, and the limits that Vulkan guarantees.
 
-use ash::vk;
 use gpc::render::{
-    EngineError, Headless, HeadlessOptions, RenderError, SceneRequest, Settings, Shading,
+    EngineError, Headless, RenderError, SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
@@ -10,19 +9,11 @@ use gpc::vulkan::{Limits, Teams, VulkanError};
 
 use crate::detect::mosaic;
 use crate::scenes::{ball_over_checker, layered};
-use crate::stage::{Stage, asked, camera, everywhere, flat, on_gpu};
+use crate::stage::{Stage, as_cpu, as_gpu, camera, everywhere, flat, on_gpu, open, run};
 
 /// Runs a test on a device with lower limits; fails if the validation layer reports a message.
 pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
-    let options = HeadlessOptions::default().validation(true);
-    let limit = |limits: &mut Limits| {
-        asked(limits);
-        lower(limits);
-    };
-    // SAFETY: tests only lower limits; planning for a device with more memory only takes more memory.
-    let mut gpu = unsafe { Headless::within(&options, limit) }.unwrap();
-    test(&mut gpu);
-    assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+    run(&mut open(lower), test);
 }
 
 /// Gives a device as few texel elements as Vulkan guarantees: lists have room for 16,384 candidates.
@@ -114,10 +105,8 @@ fn single_cells_make_the_same_image() {
             }
         }
     };
-    let several = |limits: &mut Limits| limits.device_type = vk::PhysicalDeviceType::CPU;
-    let single = |limits: &mut Limits| limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
-    within(several, |several| {
-        within(single, |single| test(several, single))
+    within(as_cpu, |several| {
+        within(as_gpu, |single| test(several, single))
     });
 }
 

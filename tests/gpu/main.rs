@@ -10,6 +10,7 @@ mod devices;
 mod difference;
 mod distribute;
 mod edges;
+mod encode;
 mod environment;
 mod extremes;
 mod filter;

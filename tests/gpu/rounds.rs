@@ -1,21 +1,14 @@
-//! Rounds of a device with plenty of memory, simulated on one without.
+//! Rounds of a device with plenty of memory and of one without. One of them is simulated.
 
-use ash::vk;
 use glam::DVec3;
 use gpc::render::{
     Frame, Headless, PassTime, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions,
 };
 use gpc::scene::{Light, LightKind};
-use gpc::vulkan::Limits;
 
 use crate::devices::within;
 use crate::scenes::{ball_over_checker, layered};
-use crate::stage::{Stage, camera, on_gpu};
-
-/// A GPU with memory of its own, as far as the division into rounds and subgroups depends on it.
-fn gpu(limits: &mut Limits) {
-    limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
-}
+use crate::stage::{Stage, as_gpu, camera, on_cpu, on_gpu};
 
 fn settings(samples: u32) -> Settings {
     Settings::new(160, 96).method(SuperpixelOptions::new(samples))
@@ -44,8 +37,8 @@ fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
 /// Images of both divisions.
 fn both(stage: &Stage, settings: &Settings) -> [Rendered; 2] {
     let [mut small, mut large] = [None, None];
-    on_gpu(|gpu| small = Some(render(gpu, stage, settings)));
-    within(gpu, |gpu| large = Some(render(gpu, stage, settings)));
+    on_cpu(|gpu| small = Some(render(gpu, stage, settings)));
+    within(as_gpu, |gpu| large = Some(render(gpu, stage, settings)));
     [small, large].map(Option::unwrap)
 }
 
@@ -110,10 +103,10 @@ fn a_frame_takes_few_commands() {
         recorded.dispatches
     };
     let shadowed = settings(64).shadows(Shadows::Exact);
-    within(gpu, |gpu| {
+    within(as_gpu, |gpu| {
         let dispatches = [&settings(64), &shadowed].map(|settings| count(gpu, settings));
         assert!(dispatches[0] <= 120, "{dispatches:?}");
         assert!(dispatches[1] <= 400, "{dispatches:?}");
     });
-    on_gpu(|gpu| assert!(count(gpu, &settings(64)) > 120));
+    on_cpu(|gpu| assert!(count(gpu, &settings(64)) > 120));
 }

@@ -28,20 +28,6 @@ pub fn cells(settings: &Settings) -> CellOptions {
     }
 }
 
-/// Lets a device be planned for as the test run asks. With the environment variable `GPC_TEST_DEVICE=gpu`, this is a GPU
-/// with 8 GiB of memory of its own: rounds, room, subgroups and submissions are those of such a device.
-pub fn asked(limits: &mut Limits) {
-    match std::env::var("GPC_TEST_DEVICE").as_deref() {
-        Err(std::env::VarError::NotPresent) => {}
-        Ok("gpu") => {
-            limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
-            limits.local_bytes = 8 << 30;
-            limits.max_submitted_samples = 1 << 27;
-        }
-        other => panic!("GPC_TEST_DEVICE is {other:?}; it can be gpu, or absent"),
-    }
-}
-
 /// Idle devices. Tests reuse them, because a new device compiles all its pipelines anew. Each device has its own
 /// instance, and therefore its own messages of the validation layer.
 static IDLE: Mutex<Vec<Headless>> = Mutex::new(Vec::new());
@@ -54,19 +40,59 @@ fn idle() -> MutexGuard<'static, Vec<Headless>> {
 /// which a test failed is not reused.
 pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     let known = idle().pop();
-    let mut gpu = known.unwrap_or_else(|| {
-        let options = HeadlessOptions::default().validation(true);
-        // Most of the time goes to making pipelines, and many tests use the same ones.
-        let limit = |limits: &mut Limits| {
-            limits.max_unused_pipelines = 256;
-            asked(limits);
-        };
-        // SAFETY: keeping more pipelines only takes more memory, as does planning for a device with more memory.
-        unsafe { Headless::within(&options, limit) }.unwrap()
-    });
-    test(&mut gpu);
-    assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+    // Most of the time goes to making pipelines, and many tests use the same ones.
+    let mut gpu = known.unwrap_or_else(|| open(|limits| limits.max_unused_pipelines = 256));
+    run(&mut gpu, test);
     idle().push(gpu);
+}
+
+/// Opens a device under the validation layer. `GPC_SIMULATE=gpu` in the environment makes it a GPU for the engine.
+pub fn open(change: impl FnOnce(&mut Limits)) -> Headless {
+    let options = HeadlessOptions::default().validation(true);
+    let simulated = std::env::var("GPC_SIMULATE");
+    let change = |limits: &mut Limits| {
+        match simulated.as_deref() {
+            Err(_) => {}
+            Ok("gpu") => as_gpu(limits),
+            Ok(other) => panic!("GPC_SIMULATE={other}: only a gpu can be simulated"),
+        }
+        change(limits);
+    };
+    // SAFETY: tests only lower limits, change how work is divided, or keep more pipelines, which takes memory alone.
+    unsafe { Headless::within(&options, change) }.unwrap()
+}
+
+/// Makes a device a GPU with memory of its own, as far as the division into rounds, regions and subgroups depends on it.
+pub fn as_gpu(limits: &mut Limits) {
+    limits.device_type = vk::PhysicalDeviceType::DISCRETE_GPU;
+    limits.local_bytes = limits.local_bytes.max(8 << 30);
+    limits.max_submitted_samples = limits.max_submitted_samples.min(1 << 27);
+}
+
+/// Makes a device a CPU in the same way.
+pub fn as_cpu(limits: &mut Limits) {
+    limits.device_type = vk::PhysicalDeviceType::CPU;
+}
+
+/// Runs a test on a device that divides work into rounds as a CPU does.
+pub fn on_cpu(test: impl FnOnce(&mut Headless)) {
+    let mut test = Some(test);
+    on_gpu(|gpu| {
+        if gpu.gpu().limits().device_type == vk::PhysicalDeviceType::CPU
+            && let Some(test) = test.take()
+        {
+            test(gpu);
+        }
+    });
+    if let Some(test) = test {
+        run(&mut open(as_cpu), test);
+    }
+}
+
+/// Runs a test on a device. Fails if the validation layer reports a message.
+pub fn run(gpu: &mut Headless, test: impl FnOnce(&mut Headless)) {
+    test(gpu);
+    assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }
 
 /// A stage whose methods panic if it can't be rendered.

@@ -4,6 +4,9 @@ use gpc::reference::visibility::{Surface, Visibility, nearest};
 
 use crate::stage::{Stage, centre, clip};
 
+/// Twice the step of the grid onto which rasterizers move corners, in pixels: steps are 2^-8 pixel on known devices.
+const SNAP: f64 = 1.0 / 128.0;
+
 /// Surfaces of a stage, and the indices of those near each pixel.
 pub struct Twin {
     surfaces: Vec<Surface>,
@@ -43,6 +46,37 @@ impl Twin {
     /// Visibility of a sample in a pixel's square.
     pub fn nearest(&self, pixel: usize, sample: [f64; 2]) -> Visibility {
         self.without(pixel, sample, &[])
+    }
+
+    /// Visibility of a pixel's centre, and whether the device's rasterizer may see another triangle there. It moves corners to a
+    /// grid, and so moves an edge by as much, and a depth by as much as the depth changes over this distance. It also rounds
+    /// depths to 32 bits.
+    pub fn rasterized(&self, pixel: usize, centre: [f64; 2]) -> (Visibility, bool) {
+        let seen = self.nearest(pixel, centre);
+        let Some(nearest) = seen.nearest else {
+            return (seen, seen.contested() || seen.edge_margin < SNAP);
+        };
+        let around = |surface: &Surface| {
+            let depth = surface.depth(centre);
+            let slopes = [[1.0, 0.0], [0.0, 1.0]]
+                .map(|[x, y]| surface.depth([centre[0] + x, centre[1] + y]) - depth);
+            let error = SNAP * (slopes[0].abs() + slopes[1].abs());
+            [depth - error, depth + error]
+        };
+        let surfaces = self.near[pixel].iter().map(|&i| &self.surfaces[i as usize]);
+        let covering: Vec<_> = surfaces.filter(|s| s.edges().covers(centre)).collect();
+        let lowest = covering.iter().find(|s| s.id() == nearest.id);
+        let lowest = lowest.map_or(nearest.depth, |surface| around(surface)[0]);
+        let mut others = covering.iter().filter(|s| s.id() != nearest.id);
+        // Nothing in front of the near plane is drawn.
+        let rivalled = others.any(|surface| {
+            let [furthest, nearest] = around(surface);
+            furthest <= 1.0 && nearest >= lowest
+        });
+        (
+            seen,
+            rivalled || seen.contested() || seen.edge_margin < SNAP,
+        )
     }
 
     /// Visibility of a sample without the surfaces with the IDs `hidden`.

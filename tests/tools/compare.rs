@@ -44,6 +44,16 @@ fn one_step_of_8_bits_is_seen() {
 }
 
 #[test]
+fn pixels_are_counted_by_codes() {
+    let mut image = grey(0.4);
+    for (pixel, codes) in [2.0, 3.0, 8.0, 9.0, -9.0].into_iter().enumerate() {
+        image.pixels[pixel][pixel % 3] += codes / 255.0;
+    }
+    let comparison = compare(&grey(0.4), &image).unwrap();
+    assert_eq!((comparison.over_2, comparison.over_8), (4, 2));
+}
+
+#[test]
 fn a_uniform_difference_is_its_own_rmse() {
     let comparison = compare(&grey(0.25), &grey(0.5)).unwrap();
     assert!((comparison.rmse - 0.25).abs() < 1e-7);

@@ -4,7 +4,7 @@ use super::capacity::Capacity;
 use super::{CellOptions, EngineError, ImageRequest, Method, RoundPolicy, Shading};
 use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{Content, ResourceSizes};
-use crate::engine::spirv::FILTER_TRIANGLES;
+use crate::engine::spirv::{ENCODE_THRESHOLD_WORDS, FILTER_TRIANGLES};
 use crate::sampling::Pattern;
 use crate::vulkan::Limits;
 
@@ -122,7 +122,7 @@ pub(crate) fn records_of_superpixel(options: &CellOptions, scene: &dyn Content) 
 }
 
 impl Plan {
-    /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer for a host's image (0 without one), and
+    /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer of encoded pixels (0 without one), and
     /// its places have `shadow_words` shadow words. `taken` returns, for memory of some sizes, the bytes that others
     /// use of the memory that the request allows.
     ///
@@ -321,7 +321,13 @@ impl Plan {
             filtered: filtered as u32,
             shadow_words: 0,
             attributes: image.attributes,
-            encoded: encoded_bytes * pixels,
+            encoded: match encoded_bytes {
+                0 => 0,
+                bytes => {
+                    let pixels = (pixels / u64::from(side * side)).next_multiple_of(64);
+                    u64::from(ENCODE_THRESHOLD_WORDS) * 4 + bytes * pixels
+                }
+            },
         };
         Ok(Self {
             regions,

@@ -56,10 +56,10 @@ impl Statistics {
     /// Name of all passes that composite BLEND triangles in every pixel.
     pub const BLEND: &'static str = "blend";
 
-    /// Device time of the whole frame in milliseconds.
+    /// Device time of the whole frame in milliseconds, without [copies of the image](PassTime::COPY).
     #[must_use]
     pub fn gpu_ms(&self) -> f64 {
-        self.passes.iter().map(|pass| pass.ms).sum()
+        PassTime::total(&self.passes)
     }
 
     /// Adds the time of a pass to the time under its name.

@@ -24,6 +24,13 @@ impl PassTime {
     pub const ROUNDS: &'static str = "rounds";
     /// Copies of the image to where the caller wants it.
     pub const COPY: &'static str = "copy";
+
+    /// Milliseconds of all parts of a frame but its [copies](Self::COPY), which a host that shows the image has none of.
+    #[must_use]
+    pub fn total(parts: &[Self]) -> f64 {
+        let parts = parts.iter().filter(|part| part.pass != Self::COPY);
+        parts.map(|part| part.ms).sum()
+    }
 }
 
 /// Timestamps of a frame. The times of equal names are added up.

@@ -3,32 +3,52 @@
 use super::recording::Recording;
 use super::target::{COPIED_TO, Target};
 use crate::engine::sampler::plan::Region;
+use crate::render::passes::encode::FIRST_PIXEL;
 use crate::vulkan::Recorder;
 use ash::vk;
+
+/// Buffer with the pixels of a region.
+#[derive(Clone, Copy)]
+struct Source {
+    buffer: vk::Buffer,
+    /// Place of the first pixel in bytes.
+    first: u64,
+    /// Bytes of a pixel.
+    bytes: u64,
+}
+
+impl Source {
+    /// Pixels from the beginning of a buffer on.
+    fn floats(buffer: vk::Buffer, bytes: u64) -> Self {
+        Self {
+            buffer,
+            first: 0,
+            bytes,
+        }
+    }
+}
 
 impl Recording<'_> {
     /// Copies the wanted pixels of a region to their place in the target.
     pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
         let resources = self.resources;
-        let color = resources.color.buffer.handle();
+        let source = match &self.passes.encode {
+            Some((encoding, _)) => Source {
+                buffer: resources.encoded.handle(),
+                first: FIRST_PIXEL,
+                bytes: encoding.encoded_bytes(),
+            },
+            None => Source::floats(resources.color.buffer.handle(), 16),
+        };
         match self.target {
             Target::Buffer { colors, attributes } => {
-                self.copy_rows(recorder, region, color, *colors, 16);
+                self.copy_rows(recorder, region, source, *colors);
                 if let (Some(to), Some(_)) = (attributes, &self.passes.attributes) {
-                    let from = resources.attributes.handle();
-                    self.copy_rows(recorder, region, from, *to, 32);
+                    let source = Source::floats(resources.attributes.handle(), 32);
+                    self.copy_rows(recorder, region, source, *to);
                 }
             }
-            Target::Image { image, .. } => {
-                let (from, bytes) = if self.passes.encode.is_some() {
-                    let sizes = &self.plan.sizes;
-                    let bytes = sizes.encoded / u64::from(sizes.pixels()).max(1);
-                    (resources.encoded.handle(), bytes)
-                } else {
-                    (color, 16)
-                };
-                self.copy_to_image(recorder, region, from, *image, bytes);
-            }
+            Target::Image { image, .. } => self.copy_to_image(recorder, region, source, *image),
         }
     }
 
@@ -38,15 +58,9 @@ impl Recording<'_> {
         [0, 1].map(|axis| region.wanted_low[axis] - origin[axis])
     }
 
-    /// Copies the wanted pixels of a region to their place in a buffer; a pixel has `bytes` bytes.
-    fn copy_rows(
-        &self,
-        recorder: &Recorder<'_>,
-        region: &Region,
-        from: vk::Buffer,
-        to: vk::Buffer,
-        bytes: u64,
-    ) {
+    /// Copies the wanted pixels of a region to their place in a buffer.
+    fn copy_rows(&self, recorder: &Recorder<'_>, region: &Region, from: Source, to: vk::Buffer) {
+        let Source { first, bytes, .. } = from;
         let [width, height] = region.size().map(u64::from);
         let [left, top] = self.place(region).map(u64::from);
         let target_row = u64::from(self.settings.output_size()[0]);
@@ -59,29 +73,22 @@ impl Recording<'_> {
         let rows: Vec<_> = (0..rows)
             .map(|y| {
                 vk::BufferCopy::default()
-                    .src_offset((first_wanted(region) + y * row(region)) * bytes)
+                    .src_offset(first + (first_wanted(region) + y * row(region)) * bytes)
                     .dst_offset(((top + y) * target_row + left) * bytes)
                     .size(width * bytes)
             })
             .collect();
         // SAFETY: guaranteed by the recorder's caller; the rows lie in both buffers, which have room for the region
         // and the image.
-        unsafe { recorder.copy_raw(from, to, &rows) };
+        unsafe { recorder.copy_raw(from.buffer, to, &rows) };
     }
 
-    /// Copies the wanted pixels of a region to their place in an image; a pixel has `bytes` bytes.
-    fn copy_to_image(
-        &self,
-        recorder: &Recorder<'_>,
-        region: &Region,
-        from: vk::Buffer,
-        to: vk::Image,
-        bytes: u64,
-    ) {
+    /// Copies the wanted pixels of a region to their place in an image.
+    fn copy_to_image(&self, recorder: &Recorder<'_>, region: &Region, from: Source, to: vk::Image) {
         let [width, height] = region.size();
         let [left, top] = self.place(region);
         let copy = [vk::BufferImageCopy::default()
-            .buffer_offset(first_wanted(region) * bytes)
+            .buffer_offset(from.first + first_wanted(region) * from.bytes)
             .buffer_row_length(row(region) as u32)
             .image_subresource(vk::ImageSubresourceLayers {
                 aspect_mask: vk::ImageAspectFlags::COLOR,
@@ -103,7 +110,7 @@ impl Recording<'_> {
         unsafe {
             recorder.device().cmd_copy_buffer_to_image(
                 recorder.raw(),
-                from,
+                from.buffer,
                 to,
                 COPIED_TO.layout,
                 &copy,

@@ -40,7 +40,8 @@ pub(super) struct Passes {
     pub superpixels: Option<Sampler>,
     pub attributes: Option<Pass>,
     pub box_filter: Option<Pass>,
-    pub encode: Option<Pass>,
+    /// Conversion of the colours to the encoding of the target; `None` for floats of 32 bits.
+    pub encode: Option<(Encoding, Pass)>,
 }
 
 /// Number of samples a pixel with which the rasterizer draws.
@@ -52,7 +53,7 @@ pub(super) fn raster_samples(settings: &Settings) -> vk::SampleCountFlags {
 }
 
 impl Passes {
-    /// Makes the pipelines; `encoding` is that of a host's image.
+    /// Makes the pipelines; `encoding` is that of the target.
     ///
     /// # Errors
     /// [`RenderError`] if the driver refuses a pipeline.
@@ -150,7 +151,7 @@ impl Passes {
                 .transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
-                .map(|e| encode::pass(layout, e))
+                .map(|e| Ok::<_, RenderError>((e, encode::pass(layout, e)?)))
                 .transpose()?,
         })
     }

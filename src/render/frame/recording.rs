@@ -12,7 +12,7 @@ use crate::engine::sampler::plan::{Plan, Region};
 use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
-use crate::render::passes::{Receiving, StrokeSizes};
+use crate::render::passes::{Encoding, Receiving, StrokeSizes, encode};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{PassTime, Recorder};
@@ -199,8 +199,12 @@ impl Recording<'_> {
             filter.record_for(recorder, filtered);
             resources.record_keep_filtered(recorder, filtered);
         }
-        if let Some(encode) = &passes.encode {
-            encode.record_for(recorder, pixels);
+        if let Some((encoding, encode)) = &passes.encode {
+            if *encoding == Encoding::StraightRgba8 {
+                let thresholds = bytemuck::cast_slice(encode::thresholds());
+                recorder.update(&resources.encoded, 0, thresholds);
+            }
+            encode.record_for(recorder, filtered);
         }
         recorder.section(PassTime::COPY, || self.deliver(recorder, region));
     }

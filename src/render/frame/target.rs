@@ -20,9 +20,10 @@ pub enum Target {
         /// State of the image when the frame is done.
         after: ImageState,
     },
-    /// A buffer of linear premultiplied RGBA floats, rows from the top.
+    /// A buffer of pixels in the encoding that the frame was prepared with, otherwise of linear premultiplied RGBA floats; rows
+    /// from the top.
     Buffer {
-        /// Buffer for colours, a transfer destination of 16 bytes a pixel.
+        /// Buffer for colours, a transfer destination: 16 bytes a pixel for floats of 32 bits, 8 for those of 16, 4 for codes.
         colors: vk::Buffer,
         /// Buffer for attributes, if these are wanted: a transfer destination of 32 bytes a pixel, laid out as in
         /// `shaders/attributes.comp`.

@@ -21,7 +21,7 @@ struct Timed {
 /// Cost of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Milliseconds on the device.
+    /// Milliseconds on the device, without [copies of the image](PassTime::COPY).
     pub gpu_ms: Spread,
     /// Wall-clock milliseconds, from recording to the image in host memory.
     pub wall_ms: Spread,
@@ -101,7 +101,7 @@ impl Contender {
                 times.map(|time| time.ms).sum()
             }))
         };
-        let total = |frame: &Timed| frame.passes.iter().map(|time| time.ms).sum();
+        let total = |frame: &Timed| PassTime::total(&frame.passes);
         let passes = self.frames.first().map_or(&[][..], |frame| &frame.passes);
         Cost {
             gpu_ms: Spread::of(self.frames.iter().map(total)),

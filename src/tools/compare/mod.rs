@@ -18,6 +18,10 @@ pub struct Comparison {
     pub psnr: Option<f64>,
     /// Largest difference of any channel of any pixel, 0 to 1.
     pub max: f64,
+    /// Number of pixels of which a channel differs by more than 2 codes of 8 bits.
+    pub over_2: u64,
+    /// Number of pixels of which a channel differs by more than 8 codes of 8 bits.
+    pub over_8: u64,
     /// Mean of the FLIP error map (Andersson et al., HPG 2020) of the colours in 8 bits, 0 to 1.
     pub flip: f64,
 }
@@ -49,12 +53,17 @@ pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Compari
         4
     };
     let (mut sum, mut max) = (0.0_f64, 0.0_f64);
+    let (mut over_2, mut over_8) = (0, 0);
     for (a, b) in reference.pixels.iter().zip(&image.pixels) {
+        let mut most = 0.0_f64;
         for (a, b) in a.iter().zip(b).take(channels) {
             let difference = (f64::from(*a) - f64::from(*b)).abs();
             sum += difference * difference;
-            max = max.max(difference);
+            most = most.max(difference);
         }
+        max = max.max(most);
+        over_2 += u64::from(most > codes(2.0));
+        over_8 += u64::from(most > codes(8.0));
     }
     let rmse = (sum / (reference.pixels.len() * channels) as f64).sqrt();
     let flip = FlipPool::from_image(&error_map(reference, image)).mean();
@@ -62,6 +71,8 @@ pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Compari
         rmse,
         psnr: (rmse > 0.0).then(|| -20.0 * rmse.log10()),
         max,
+        over_2,
+        over_8,
         flip: f64::from(flip),
     })
 }
@@ -94,6 +105,11 @@ pub fn heatmap(
         .zip(alphas)
         .map(|(error, (a, b))| heat_color(error.max((a[3] - b[3]).abs())))
         .collect())
+}
+
+/// Difference of channels that is above `count` codes of 8 bits, apart from the rounding of decoded codes.
+fn codes(count: f64) -> f64 {
+    (count + 1e-3) / 255.0
 }
 
 fn check_size(first: &DecodedImage, second: &DecodedImage) -> Result<(), CompareError> {

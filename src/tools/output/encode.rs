@@ -19,13 +19,9 @@ pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec
     let size = picture.size();
     match format {
         Format::Png8 => {
-            let (codes, color) = straight(picture, u8::MAX.into());
-            let bytes: Vec<_> = codes.into_iter().map(|code| code as u8).collect();
-            let color = match color {
-                Channels::Rgb => ExtendedColorType::Rgb8,
-                Channels::Rgba => ExtendedColorType::Rgba8,
-            };
-            png(size, &bytes, color)
+            let codes = straight_codes(picture, u8::MAX.into());
+            let codes: Vec<_> = codes.iter().map(|code| code.map(|c| c as u8)).collect();
+            encode_rgba(size, &codes)
         }
         Format::Png16 => {
             let (codes, color) = straight(picture, u16::MAX);
@@ -88,6 +84,24 @@ pub fn encode_aov(size: [u32; 2], aov: &Aov) -> Result<Vec<u8>, OutputError> {
 pub fn encode_rgb(size: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, OutputError> {
     check_count(size, pixels.len())?;
     png(size, pixels.as_flattened(), ExtendedColorType::Rgb8)
+}
+
+/// Encodes sRGB colours with straight alpha as a PNG with 8 bits a channel, without alpha if every pixel is opaque; `size` is
+/// [width, height] in pixels.
+///
+/// # Errors
+/// [`OutputError::PixelCount`] if the number of pixels is not width times height, [`OutputError::Encode`] if the
+/// encoder fails.
+pub fn encode_rgba(size: [u32; 2], pixels: &[[u8; 4]]) -> Result<Vec<u8>, OutputError> {
+    check_count(size, pixels.len())?;
+    if pixels.par_iter().any(|pixel| pixel[3] < u8::MAX) {
+        return png(size, pixels.as_flattened(), ExtendedColorType::Rgba8);
+    }
+    let colors: Vec<_> = pixels
+        .iter()
+        .flat_map(|[r, g, b, _]| [*r, *g, *b])
+        .collect();
+    png(size, &colors, ExtendedColorType::Rgb8)
 }
 
 /// Encodes a value of 0 to 1 for each pixel as a 16-bit grey PNG: linear, with 65,535 for 1.

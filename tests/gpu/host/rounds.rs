@@ -1,11 +1,13 @@
-//! Rounds of a recording: as many as an image needs, or a limited number.
+//! Rounds of a recording: as many as an image needs, or a limited number. Rounds are small here, as on a CPU, so that there are
+//! many.
 
 use super::machine::{Base, Machine, Seen};
 use super::world::{PLACED, SIZE, World};
 use crate::devices::within;
-use crate::stage::on_gpu;
+use crate::stage::{as_cpu, on_cpu};
 use gpc::host::Options;
 use gpc::render::{Detection, Headless, Shading};
+use gpc::vulkan::Limits;
 
 fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
     let pixels = colors.iter();
@@ -15,6 +17,12 @@ fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
 /// Options with which all pixels are superpixels, with room for a visibility sample for each sample.
 fn options(size: [u32; 2]) -> Options {
     Options::new(size[0], size[1]).detection(Detection::Every)
+}
+
+/// A device with small rounds that can't skip commands.
+fn without_conditional_rendering(limits: &mut Limits) {
+    as_cpu(limits);
+    limits.conditional_rendering = false;
 }
 
 fn finishes_in_little_memory(gpu: &mut Headless) {
@@ -46,15 +54,12 @@ fn finishes_in_little_memory(gpu: &mut Headless) {
 /// Work that does not fit into a round is done in a later round of the same recording, with the same bytes.
 #[test]
 fn a_recording_finishes_its_frame() {
-    on_gpu(finishes_in_little_memory);
+    on_cpu(finishes_in_little_memory);
 }
 
 #[test]
 fn a_recording_finishes_its_frame_without_conditional_rendering() {
-    within(
-        |limits| limits.conditional_rendering = false,
-        finishes_in_little_memory,
-    );
+    within(without_conditional_rendering, finishes_in_little_memory);
 }
 
 fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
@@ -103,13 +108,13 @@ fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
 
 #[test]
 fn bounded_rounds_leave_pixels_as_they_were_drawn() {
-    on_gpu(keeps_what_bounded_rounds_leave);
+    on_cpu(keeps_what_bounded_rounds_leave);
 }
 
 #[test]
 fn bounded_rounds_leave_pixels_as_they_were_drawn_without_conditional_rendering() {
     within(
-        |limits| limits.conditional_rendering = false,
+        without_conditional_rendering,
         keeps_what_bounded_rounds_leave,
     );
 }
@@ -139,13 +144,10 @@ fn dispatches_nothing_in_vain(gpu: &mut Headless) {
 
 #[test]
 fn idle_rounds_shade_nothing() {
-    on_gpu(dispatches_nothing_in_vain);
+    on_cpu(dispatches_nothing_in_vain);
 }
 
 #[test]
 fn idle_rounds_shade_nothing_without_conditional_rendering() {
-    within(
-        |limits| limits.conditional_rendering = false,
-        dispatches_nothing_in_vain,
-    );
+    within(without_conditional_rendering, dispatches_nothing_in_vain);
 }

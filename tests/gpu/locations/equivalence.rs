@@ -41,8 +41,7 @@ fn a_planar_set_sees_what_raster_sees() {
         let twin = Twin::new(&stage, SIZE);
         let mut differ = 0;
         for (pixel, (raster, seen)) in raster.into_iter().zip(seen.values).enumerate() {
-            let exact = twin.nearest(pixel, centre(pixel, SIZE));
-            let doubtful = exact.contested() || exact.edge_margin < 1.0 / 128.0;
+            let (_, doubtful) = twin.rasterized(pixel, centre(pixel, SIZE));
             assert!(
                 raster == seen.id || doubtful,
                 "pixel {pixel}: {raster} and {}",

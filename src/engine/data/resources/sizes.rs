@@ -32,7 +32,7 @@ pub struct ResourceSizes {
     pub shadow_words: u32,
     /// Whether attributes are written.
     pub attributes: bool,
-    /// Number of bytes of a region that is encoded for a host's image; 0 without such an image.
+    /// Number of bytes of a region that is encoded, and of the thresholds before it; 0 without encoding.
     pub encoded: u64,
 }
 

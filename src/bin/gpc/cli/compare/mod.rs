@@ -16,7 +16,8 @@ pub struct CompareArgs {
     a: PathBuf,
     /// The image, or the folder, that is compared with the reference
     b: PathBuf,
-    /// Print one JSON object: rmse, psnr (null for identical images), max, flip; of folders, these for each image
+    /// Print one JSON object: rmse, psnr (null for identical images), max, over_2 and over_8 (numbers of pixels that differ by
+    /// more than 2 and 8 codes of 8 bits), flip; of folders, these for each image
     #[arg(long)]
     json: bool,
     /// Write FLIP's error map as a PNG; of two folders, a folder with the error map of each image that differs

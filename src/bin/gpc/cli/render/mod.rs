@@ -27,7 +27,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use report::{ImageReport, Origin};
 use sequence::SequenceFrame;
 use serde::Serialize;
-use session::Session;
+use session::{Session, Shot};
 use startup::Clock;
 use std::process::ExitCode;
 use template::{Fields, Template};
@@ -74,7 +74,11 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         Ok((film, cameras))
     })?;
     clock.lap("device");
-    let mut session = Session::new(headless, settings.clone());
+    // Everything else reads light.
+    let reads_codes = format == Format::Png8
+        && args.format.is_none()
+        && image.background != Background::Environment;
+    let mut session = Session::new(headless, settings.clone(), reads_codes);
     let device = session.device();
     let mut video = args
         .format
@@ -92,12 +96,14 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
             let mut shot = session.shoot(&camera, args.repeat)?;
             // A part of an image may rightly be empty.
             if args.region.is_none() {
-                let colors = &shot.rendered.colors;
-                let warning = unseen::warning(colors, &view, &film.pose, film.cameras(), aspect);
+                let warning = match &shot {
+                    Shot::Light(shot) => warn(&shot.rendered.colors, &view, &film, aspect),
+                    Shot::Codes(shot) => warn(&shot.rendered.colors, &view, &film, aspect),
+                };
                 warnings.add(warning.as_slice());
             }
-            if let (Background::Environment, Some(environment)) =
-                (image.background, film.environment())
+            if let (Shot::Light(shot), Background::Environment, Some(environment)) =
+                (&mut shot, image.background, film.environment())
             {
                 shot.rendered.show_behind(environment, &camera, &settings)?;
             }
@@ -107,11 +113,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 camera: &view.label,
                 frame: step.frame,
             });
-            match &mut video {
-                Some(video) => {
+            match (&shot, &mut video) {
+                (Shot::Light(shot), Some(video)) => {
                     video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;
                 }
-                None => save::save(&path, format, &shot.rendered, &aovs)?,
+                (Shot::Light(shot), None) => save::save(&path, format, &shot.rendered, &aovs)?,
+                (Shot::Codes(shot), _) => save::save_codes(&path, &shot.rendered, &aovs)?,
             }
             clock.lap("write");
             let origin = Origin {
@@ -123,7 +130,10 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 startup: clock.finish().filter(|_| args.repeat.is_none()),
                 warnings: warnings.0.clone(),
             };
-            let report = ImageReport::new(origin, &shot);
+            let report = match &shot {
+                Shot::Light(shot) => ImageReport::new(origin, shot),
+                Shot::Codes(shot) => ImageReport::new(origin, shot),
+            };
             progress.suspend(|| log::info!("{}", report.line()));
             progress.inc(1);
             images.push(report);
@@ -138,6 +148,16 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         _ => args.report.print(&SequenceReport { images })?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Warning about an image that shows nothing.
+fn warn<P: PartialEq>(
+    colors: &[P],
+    view: &NamedView,
+    film: &Film<'_>,
+    aspect: f64,
+) -> Option<String> {
+    unseen::warning(colors, view, &film.pose, film.cameras(), aspect)
 }
 
 /// Settings and format of the images, checked against each other.

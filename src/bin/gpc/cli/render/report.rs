@@ -62,7 +62,7 @@ pub struct Origin<'a> {
 }
 
 impl ImageReport {
-    pub fn new(origin: Origin<'_>, shot: &RenderedImage) -> Self {
+    pub fn new<P>(origin: Origin<'_>, shot: &RenderedImage<P>) -> Self {
         let size = origin.settings.output_size();
         let [width, height] = origin.settings.size.map(f64::from);
         Self {

@@ -17,6 +17,18 @@ pub fn save(
     write(path, &bytes)
 }
 
+/// Writes an image that the device has encoded as codes of 8 bits to a PNG file, or to standard output for `-`. Its AOVs become
+/// files in the same folder.
+pub fn save_codes(
+    path: &Path,
+    rendered: &Rendered<[u8; 4]>,
+    kinds: &[AovKind],
+) -> anyhow::Result<()> {
+    let bytes = output::encode_rgba(rendered.size, &rendered.colors)?;
+    save_aovs(path, Format::Png8, rendered, &aovs(rendered, kinds))?;
+    write(path, &bytes)
+}
+
 /// Encodes an image. AOVs for which the format has no layers are written to files in the same folder.
 pub fn encode(
     path: &Path,
@@ -25,18 +37,33 @@ pub fn encode(
     kinds: &[AovKind],
 ) -> anyhow::Result<Vec<u8>> {
     let picture = Picture::new(rendered.size, &rendered.colors)?;
-    let aovs: Vec<_> = kinds
-        .iter()
-        .map(|kind| Aov::from_attributes(*kind, &rendered.attributes))
-        .collect();
+    let aovs = aovs(rendered, kinds);
     let bytes = output::encode(format, &picture, &aovs)?;
     if format != Format::Exr {
-        for aov in &aovs {
-            let bytes = output::encode_aov(rendered.size, aov)?;
-            output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
-        }
+        save_aovs(path, format, rendered, &aovs)?;
     }
     Ok(bytes)
+}
+
+fn aovs<P>(rendered: &Rendered<P>, kinds: &[AovKind]) -> Vec<Aov> {
+    let kinds = kinds.iter();
+    kinds
+        .map(|kind| Aov::from_attributes(*kind, &rendered.attributes))
+        .collect()
+}
+
+/// Writes AOVs to files in the folder of the image at `path`.
+fn save_aovs<P>(
+    path: &Path,
+    format: Format,
+    rendered: &Rendered<P>,
+    aovs: &[Aov],
+) -> anyhow::Result<()> {
+    for aov in aovs {
+        let bytes = output::encode_aov(rendered.size, aov)?;
+        output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
+    }
+    Ok(())
 }
 
 /// Writes bytes to a file, or to standard output for `-`.

@@ -4,8 +4,8 @@ use super::startup::Clock;
 use crate::cli::report::DeviceReport;
 use gpc::camera::Camera;
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, SceneRequest,
-    Settings, Shadows,
+    Frame, Headless, HeadlessOptions, PassTime, Pixel, PreparedScene, RenderError, Rendered,
+    SceneRequest, Settings, Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
 use gpc::vulkan::VulkanError;
@@ -16,12 +16,20 @@ use std::time::Instant;
 pub struct Session {
     headless: Headless,
     settings: Settings,
+    /// Whether images are read back as 8-bit codes.
+    reads_codes: bool,
     shown: Option<Frame>,
 }
 
+/// An image in linear light, or in 8-bit codes.
+pub enum Shot {
+    Light(RenderedImage),
+    Codes(RenderedImage<[u8; 4]>),
+}
+
 /// An image, and the times of all renderings that it took.
-pub struct RenderedImage {
-    pub rendered: Rendered,
+pub struct RenderedImage<P = [f32; 4]> {
+    pub rendered: Rendered<P>,
     /// Times of the passes, a list for each rendering.
     pub passes: Vec<Vec<PassTime>>,
     /// Wall-clock milliseconds of each rendering, from recording to the image in host memory.
@@ -73,11 +81,13 @@ pub fn upload(
 }
 
 impl Session {
-    /// Opens a session on a device.
-    pub fn new(headless: Headless, settings: Settings) -> Self {
+    /// Opens a session on a device. Images are read back as 8-bit codes with straight alpha if `reads_codes` is set, otherwise
+    /// as light.
+    pub fn new(headless: Headless, settings: Settings, reads_codes: bool) -> Self {
         Self {
             headless,
             settings,
+            reads_codes,
             shown: None,
         }
     }
@@ -99,7 +109,12 @@ impl Session {
         self.shown = None;
         let scene = upload(&mut self.headless, scene, (pose, motion), &self.settings)?;
         clock.lap("upload");
-        let frame = self.headless.prepare(&scene, &self.settings)?;
+        let frame = if self.reads_codes {
+            self.headless
+                .prepare_pixels::<[u8; 4]>(&scene, &self.settings)?
+        } else {
+            self.headless.prepare(&scene, &self.settings)?
+        };
         clock.lap("pipelines");
         self.shown = Some(frame);
         Ok(())
@@ -114,15 +129,30 @@ impl Session {
     }
 
     /// Renders the scene on the device: once, or with `repeat` one unmeasured time and then `repeat` times.
-    pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<RenderedImage> {
+    pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
+        Ok(if self.reads_codes {
+            Shot::Codes(self.render(camera, repeat)?)
+        } else {
+            Shot::Light(self.render(camera, repeat)?)
+        })
+    }
+
+    fn render<P: Pixel>(
+        &mut self,
+        camera: &Camera,
+        repeat: Option<u32>,
+    ) -> anyhow::Result<RenderedImage<P>> {
+        let Some(frame) = &mut self.shown else {
+            anyhow::bail!("nothing was put on the device to render");
+        };
         if repeat.is_some() {
-            self.render(camera)?;
+            self.headless.render_pixels::<P>(frame, camera)?;
         }
         let mut passes = Vec::new();
         let mut wall_ms = Vec::new();
         loop {
             let start = Instant::now();
-            let rendered = self.render(camera)?;
+            let rendered = self.headless.render_pixels::<P>(frame, camera)?;
             wall_ms.push(1e3 * start.elapsed().as_secs_f64());
             passes.push(rendered.statistics.passes.clone());
             if passes.len() >= repeat.unwrap_or(1) as usize {
@@ -133,13 +163,6 @@ impl Session {
                 });
             }
         }
-    }
-
-    fn render(&mut self, camera: &Camera) -> anyhow::Result<Rendered> {
-        let Some(frame) = &mut self.shown else {
-            anyhow::bail!("nothing was put on the device to render");
-        };
-        Ok(self.headless.render(frame, camera)?)
     }
 
     /// Messages of the validation layer, if it runs.

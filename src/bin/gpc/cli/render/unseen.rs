@@ -7,8 +7,8 @@ use gpc::scene::{Pose, SceneCamera};
 
 /// A warning if all pixels have the same colour, which means that nothing of the scene is in view. The warning names
 /// cameras that see the scene. `aspect` is width / height.
-pub fn warning(
-    colors: &[[f32; 4]],
+pub fn warning<P: PartialEq>(
+    colors: &[P],
     view: &NamedView,
     pose: &Pose,
     cameras: &[SceneCamera],

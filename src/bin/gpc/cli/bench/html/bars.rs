@@ -2,7 +2,8 @@
 
 use super::{escape, short};
 use crate::cli::bench::results::{Row, SceneResults};
-use gpc::render::MethodKind;
+use gpc::bench::PassCost;
+use gpc::render::{MethodKind, PassTime};
 use std::fmt::Write;
 
 const WIDTH: f64 = 1120.0;
@@ -78,10 +79,16 @@ pub fn chart(scene: &SceneResults) -> String {
 
 const OTHER: &str = "other";
 
+/// The passes of a row that are part of its time.
+fn timed(row: &Row) -> impl Iterator<Item = &PassCost> {
+    let passes = row.cost.passes.iter();
+    passes.filter(|pass| pass.pass != PassTime::COPY)
+}
+
 /// The passes that get a segment of their own, in the order in which they run.
 fn large_passes(rows: &[&Row], longest: f64) -> Vec<&'static str> {
     let mut sizes: Vec<(&str, f64)> = Vec::new();
-    for pass in rows.iter().flat_map(|row| &row.cost.passes) {
+    for pass in rows.iter().flat_map(|row| timed(row)) {
         match sizes.iter_mut().find(|(name, _)| *name == pass.pass) {
             Some((_, most)) => *most = most.max(pass.ms.median),
             None => sizes.push((pass.pass, pass.ms.median)),
@@ -103,15 +110,12 @@ fn large_passes(rows: &[&Row], longest: f64) -> Vec<&'static str> {
 
 /// A row's passes in order; the small ones are summed up at the end.
 fn segments(row: &Row, passes: &[&'static str]) -> Vec<(&'static str, f64)> {
-    let mut segments: Vec<_> = row
-        .cost
-        .passes
-        .iter()
+    let mut segments: Vec<_> = timed(row)
         .filter(|pass| passes.contains(&pass.pass))
         .map(|pass| (pass.pass, pass.ms.median))
         .collect();
     let drawn: f64 = segments.iter().map(|(_, ms)| ms).sum();
-    let all: f64 = row.cost.passes.iter().map(|pass| pass.ms.median).sum();
+    let all: f64 = timed(row).map(|pass| pass.ms.median).sum();
     segments.push((OTHER, (all - drawn).max(0.0)));
     segments
 }
