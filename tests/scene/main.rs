@@ -10,7 +10,10 @@ mod hostile;
 mod indexed;
 mod look;
 mod malformed;
+mod kinds;
+mod left_out;
 mod motion;
+mod reports;
 #[path = "../common/scene_builder.rs"]
 mod scene_builder;
 #[path = "../common/shared.rs"]

@@ -31,17 +31,23 @@ mod material;
 mod mesh;
 mod meshopt;
 mod model;
+mod mtl;
 mod node;
 mod obj;
-mod obj_fault;
+mod obj_part;
 mod packed;
 mod ply;
+mod ply_data;
 mod pointer;
+mod polygon;
 mod primitive;
 mod shape;
 mod skin;
 mod stl;
+mod stl_text;
+mod text;
 mod texture;
+mod texture_file;
 mod uri;
 mod vertex;
 
@@ -105,9 +111,11 @@ pub fn read(
     let loaded = if stl::is_stl(bytes) {
         stl::read(bytes, file)?
     } else if ply::is_ply(bytes) {
-        ply::read(bytes, file)?
+        ply::read(bytes, file, base)?
     } else if obj::is_obj(bytes) {
         obj::read(bytes, file, base)?
+    } else if stl::is_named(bytes, file) {
+        stl::read(bytes, file)?
     } else {
         return read_gltf(bytes, file, base, variant);
     };
