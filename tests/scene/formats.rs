@@ -175,13 +175,23 @@ fn stl_in_binary_and_as_text() {
     );
     refused(&binary[..100], "nor OBJ, STL or PLY");
     // A file that is named as an STL says why it is none.
-    let named = |bytes: &[u8]| Scene::from_slice(bytes, "a.STL", None).unwrap_err().to_string();
+    let named = |bytes: &[u8]| {
+        Scene::from_slice(bytes, "a.STL", None)
+            .unwrap_err()
+            .to_string()
+    };
     let cut = named(&binary[..100]);
-    assert!(cut.contains("it states 1 triangles and has 100 bytes"), "{cut}");
+    assert!(
+        cut.contains("it states 1 triangles and has 100 bytes"),
+        "{cut}"
+    );
     assert!(named(b"solid x\nendsolid x\n").contains("the STL file is broken: it has no facets"));
     let comma = text.replace("1 0 0", "1,0 0 0");
     let comma = load(comma.as_bytes(), None).unwrap_err().to_string();
-    assert!(comma.contains("line 5: the STL file is broken: \"1,0\" has a decimal comma"), "{comma}");
+    assert!(
+        comma.contains("line 5: the STL file is broken: \"1,0\" has a decimal comma"),
+        "{comma}"
+    );
 }
 
 #[test]

@@ -8,10 +8,10 @@ mod formats;
 mod geometry;
 mod hostile;
 mod indexed;
-mod look;
-mod malformed;
 mod kinds;
 mod left_out;
+mod look;
+mod malformed;
 mod motion;
 mod reports;
 #[path = "../common/scene_builder.rs"]

@@ -278,7 +278,10 @@ mod tests {
         let mut many = Warnings::new("file");
         (0..50).for_each(|i| many.leave_out("properties", 1, &format!("p{i}")));
         let [line] = many.into_vec().try_into().unwrap();
-        assert!(line.starts_with("file: left out: properties (50: p0, p1,"), "{line}");
+        assert!(
+            line.starts_with("file: left out: properties (50: p0, p1,"),
+            "{line}"
+        );
         assert!(line.ends_with("p19, ...)"), "{line}");
     }
 }

@@ -110,7 +110,11 @@ impl DecodedImages {
     }
 
     /// Decodes an image of the file `name`, which is not part of a document.
-    pub fn decode_named(&mut self, bytes: Cow<'_, [u8]>, name: &str) -> Result<Image, TextureFault> {
+    pub fn decode_named(
+        &mut self,
+        bytes: Cow<'_, [u8]>,
+        name: &str,
+    ) -> Result<Image, TextureFault> {
         let fault = |reason, is_supported| TextureFault {
             file: name.to_owned(),
             reason,
@@ -197,7 +201,9 @@ fn sniff_named(bytes: &[u8], name: &str) -> Result<ImageEncoding, String> {
             let format = format!("{other:?}").to_uppercase();
             Err(format!("{format} is not supported; convert it to PNG"))
         }
-        Err(_) => Err("is neither PNG, JPEG, WebP, KTX2, BMP nor TGA; convert it to PNG".to_owned()),
+        Err(_) => {
+            Err("is neither PNG, JPEG, WebP, KTX2, BMP nor TGA; convert it to PNG".to_owned())
+        }
     }
 }
 

@@ -48,6 +48,7 @@ mod stl_text;
 mod text;
 mod texture;
 mod texture_file;
+mod unread;
 mod uri;
 mod vertex;
 
@@ -158,6 +159,7 @@ fn read_gltf(
     let mut value = container.json;
     model::settle(&mut value, "");
     let mut warnings = Warnings::new(file);
+    unread::name(&value, &mut warnings);
     // The version comes first, because a file of another version looks malformed throughout.
     let asset = asset::read(&value, file)?;
     let mut model = Model::new(value, asset, &mut warnings).map_err(malformed)?;

@@ -12,6 +12,23 @@ use crate::scene::{
     material::{AlphaMode, Material, TextureTransform, TextureUse},
 };
 
+/// Options of maps.
+const OPTIONS: [&[u8]; 13] = [
+    b"-blendu",
+    b"-blendv",
+    b"-bm",
+    b"-boost",
+    b"-cc",
+    b"-clamp",
+    b"-imfchan",
+    b"-mm",
+    b"-o",
+    b"-s",
+    b"-t",
+    b"-texres",
+    b"-type",
+];
+
 /// A material as its file describes it.
 #[derive(Clone, Debug, Default)]
 pub struct Description {
@@ -116,10 +133,44 @@ impl Description {
     }
 
     /// The file and the placement of a map: `-s` multiplies texture coordinates and `-o` adds to them. Other options
-    /// are not used.
+    /// are not used. Options stand before the file, and in files of some programs behind it.
     fn map(&mut self, statement: &str, map: &[u8]) -> Option<Map> {
-        let (mut scale, mut offset) = ([1.0; 2], [0.0; 2]);
-        let mut rest = map.trim_ascii();
+        let mut placement = ([1.0; 2], [0.0; 2]);
+        let mut rest = self.options(statement, map.trim_ascii(), &mut placement);
+        let is_option = |at: &usize| {
+            let is_behind = rest[..*at].ends_with(b" ");
+            is_behind && OPTIONS.contains(&keyword(&rest[*at..]).0)
+        };
+        if let Some(behind) = (1..rest.len()).find(is_option) {
+            let (file, options) = rest.split_at(behind);
+            self.options(statement, options, &mut placement);
+            rest = file.trim_ascii_end();
+        }
+        let (scale, offset) = placement;
+        // In the format v points up.
+        let rows = [
+            [scale[0], 0.0, offset[0]],
+            [0.0, scale[1], 1.0 - scale[1] - offset[1]],
+        ];
+        let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
+        let file = text(rest);
+        let file = file.trim_matches('"').to_owned();
+        (!file.is_empty()).then(|| Map {
+            file,
+            transform: is_finite
+                .then_some(TextureTransform(rows))
+                .unwrap_or_default(),
+        })
+    }
+
+    /// Reads options with which a text begins; returns the rest of it.
+    fn options<'t>(
+        &mut self,
+        statement: &str,
+        text_of: &'t [u8],
+        (scale, offset): &mut ([f32; 2], [f32; 2]),
+    ) -> &'t [u8] {
+        let mut rest = text_of;
         while rest.starts_with(b"-") {
             let (option, after) = keyword(rest);
             rest = after;
@@ -139,27 +190,17 @@ impl Description {
                 rest = after;
             }
             let place = match option {
-                b"-s" => &mut scale,
-                b"-o" => &mut offset,
+                b"-s" => &mut *scale,
+                b"-o" => &mut *offset,
                 _ => {
-                    self.unused.insert(format!("{} of {statement}", text(option)));
+                    self.unused
+                        .insert(format!("{} of {statement}", text(option)));
                     continue;
                 }
             };
             place.iter_mut().zip(numbers).for_each(|(to, x)| *to = x);
         }
-        // In the format v points up.
-        let rows = [
-            [scale[0], 0.0, offset[0]],
-            [0.0, scale[1], 1.0 - scale[1] - offset[1]],
-        ];
-        let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
-        let file = text(rest);
-        let file = file.trim_matches('"').to_owned();
-        (!file.is_empty()).then(|| Map {
-            file,
-            transform: is_finite.then_some(TextureTransform(rows)).unwrap_or_default(),
-        })
+        rest
     }
 
     /// The material, and its textures among `textures`.
@@ -215,7 +256,11 @@ impl Description {
         if let (Some(a), Some(b)) = (color, opacity)
             && a.transform != b.transform
         {
-            warnings.leave_out("placements of map_d that differ from that of map_Kd", 1, &b.file);
+            warnings.leave_out(
+                "placements of map_d that differ from that of map_Kd",
+                1,
+                &b.file,
+            );
         }
         // If one of the images is missing, the other is used alone.
         while let Some(map) = color.or(opacity) {

@@ -76,9 +76,8 @@ struct Reader {
     materials: HashMap<String, u32>,
     /// Operands of `mtllib`.
     libraries: Vec<String>,
-    is_smooth: bool,
-    /// Number of faces without normals in smoothing groups.
-    smoothed: usize,
+    /// Names of smoothing groups, and their numbers.
+    groups: HashMap<Vec<u8>, u32>,
     /// Largest component of a vertex colour.
     largest_code: f32,
 }
@@ -104,21 +103,19 @@ impl Reader {
                 self.pool.normals.push(normal.map(|x| x as f32));
             }
             b"f" | b"fo" => {
-                let from = self.part.corners.len();
                 for word in operands(rest) {
                     let corner = self.corner(word, line)?;
                     self.part.corners.push(corner);
                 }
-                let corners = &self.part.corners[from..];
-                let is_flat = corners.iter().any(|corner| corner.normal().is_none());
-                self.smoothed += usize::from(self.is_smooth && is_flat);
                 self.part.ends.push(self.part.corners.len());
             }
             b"l" => {
                 let mut before = None;
                 for word in operands(rest) {
                     let corner = self.corner(word, line)?;
-                    self.part.lines.extend(before.map(|before| [before, corner]));
+                    self.part
+                        .lines
+                        .extend(before.map(|before| [before, corner]));
                     before = Some(corner);
                 }
             }
@@ -142,7 +139,16 @@ impl Reader {
                 }
             }
             b"mtllib" => self.libraries.push(text::text(rest)),
-            b"s" => self.is_smooth = !matches!(rest, b"off" | b"0" | b""),
+            b"s" => {
+                let group = match rest {
+                    b"off" | b"0" | b"" => None,
+                    name => {
+                        let next = self.groups.len() as u32;
+                        Some(*self.groups.entry(name.to_owned()).or_insert(next))
+                    }
+                };
+                self.part.set_smoothing(group);
+            }
             b"" => {}
             comment if comment.starts_with(b"#") => {}
             other => {
@@ -161,6 +167,7 @@ impl Reader {
         let next = Part {
             name: self.part.name.clone(),
             material: self.part.material,
+            smoothing: self.part.present_smoothing(),
             ..Part::default()
         };
         self.parts.push(std::mem::replace(&mut self.part, next));
@@ -174,6 +181,8 @@ impl Reader {
             4 => warnings.leave_out("weights of vertices", usize::from(a != 1.0), ""),
             6.. => {
                 let color = [a, b, c].map(|x| x as f32);
+                let is_number = color.iter().all(|x| x.is_finite());
+                warnings.leave_out("undefined colours of vertices", usize::from(!is_number), "");
                 self.largest_code = color.into_iter().fold(self.largest_code, f32::max);
                 let before = self.pool.positions.len() - 1;
                 self.pool.colors.resize(before, [1.0; 3]);
@@ -190,7 +199,12 @@ impl Reader {
     fn corner(&mut self, word: &[u8], line: usize) -> Result<Corner, String> {
         let mut named = [Corner::NONE; 3];
         let mut parts = word.split(|&byte| byte == b'/');
-        let no_corner = || format!("\"{}\" names no corner", text::text(&word[..word.len().min(40)]));
+        let no_corner = || {
+            format!(
+                "\"{}\" names no corner",
+                text::text(&word[..word.len().min(40)])
+            )
+        };
         for (kind, place) in named.iter_mut().enumerate() {
             let Some(part) = parts.next() else { break };
             if part.is_empty() {
@@ -244,11 +258,16 @@ impl Reader {
         self.begin_part();
         let lacking = (1..3).filter(|kind| self.pool.counts()[*kind] == 0);
         for kind in lacking.filter(|kind| self.largest[*kind].0 > 0) {
-            warnings.leave_out("elements that corners name and the file lacks", 1, NAMED[kind]);
+            warnings.leave_out(
+                "elements that corners name and the file lacks",
+                1,
+                NAMED[kind],
+            );
         }
-        warnings.leave_out("smoothing groups of faces without normals", self.smoothed, "");
         let mut pool = std::mem::take(&mut self.pool);
         pool.finish(self.largest_code);
+        let origin = origin_of(pool.used(&self.parts));
+        pool.smooth(&mut self.parts, origin);
 
         let mut textures = NamedTextures::new(base);
         let (described, is_complete) = self.read_libraries(base, warnings);
@@ -283,7 +302,7 @@ impl Reader {
         }
         let (textures, images) = textures.into_parts();
         let mut drawing = Drawing {
-            origin: origin_of(pool.used(&self.parts)),
+            origin,
             materials,
             textures,
             images,
@@ -294,7 +313,9 @@ impl Reader {
         }
         let mut welder = Welder::new(&pool, drawing.origin);
         for part in &self.parts {
-            let material = part.material.map_or(unnamed, |index| places[index as usize]);
+            let material = part
+                .material
+                .map_or(unnamed, |index| places[index as usize]);
             let shapes: Vec<FileObject> = welder.shapes(part, material, warnings);
             drawing.shapes.extend(shapes);
         }
@@ -355,8 +376,13 @@ fn several(list: &str) -> Vec<String> {
 /// A name without the quotes around it.
 fn unquoted(name: &[u8]) -> String {
     let name = text::text(name);
-    let inner = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
-    inner.filter(|inner| !inner.contains('"')).unwrap_or(&name).to_owned()
+    let inner = name
+        .strip_prefix('"')
+        .and_then(|name| name.strip_suffix('"'));
+    inner
+        .filter(|inner| !inner.contains('"'))
+        .unwrap_or(&name)
+        .to_owned()
 }
 
 /// Operands of a statement, without a comment behind them.

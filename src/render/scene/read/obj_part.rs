@@ -1,5 +1,7 @@
 //! Parts of OBJ files: elements of one object, group and material, and the vertices that their corners make.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::{
@@ -36,9 +38,55 @@ impl Pool {
         }
     }
 
+    /// Gives the faces of smoothing groups normals, unless they have some: at each vertex the mean of the group's faces,
+    /// weighted by area.
+    pub fn smooth(&mut self, parts: &mut [Part], origin: DVec3) {
+        let mut known: HashMap<(u32, u32), u32> = HashMap::new();
+        let mut sums: Vec<DVec3> = Vec::new();
+        let first = self.normals.len();
+        let groups = parts.iter_mut().flat_map(Part::smooth_faces);
+        for (group, face) in groups {
+            if face.iter().all(|corner| self.has_normal(corner)) {
+                continue;
+            }
+            let place = |corner: &Corner| {
+                let position = self.positions.get(corner.0[0] as usize);
+                position.map(|p| *p - origin).filter(|p| p.is_finite())
+            };
+            let places = || face.iter().filter_map(place);
+            let Some(start) = places().next() else {
+                continue;
+            };
+            let spokes = || places().map(|place| place - start);
+            let area: DVec3 = spokes()
+                .zip(spokes().skip(1))
+                .map(|(a, b)| a.cross(b))
+                .sum();
+            for corner in face {
+                let index = *known.entry((corner.0[0], group)).or_insert_with(|| {
+                    sums.push(DVec3::ZERO);
+                    (first + sums.len() - 1) as u32
+                });
+                sums[index as usize - first] += area;
+                corner.0[2] = index;
+            }
+        }
+        let normal = |sum: &DVec3| sum.normalize_or(DVec3::Z).as_vec3().to_array();
+        self.normals.extend(sums.iter().map(normal));
+    }
+
+    /// Whether a corner has a normal that the file has, too.
+    fn has_normal(&self, corner: &Corner) -> bool {
+        (corner.0[2] as usize) < self.normals.len()
+    }
+
     /// Positions that parts use, or all if there are no parts.
-    pub fn used(&self, parts: &[Part]) -> impl Iterator<Item = DVec3> {
-        let all = if parts.is_empty() { &self.positions[..] } else { &[] };
+    pub fn used<'p>(&'p self, parts: &'p [Part]) -> impl Iterator<Item = DVec3> + 'p {
+        let all = if parts.is_empty() {
+            &self.positions[..]
+        } else {
+            &[]
+        };
         let corners = parts.iter().flat_map(Part::corners);
         let used = corners.filter_map(|corner| self.positions.get(corner.0[0] as usize));
         used.chain(all).copied()
@@ -51,7 +99,11 @@ impl Pool {
             material,
             points: (0..count as u32).collect(),
             positions: self.positions.iter().map(|p| local(*p, origin)).collect(),
-            normals: if self.normals.len() == count { self.normals.clone() } else { Vec::new() },
+            normals: if self.normals.len() == count {
+                self.normals.clone()
+            } else {
+                Vec::new()
+            },
             colors: self.colors.iter().map(|color| opaque(*color)).collect(),
             ..FileObject::default()
         }
@@ -74,11 +126,6 @@ pub struct Corner(pub [u32; 3]);
 impl Corner {
     /// Index of what a corner does not have.
     pub const NONE: u32 = u32::MAX;
-
-    /// Index of the normal.
-    pub fn normal(self) -> Option<u32> {
-        Some(self.0[2]).filter(|index| *index != Self::NONE)
-    }
 }
 
 /// Elements of one object or group and one material.
@@ -93,6 +140,8 @@ pub struct Part {
     pub ends: Vec<usize>,
     pub lines: Vec<[Corner; 2]>,
     pub points: Vec<Corner>,
+    /// Smoothing groups, each with the index of the first face in it; `None` for no group.
+    pub smoothing: Vec<(usize, Option<u32>)>,
 }
 
 impl Part {
@@ -105,9 +154,38 @@ impl Part {
         self.corners.iter().chain(of_lines).chain(&self.points)
     }
 
+    /// Sets the smoothing group of the faces to come.
+    pub fn set_smoothing(&mut self, group: Option<u32>) {
+        self.smoothing.push((self.ends.len(), group));
+    }
+
+    /// The present smoothing group, as the start of another part.
+    pub fn present_smoothing(&self) -> Vec<(usize, Option<u32>)> {
+        let last = self.smoothing.last();
+        last.map(|(_, group)| (0, *group)).into_iter().collect()
+    }
+
+    /// Faces in smoothing groups, with the numbers of their groups.
+    fn smooth_faces(&mut self) -> impl Iterator<Item = (u32, &mut [Corner])> {
+        let (smoothing, mut next) = (&self.smoothing, 0);
+        let mut group = None;
+        let (mut rest, mut start) = (&mut self.corners[..], 0);
+        let faces = self.ends.iter().enumerate().map(move |(face, &end)| {
+            while let Some((_, other)) = smoothing.get(next).filter(|(first, _)| *first <= face) {
+                (group, next) = (*other, next + 1);
+            }
+            let (corners, others) = std::mem::take(&mut rest).split_at_mut(end - start);
+            (rest, start) = (others, end);
+            group.map(|group| (group, corners))
+        });
+        faces.flatten()
+    }
+
     fn faces(&self) -> impl Iterator<Item = &[Corner]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, end)| &self.corners[start..*end])
+        starts
+            .zip(&self.ends)
+            .map(|(start, end)| &self.corners[start..*end])
     }
 }
 
@@ -148,10 +226,9 @@ impl<'p> Welder<'p> {
         let mut triangulator = Triangulator::default();
         for has_normals in [true, false] {
             self.begin();
-            let is_normal = |corner: &Corner| {
-                corner.normal().is_some_and(|n| (n as usize) < self.pool.normals.len())
-            };
-            let of_kind = |face: &&[Corner]| face.iter().all(is_normal) == has_normals;
+            let is_smooth =
+                |face: &[Corner]| face.iter().all(|corner| self.pool.has_normal(corner));
+            let of_kind = |face: &&[Corner]| is_smooth(face) == has_normals;
             let faces: Vec<&[Corner]> = part.faces().filter(of_kind).collect();
             if faces.is_empty() {
                 continue;
@@ -175,10 +252,20 @@ impl<'p> Welder<'p> {
         if !part.lines.is_empty() || !part.points.is_empty() {
             self.begin();
             let lines = part.lines.iter();
-            let lines = lines.map(|ends| ends.map(|end| self.vertex(end, false))).collect();
-            let points = part.points.iter().map(|point| self.vertex(*point, false)).collect();
+            let lines = lines
+                .map(|ends| ends.map(|end| self.vertex(end, false)))
+                .collect();
+            let points = part
+                .points
+                .iter()
+                .map(|point| self.vertex(*point, false))
+                .collect();
             let shape = self.finish(part, material, false);
-            shapes.push(FileObject { lines, points, ..shape });
+            shapes.push(FileObject {
+                lines,
+                points,
+                ..shape
+            });
         }
         triangulator.report(part.name.as_deref().unwrap_or("unnamed object"), warnings);
         shapes
@@ -192,9 +279,17 @@ impl<'p> Welder<'p> {
     /// Index of the vertex of a corner.
     fn vertex(&mut self, corner: Corner, has_normals: bool) -> u32 {
         let [position, uv, normal] = corner.0;
-        let corner = Corner([position, uv, if has_normals { normal } else { Corner::NONE }]);
+        let corner = Corner([
+            position,
+            uv,
+            if has_normals { normal } else { Corner::NONE },
+        ]);
         let [shape, newest] = self.last[position as usize];
-        let mut before = if shape == self.shape { newest } else { Corner::NONE };
+        let mut before = if shape == self.shape {
+            newest
+        } else {
+            Corner::NONE
+        };
         let previous = before;
         for _ in 0..Self::COMPARED {
             let Some((other, next)) = self.vertices.get(before as usize) else {
@@ -213,7 +308,11 @@ impl<'p> Welder<'p> {
 
     /// A shape of the vertices, without its elements.
     fn finish(&self, part: &Part, material: usize, has_normals: bool) -> FileObject {
-        let corners = || self.vertices.iter().map(|(corner, _)| corner.0.map(|i| i as usize));
+        let corners = || {
+            self.vertices
+                .iter()
+                .map(|(corner, _)| corner.0.map(|i| i as usize))
+        };
         let pool = self.pool;
         let has_uvs = corners().any(|[_, uv, _]| uv < pool.uvs.len());
         let uv = |[_, uv, _]: [usize; 3]| pool.uvs.get(uv).copied().unwrap_or_default();

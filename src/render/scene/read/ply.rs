@@ -65,7 +65,11 @@ const NONE: u32 = u32::MAX;
 
 /// Names of properties that hold a position, a normal, a colour and texture coordinates.
 const POSITION: [&[&str]; 3] = [&["x"], &["y"], &["z"]];
-const NORMAL: [&[&str]; 3] = [&["nx", "normal_x"], &["ny", "normal_y"], &["nz", "normal_z"]];
+const NORMAL: [&[&str]; 3] = [
+    &["nx", "normal_x"],
+    &["ny", "normal_y"],
+    &["nz", "normal_z"],
+];
 const COLOR: [&[&str]; 3] = [
     &["red", "diffuse_red", "r"],
     &["green", "diffuse_green", "g"],
@@ -94,7 +98,9 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
                 name_unused(element, [indices], warnings);
                 data.read(index, |row| {
                     let vertices: Vec<u32> = row.list(indices).iter().map(vertex).collect();
-                    decoded.strips.extend(vertices.split(|v| *v == NONE).map(<[u32]>::to_vec));
+                    decoded
+                        .strips
+                        .extend(vertices.split(|v| *v == NONE).map(<[u32]>::to_vec));
                 })?;
             }
             "edge" => {
@@ -102,7 +108,8 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
                 let ends = [element.number(&["vertex1"]), element.number(&["vertex2"])];
                 name_unused(element, ends, warnings);
                 data.read(index, |row| {
-                    let end = |property: Option<usize>| row.list(property).first().map_or(NONE, vertex);
+                    let end =
+                        |property: Option<usize>| row.list(property).first().map_or(NONE, vertex);
                     decoded.edges.push(ends.map(end));
                 })?;
             }
@@ -141,7 +148,10 @@ fn vertex(value: &f64) -> u32 {
 /// Properties that hold the parts of a vector, if all are there.
 fn numbers<const N: usize>(element: &Element, names: [&[&str]; N]) -> Option<[usize; N]> {
     let found = names.map(|names| element.number(names));
-    found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
+    found
+        .iter()
+        .all(Option::is_some)
+        .then(|| found.map(Option::unwrap_or_default))
 }
 
 /// Codes of colours and alpha in properties.
@@ -175,11 +185,12 @@ impl Codes {
         color.chain([self.alpha])
     }
 
+    /// Codes of an element; NaN for those that are not there, which stands for 1.
     fn read(&self, row: &Row) -> [f32; 4] {
         let [r, g, b] = self.color.map_or([None; 3], |color| color.map(Some));
         let properties = [r, g, b, self.alpha];
         std::array::from_fn(|i| {
-            let code = properties[i].map_or(1.0, |p| row.number(p) / self.full[i]);
+            let code = properties[i].map_or(f64::NAN, |p| row.number(p) / self.full[i]);
             code as f32
         })
     }
@@ -187,11 +198,18 @@ impl Codes {
 
 /// Linear colours and alpha. Codes are 0 to 1; numbers with a fraction are 0 to 255 if one of them is more than 1.
 fn colors(codes: &[[f32; 4]]) -> Vec<[f32; 4]> {
-    let largest = codes.as_flattened().iter().fold(0.0, |a, &b| f32::max(a, b));
+    let largest = codes
+        .as_flattened()
+        .iter()
+        .fold(0.0, |a, &b| f32::max(a, b));
     let scale = if largest > 1.0 { 255.0 } else { 1.0 };
     let color = |[r, g, b, a]: &[f32; 4]| {
         let [r, g, b] = [r, g, b].map(|code| linear(f64::from(code / scale)));
-        let alpha = if a.is_nan() { 1.0 } else { a.clamp(0.0, scale) / scale };
+        let alpha = if a.is_nan() {
+            1.0
+        } else {
+            a.clamp(0.0, scale) / scale
+        };
         [r, g, b, alpha]
     };
     codes.iter().map(color).collect()
@@ -211,7 +229,11 @@ impl Decoded {
         let codes = Codes::new(element);
         let used = axes.into_iter().chain(codes.used());
         let used = used.chain(normal.into_iter().flatten().map(Some));
-        name_unused(element, used.chain(uv.into_iter().flatten().map(Some)), warnings);
+        name_unused(
+            element,
+            used.chain(uv.into_iter().flatten().map(Some)),
+            warnings,
+        );
         self.is_colored = codes.color.is_some();
         data.read(index, |row| {
             let at = axes.map(|axis| axis.map_or(0.0, |axis| row.number(axis)));
@@ -226,17 +248,26 @@ impl Decoded {
     }
 
     fn draw(self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
-        let used = self.faces.corners.iter().chain(self.strips.iter().flatten());
+        let used = self
+            .faces
+            .corners
+            .iter()
+            .chain(self.strips.iter().flatten());
         let used = used.chain(self.edges.as_flattened());
         // Vertices that are not connected are drawn as points.
-        let is_cloud = self.faces.ends.is_empty() && self.strips.is_empty() && self.edges.is_empty();
+        let is_cloud =
+            self.faces.ends.is_empty() && self.strips.is_empty() && self.edges.is_empty();
         let all = if is_cloud { &self.positions[..] } else { &[] };
         let position = |vertex: &u32| self.positions.get(*vertex as usize);
         let origin = origin_of(used.filter_map(position).chain(all).copied());
         let mut textures = NamedTextures::new(base);
         let mut looks = Looks::new(&self.textures, &mut textures, warnings);
 
-        let points = if is_cloud { self.positions.len() as u32 } else { 0 };
+        let points = if is_cloud {
+            self.positions.len() as u32
+        } else {
+            0
+        };
         let vertices = FileObject {
             points: (0..points).collect(),
             lines: self.edges.clone(),
@@ -263,7 +294,11 @@ impl Decoded {
         }
         if faces.is_apart() {
             if !faces.codes.is_empty() && self.is_colored {
-                warnings.leave_out("colours of vertices beside colours of faces", whole.colors.len(), "");
+                warnings.leave_out(
+                    "colours of vertices beside colours of faces",
+                    whole.colors.len(),
+                    "",
+                );
             }
             let apart = faces.apart(&whole, self.textures.len());
             shapes.extend(apart.into_iter().map(|(texture, mut shape, ends)| {
@@ -272,7 +307,12 @@ impl Decoded {
                 (texture, is_colored, shape)
             }));
         } else {
-            triangulate(&faces.ends, Some(&faces.corners), &mut whole, &mut triangulator);
+            triangulate(
+                &faces.ends,
+                Some(&faces.corners),
+                &mut whole,
+                &mut triangulator,
+            );
         }
         if shapes.is_empty() || !whole.triangles.is_empty() || !whole.lines.is_empty() {
             shapes.insert(0, (0, self.is_colored, whole));
@@ -324,7 +364,7 @@ impl Faces {
     ) -> Result<(), Fault> {
         let element = &data.elements[index];
         let indices = element.list(INDICES);
-        let uvs = element.list(&["texcoord"]);
+        let uvs = element.list(&["texcoord", "t"]);
         let texture = element.number(&["texnumber"]);
         let codes = Codes::new(element);
         let used = codes.used().chain([indices, uvs, texture]);
@@ -345,10 +385,12 @@ impl Faces {
                 let found = found.chain(std::iter::repeat([0.0; 2]));
                 self.uvs.extend(found.take(corners.len()));
             }
-            self.textures.extend(texture.map(|texture| row.number(texture)));
+            self.textures
+                .extend(texture.map(|texture| row.number(texture)));
         })?;
         if unfit > 0 {
-            let reason = format!("{unfit} faces have other numbers of texture coordinates than of corners");
+            let reason =
+                format!("{unfit} faces have other numbers of texture coordinates than of corners");
             warnings.push(&Fault::new("element face", reason));
         }
         Ok(())
@@ -361,7 +403,11 @@ impl Faces {
 
     /// Shapes with vertices of their own for each corner, by texture, and the ends of their polygons. `vertices` has the
     /// vertices of the file, and `textures` is the number of textures.
-    fn apart(&self, vertices: &FileObject, textures: usize) -> Vec<(usize, FileObject, Vec<usize>)> {
+    fn apart(
+        &self,
+        vertices: &FileObject,
+        textures: usize,
+    ) -> Vec<(usize, FileObject, Vec<usize>)> {
         let colors = colors(&self.codes);
         let mut shapes: BTreeMap<usize, (FileObject, Vec<usize>)> = BTreeMap::new();
         let mut start = 0;
@@ -369,12 +415,18 @@ impl Faces {
             let number = self.textures.get(face).copied().unwrap_or_default();
             let is_texture = number >= 0.0 && number < textures as f64;
             // A number of no texture stands for no texture.
-            let number = if is_texture { number as usize } else { textures };
+            let number = if is_texture {
+                number as usize
+            } else {
+                textures
+            };
             let (shape, ends) = shapes.entry(number).or_default();
             for corner in start..end {
                 let vertex = self.corners[corner] as usize;
                 let position = vertices.positions.get(vertex);
-                shape.positions.push(position.copied().unwrap_or([f32::NAN; 3]));
+                shape
+                    .positions
+                    .push(position.copied().unwrap_or([f32::NAN; 3]));
                 let normal = vertices.normals.get(vertex);
                 if !vertices.normals.is_empty() {
                     shape.normals.push(normal.copied().unwrap_or_default());
@@ -388,7 +440,9 @@ impl Faces {
             start = end;
         }
         let shapes = shapes.into_iter();
-        shapes.map(|(number, (shape, ends))| (number, shape, ends)).collect()
+        shapes
+            .map(|(number, (shape, ends))| (number, shape, ends))
+            .collect()
     }
 }
 
@@ -432,7 +486,10 @@ impl Looks {
         }
         if texture.is_some() && is_colored {
             warnings.leave_out("colours beneath a texture", shape.colors.len(), "");
-            shape.colors.iter_mut().for_each(|color| *color = [1.0, 1.0, 1.0, color[3]]);
+            shape
+                .colors
+                .iter_mut()
+                .for_each(|color| *color = [1.0, 1.0, 1.0, color[3]]);
         }
         let mut material = plain();
         if is_colored || texture.is_some() {

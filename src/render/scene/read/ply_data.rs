@@ -95,7 +95,10 @@ impl Row {
 
     /// Value of a property.
     pub fn number(&self, property: usize) -> f64 {
-        self.list(Some(property)).first().copied().unwrap_or(f64::NAN)
+        self.list(Some(property))
+            .first()
+            .copied()
+            .unwrap_or(f64::NAN)
     }
 }
 
@@ -190,14 +193,20 @@ impl<'b> Data<'b> {
                 Some(other) => warnings.leave_out("header lines", 1, &text(other)),
             }
         }
-        data.encoding = encoding.ok_or_else(|| broken("header".to_owned(), "it names no format"))?;
+        data.encoding =
+            encoding.ok_or_else(|| broken("header".to_owned(), "it names no format"))?;
         data.check()?;
         Ok(data)
     }
 
     /// Fails if an element claims more entries than the file can hold, with at least a byte for each.
     fn check(&self) -> Result<(), Fault> {
-        for Element { name, count, properties } in &self.elements {
+        for Element {
+            name,
+            count,
+            properties,
+        } in &self.elements
+        {
             let place = format!("element {name}");
             if *count > 0 && properties.is_empty() {
                 return Err(Fault::new(place, "has no properties"));
@@ -254,7 +263,9 @@ impl<'b> Data<'b> {
                 let is_length = length.fract() == 0.0 && (0.0..=1e15).contains(&length);
                 if !is_length || length > (self.bytes.len() - self.at) as f64 {
                     let name = &property.name;
-                    return Err(format!("a list {name} claims {length} numbers, which are not there"));
+                    return Err(format!(
+                        "a list {name} claims {length} numbers, which are not there"
+                    ));
                 }
                 count = length as usize;
             }
@@ -325,9 +336,8 @@ const ENDS: &str = "it ends within its elements";
 
 fn property<'w>(words: &mut impl Iterator<Item = &'w [u8]>) -> Result<Property, String> {
     let mut next = || words.next().unwrap_or_default();
-    let kind_of = |word: &[u8]| {
-        Type::named(word).ok_or_else(|| format!("\"{}\" is no type", text(word)))
-    };
+    let kind_of =
+        |word: &[u8]| Type::named(word).ok_or_else(|| format!("\"{}\" is no type", text(word)));
     let first = next();
     let (length, kind) = match first {
         b"list" => (Some(kind_of(next())?), kind_of(next())?),

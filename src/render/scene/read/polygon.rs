@@ -29,12 +29,7 @@ pub struct Triangulator {
 impl Triangulator {
     /// Adds the triangles of a polygon, whose corners are indices of `positions`, to `triangles`. The triangles have
     /// the winding of the polygon.
-    pub fn add(
-        &mut self,
-        polygon: &[u32],
-        positions: &[[f32; 3]],
-        triangles: &mut Vec<[u32; 3]>,
-    ) {
+    pub fn add(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
         match *polygon {
             [] | [_] | [_, _] => self.short += 1,
             [a, b, c] => triangles.push([a, b, c]),
@@ -63,12 +58,7 @@ impl Triangulator {
         );
     }
 
-    fn divide(
-        &mut self,
-        polygon: &[u32],
-        positions: &[[f32; 3]],
-        triangles: &mut Vec<[u32; 3]>,
-    ) {
+    fn divide(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
         let position = |corner: u32| {
             let position = positions.get(corner as usize);
             position.map(|p| DVec3::from_array(p.map(f64::from)))
@@ -87,11 +77,12 @@ impl Triangulator {
         let fan = || spokes().zip(spokes().skip(1)).map(|(a, b)| a.cross(b));
         let normal: DVec3 = fan().sum();
         let fan_covers = fan().all(|triangle| triangle.dot(normal) >= 0.0);
-        if normal == DVec3::ZERO || fan_covers || self.corners.len() < 4 {
+        if fan_covers && (normal != DVec3::ZERO || fan().all(|part| part == DVec3::ZERO)) {
             triangles.extend(fan_of(&self.corners));
             return;
         }
-        if self.corners.len() > MOST_CORNERS {
+        // Parts of a polygon without an area cancel each other.
+        if normal == DVec3::ZERO || self.corners.len() > MOST_CORNERS {
             self.crossing += 1;
             triangles.extend(fan_of(&self.corners));
             return;
@@ -101,9 +92,14 @@ impl Triangulator {
         let [i, j] = [[1, 2], [2, 0], [0, 1]][largest];
         let is_turned = normal[largest] < 0.0;
         self.ring.clear();
-        self.ring.extend(spokes_of(&self.corners, at, first).map(|p| {
-            if is_turned { [p[j], p[i]] } else { [p[i], p[j]] }
-        }));
+        self.ring
+            .extend(spokes_of(&self.corners, at, first).map(|p| {
+                if is_turned {
+                    [p[j], p[i]]
+                } else {
+                    [p[i], p[j]]
+                }
+            }));
         self.indices.clear();
         let earcut = self.earcut.get_or_insert_with(Earcut::new);
         earcut.earcut_slice(&self.ring, &[], &mut self.indices);
@@ -125,7 +121,11 @@ impl Triangulator {
             self.crossing += 1;
         }
         let whole = with_dropped(found, &self.ring);
-        triangles.extend(whole.iter().map(|t| t.map(|corner| self.corners[corner as usize])));
+        triangles.extend(
+            whole
+                .iter()
+                .map(|t| t.map(|corner| self.corners[corner as usize])),
+        );
     }
 }
 
@@ -142,7 +142,9 @@ fn spokes_of(
 /// Triangles from the first corner to each edge.
 fn fan_of(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     let first = corners[0];
-    corners[1..].windows(2).map(move |edge| [first, edge[0], edge[1]])
+    corners[1..]
+        .windows(2)
+        .map(move |edge| [first, edge[0], edge[1]])
 }
 
 /// Triangles of a ring, with the corners that the division dropped because they lie on a straight edge. Without these

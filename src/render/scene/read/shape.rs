@@ -288,9 +288,13 @@ impl FileObject {
             return vec![[0.0; 4]; sources.len()];
         }
         let uvs = pick(&self.uvs, sources);
-        let lost = uvs.iter().filter(|uv| !uv.iter().all(|x| x.is_finite())).count();
+        let lost = uvs
+            .iter()
+            .filter(|uv| !uv.iter().all(|x| x.is_finite()))
+            .count();
         if lost > 0 {
-            let reason = format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
+            let reason =
+                format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
             warnings.push(&Fault::new(place, reason));
         }
         let uvs = uvs.into_iter().map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);

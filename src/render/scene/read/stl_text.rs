@@ -6,7 +6,7 @@ use super::{
     polygon::Triangulator,
     shape::{Drawing, FileObject, linear, origin_of, plain},
     stl::CONTRARY,
-    text::{BOM, Lines, no_number, number, text, words},
+    text::{BOM, Lines, no_number, number, text},
 };
 use crate::scene::error::{Fault, Warnings};
 
@@ -43,8 +43,15 @@ pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     }
     let open = reader.open();
     if open > 0 {
-        reader.solid.corners.truncate(reader.solid.corners.len() - open);
-        let has_facets = reader.solids.iter().chain([&reader.solid]).any(|s| !s.ends.is_empty());
+        reader
+            .solid
+            .corners
+            .truncate(reader.solid.corners.len() - open);
+        let has_facets = reader
+            .solids
+            .iter()
+            .chain([&reader.solid])
+            .any(|s| !s.ends.is_empty());
         let end = Lines(bytes).count();
         if !has_facets {
             return Err(broken(end, "it ends within its first facet"));
@@ -81,7 +88,8 @@ impl Reader {
                 let (corner, after) = vector(rest)?;
                 self.solid.corners.push(corner);
                 rest = after;
-            } else if is(b"facet") {
+            } else if is(b"facet") || is(b"outer") || is(b"endloop") || is(b"end") {
+                // Some programs leave out the words around the loop of a facet.
                 self.end_facet();
             } else if is(b"normal") {
                 // A normal that is not there, or no number, is as good as none.
@@ -93,9 +101,11 @@ impl Reader {
                 }
             } else if is(b"endfacet") {
                 self.end_facet();
-                let behind = words(rest).count();
-                warnings.leave_out("words behind endfacet", behind.min(1), &text(rest.trim_ascii()));
-                rest = before(rest, &[b"facet", b"endsolid"]);
+                let following = before(rest, &[b"facet", b"end", b"endsolid"]);
+                let behind = rest[..rest.len() - following.len()].trim_ascii();
+                let count = usize::from(!behind.is_empty());
+                warnings.leave_out("words behind endfacet", count, &text(behind));
+                rest = following;
             } else if is(b"solid") {
                 let name = rest;
                 rest = before(rest, &[b"facet"]);
@@ -110,7 +120,7 @@ impl Reader {
                 let (color, after) = vector(rest)?;
                 self.color = Some(color.to_array().map(linear));
                 rest = after;
-            } else if !(is(b"outer") || is(b"loop") || is(b"endloop") || is(b"end")) {
+            } else if !is(b"loop") {
                 let shown = text(&word[..word.len().min(24)]);
                 warnings.leave_out("words that are not of the format", 1, &shown);
             }
@@ -119,11 +129,11 @@ impl Reader {
     }
 
     fn end_facet(&mut self) {
-        let normal = self.normal.take();
         let open = self.open();
         if open == 0 {
             return;
         }
+        let normal = self.normal.take();
         let end = self.solid.corners.len();
         if let ([a, b, c, ..], Some(normal)) = (&self.solid.corners[end - open..], normal) {
             self.contrary += usize::from((*b - *a).cross(*c - *a).dot(normal) < 0.0);
@@ -165,7 +175,10 @@ fn vector(line: &[u8]) -> Result<(DVec3, &[u8]), String> {
 fn before<'l>(line: &'l [u8], keywords: &[&[u8]]) -> &'l [u8] {
     let mut rest = line;
     while let Some((word, after)) = next(rest) {
-        if keywords.iter().any(|keyword| word.eq_ignore_ascii_case(keyword)) {
+        if keywords
+            .iter()
+            .any(|keyword| word.eq_ignore_ascii_case(keyword))
+        {
             return rest;
         }
         rest = after;

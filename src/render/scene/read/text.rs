@@ -95,7 +95,16 @@ mod tests {
     #[test]
     fn numbers_that_are_none_in_any_spelling() {
         for word in [
-            "nan", "NaN", "-nan", "-nan(ind)", "nan(snan)", "1.#QNAN", "-1.#IND00", "1.#INF", "+NAN", "-1.#IND",
+            "nan",
+            "NaN",
+            "-nan",
+            "-nan(ind)",
+            "nan(snan)",
+            "1.#QNAN",
+            "-1.#IND00",
+            "1.#INF",
+            "+NAN",
+            "-1.#IND",
         ] {
             assert!(!number(word.as_bytes()).unwrap().is_finite(), "{word}");
         }
@@ -104,15 +113,27 @@ mod tests {
         for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}"] {
             assert_eq!(number(word.as_bytes()), None, "{word}");
         }
-        assert_eq!(no_number(b"1,5"), "\"1,5\" has a decimal comma; write \"1.5\"");
+        assert_eq!(
+            no_number(b"1,5"),
+            "\"1,5\" has a decimal comma; write \"1.5\""
+        );
         assert_eq!(no_number(b"one"), "\"one\" is not a number");
     }
 
     #[test]
     fn statements_with_all_line_ends() {
         let text = b"\xEF\xBB\xBFa\r\nb \\\nc\r\rd\\\r\ne\n\nf\\";
-        let found: Vec<_> = statements(text).map(|(line, s)| (line, super::text(&s))).collect();
-        let expected = [(1, "a"), (2, "b  c"), (4, ""), (5, "d e"), (7, ""), (8, "f\\")];
+        let found: Vec<_> = statements(text)
+            .map(|(line, s)| (line, super::text(&s)))
+            .collect();
+        let expected = [
+            (1, "a"),
+            (2, "b  c"),
+            (4, ""),
+            (5, "d e"),
+            (7, ""),
+            (8, "f\\"),
+        ];
         assert_eq!(found, expected.map(|(line, s)| (line, s.to_owned())));
     }
 }

@@ -90,7 +90,9 @@ impl<'b> NamedTextures<'b> {
     pub fn is_cutout(&self, texture: u32) -> bool {
         let texture = self.textures.get(texture as usize);
         let image = texture.and_then(|texture| self.images.decoded(texture.image));
-        let texels = image.and_then(|image| image.levels().next()).unwrap_or_default();
+        let texels = image
+            .and_then(|image| image.levels().next())
+            .unwrap_or_default();
         let texels = texels.chunks_exact(4);
         let count = texels.len();
         let between = texels.filter(|texel| (16..240).contains(&texel[3])).count();
