@@ -586,11 +586,11 @@ fn loops_of_stl_without_facets() {
     let corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
     for text in [
         format!(
-            "solid a facet\n{}endsolid\n",
+            "solid a\n{}endsolid\n",
             format!("outer loop\n{corners}endloop\n").repeat(2)
         ),
         format!(
-            "solid a facet\n{}endsolid\n",
+            "solid a\n{}endsolid\n",
             format!("outer loop\n{corners}").repeat(2)
         ),
     ] {

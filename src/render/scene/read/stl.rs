@@ -66,12 +66,14 @@ fn is_plausible(bytes: &[u8]) -> bool {
     is_whole && tested.clone().all(is_normal) && tested.clone().any(has_corners)
 }
 
-/// Whether a file is text: it begins with "solid", in any case, and has a facet.
+/// Whether a file is text: it begins with "solid", in any case, and has a facet or its corners.
 fn is_text(bytes: &[u8]) -> bool {
     let is = |word: &[u8], expected: &[u8]| word.eq_ignore_ascii_case(expected);
     let mut words = words(bytes.strip_prefix(BOM).unwrap_or(bytes));
     words.next().is_some_and(|word| is(word, b"solid"))
-        && words.take(1000).any(|word| is(word, b"facet"))
+        && words
+            .take(1000)
+            .any(|word| is(word, b"facet") || is(word, b"vertex"))
         && !is_exact(bytes)
 }
 
@@ -90,7 +92,7 @@ fn vectors(record: &[u8; TRIANGLE]) -> [Vec3; 4] {
 /// Reads an STL file.
 pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
     let mut warnings = Warnings::new(file);
-    let drawing = if is_text(bytes) || stated(bytes).is_none() {
+    let drawing = if is_text(bytes) || stated(bytes).is_none() || !bytes.contains(&0) {
         stl_text::read(bytes, &mut warnings)
     } else {
         read_binary(bytes, &mut warnings)

@@ -50,8 +50,7 @@ pub fn words(statement: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
-/// The first word of a statement in lower case, and the rest without blanks around it. A keyword is short, so that a
-/// longer word is not one.
+/// The first word of a statement, and the rest without blanks around it.
 pub fn keyword(statement: &[u8]) -> (&[u8], &[u8]) {
     let statement = statement.trim_ascii();
     let end = statement.iter().position(u8::is_ascii_whitespace);
@@ -74,8 +73,19 @@ pub fn number(word: &[u8]) -> Option<f64> {
 fn is_none(word: &[u8]) -> bool {
     let unsigned = word.strip_prefix(b"-").or_else(|| word.strip_prefix(b"+"));
     let unsigned = unsigned.unwrap_or(word).to_ascii_lowercase();
-    let starts: [&[u8]; 6] = [b"nan", b"qnan", b"snan", b"inf", b"ind", b"1.#"];
-    starts.iter().any(|start| unsigned.starts_with(start))
+    let end = unsigned.iter().position(|byte| !byte.is_ascii_alphabetic());
+    let name = &unsigned[..end.unwrap_or(unsigned.len())];
+    let names: [&[u8]; 8] = [
+        b"nan",
+        b"nanq",
+        b"nans",
+        b"qnan",
+        b"snan",
+        b"inf",
+        b"infinity",
+        b"ind",
+    ];
+    names.contains(&name) || unsigned.starts_with(b"1.#")
 }
 
 /// The reason why a word is refused as a number.
@@ -110,7 +120,7 @@ mod tests {
         }
         assert_eq!(number(b"-1.5e2"), Some(-150.0));
         assert_eq!(number(b"infinity"), Some(f64::INFINITY));
-        for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}"] {
+        for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}", "nancy", "-"] {
             assert_eq!(number(word.as_bytes()), None, "{word}");
         }
         assert_eq!(
