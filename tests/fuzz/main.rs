@@ -67,6 +67,12 @@ fn variable(name: &str) -> Option<u64> {
 
 #[test]
 fn mutated_files_end_in_a_scene_or_an_error() {
+    // Files are so small that handing parts of them to other threads takes longer than reading them.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
+    pool.build().unwrap().install(run);
+}
+
+fn run() {
     let folder = tempfile::tempdir().unwrap();
     let mut seeds = seeds::all(folder.path());
     if let Ok(format) = std::env::var("FUZZ_FORMAT") {

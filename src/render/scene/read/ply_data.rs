@@ -221,18 +221,54 @@ impl<'b> Data<'b> {
     }
 
     /// Reads the elements with this index, which have to be the next ones.
-    pub fn read(&mut self, index: usize, mut each: impl FnMut(&Row)) -> Result<(), Fault> {
+    pub fn read(&mut self, index: usize, each: impl FnMut(&Row)) -> Result<(), Fault> {
         let elements = std::mem::take(&mut self.elements);
-        let result = elements.get(index).map_or(Ok(()), |element| {
-            let mut row = Row::default();
-            for _ in 0..element.count {
-                self.read_row(element, &mut row)?;
-                each(&row);
-            }
-            Ok(())
-        });
+        let result = elements
+            .get(index)
+            .map_or(Ok(()), |element| match self.encoding {
+                Encoding::Text => self.read_rows(element, each, |data, _| data.read_word()),
+                Encoding::LittleEndian => {
+                    self.read_rows(element, each, |data, kind| data.read_binary::<false>(kind))
+                }
+                Encoding::BigEndian => {
+                    self.read_rows(element, each, |data, kind| data.read_binary::<true>(kind))
+                }
+            });
         self.elements = elements;
         result.map_err(|reason: String| broken(self.place(), &reason))
+    }
+
+    /// Reads elements whose numbers `next` reads.
+    fn read_rows(
+        &mut self,
+        element: &Element,
+        mut each: impl FnMut(&Row),
+        mut next: impl FnMut(&mut Self, Type) -> Result<f64, String>,
+    ) -> Result<(), String> {
+        let mut row = Row::default();
+        for _ in 0..element.count {
+            row.values.clear();
+            row.ends.clear();
+            for property in &element.properties {
+                let mut count = 1;
+                if let Some(kind) = property.length {
+                    let length = next(self, kind)?;
+                    let is_length = length.fract() == 0.0 && (0.0..=1e15).contains(&length);
+                    if !is_length || length > (self.bytes.len() - self.at) as f64 {
+                        let name = &property.name;
+                        let claim = format!("a list {name} claims {length} numbers");
+                        return Err(format!("{claim}, which are not there"));
+                    }
+                    count = length as usize;
+                }
+                for _ in 0..count {
+                    row.values.push(next(self, property.kind)?);
+                }
+                row.ends.push(row.values.len());
+            }
+            each(&row);
+        }
+        Ok(())
     }
 
     /// Number of bytes behind the elements.
@@ -253,39 +289,6 @@ impl<'b> Data<'b> {
         }
     }
 
-    fn read_row(&mut self, element: &Element, row: &mut Row) -> Result<(), String> {
-        row.values.clear();
-        row.ends.clear();
-        for property in &element.properties {
-            let mut count = 1;
-            if let Some(kind) = property.length {
-                let length = self.read_number(kind)?;
-                let is_length = length.fract() == 0.0 && (0.0..=1e15).contains(&length);
-                if !is_length || length > (self.bytes.len() - self.at) as f64 {
-                    let name = &property.name;
-                    return Err(format!(
-                        "a list {name} claims {length} numbers, which are not there"
-                    ));
-                }
-                count = length as usize;
-            }
-            for _ in 0..count {
-                let number = self.read_number(property.kind)?;
-                row.values.push(number);
-            }
-            row.ends.push(row.values.len());
-        }
-        Ok(())
-    }
-
-    fn read_number(&mut self, kind: Type) -> Result<f64, String> {
-        match self.encoding {
-            Encoding::Text => self.read_word(),
-            Encoding::LittleEndian => self.read_binary(kind, false),
-            Encoding::BigEndian => self.read_binary(kind, true),
-        }
-    }
-
     fn read_word(&mut self) -> Result<f64, String> {
         let rest = &self.bytes[self.at..];
         let start = rest.iter().position(|byte| !byte.is_ascii_whitespace());
@@ -302,29 +305,30 @@ impl<'b> Data<'b> {
         Ok(number)
     }
 
-    fn read_binary(&mut self, kind: Type, is_big: bool) -> Result<f64, String> {
+    #[inline]
+    fn read_binary<const BIG: bool>(&mut self, kind: Type) -> Result<f64, String> {
         match kind {
-            Type::I8 => self.take(is_big, |b| i8::from_le_bytes(b).into()),
-            Type::U8 => self.take(is_big, |b| u8::from_le_bytes(b).into()),
-            Type::I16 => self.take(is_big, |b| i16::from_le_bytes(b).into()),
-            Type::U16 => self.take(is_big, |b| u16::from_le_bytes(b).into()),
-            Type::I32 => self.take(is_big, |b| i32::from_le_bytes(b).into()),
-            Type::U32 => self.take(is_big, |b| u32::from_le_bytes(b).into()),
-            Type::F32 => self.take(is_big, |b| f32::from_le_bytes(b).into()),
-            Type::F64 => self.take(is_big, f64::from_le_bytes),
+            Type::I8 => self.take::<BIG, 1>(|b| i8::from_le_bytes(b).into()),
+            Type::U8 => self.take::<BIG, 1>(|b| u8::from_le_bytes(b).into()),
+            Type::I16 => self.take::<BIG, 2>(|b| i16::from_le_bytes(b).into()),
+            Type::U16 => self.take::<BIG, 2>(|b| u16::from_le_bytes(b).into()),
+            Type::I32 => self.take::<BIG, 4>(|b| i32::from_le_bytes(b).into()),
+            Type::U32 => self.take::<BIG, 4>(|b| u32::from_le_bytes(b).into()),
+            Type::F32 => self.take::<BIG, 4>(|b| f32::from_le_bytes(b).into()),
+            Type::F64 => self.take::<BIG, 8>(f64::from_le_bytes),
         }
     }
 
     /// The next `N` bytes as a number, which `convert` makes of them in little-endian order.
-    fn take<const N: usize>(
+    #[inline]
+    fn take<const BIG: bool, const N: usize>(
         &mut self,
-        is_big: bool,
         convert: impl Fn([u8; N]) -> f64,
     ) -> Result<f64, String> {
         let bytes = self.bytes[self.at..].first_chunk::<N>();
         let mut bytes = *bytes.ok_or(ENDS)?;
         self.at += N;
-        if is_big {
+        if BIG {
             bytes.reverse();
         }
         Ok(convert(bytes))

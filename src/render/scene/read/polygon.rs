@@ -16,6 +16,8 @@ const MOST_CORNERS: usize = 1 << 14;
 pub struct Triangulator {
     earcut: Option<Earcut<f64>>,
     corners: Vec<u32>,
+    /// Corners relative to the first.
+    spokes: Vec<DVec3>,
     ring: Vec<[f64; 2]>,
     indices: Vec<u32>,
     /// Number of corners without a position.
@@ -59,22 +61,20 @@ impl Triangulator {
     }
 
     fn divide(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
-        let position = |corner: u32| {
-            let position = positions.get(corner as usize);
-            position.map(|p| DVec3::from_array(p.map(f64::from)))
-        };
-        let at = |corner: u32| position(corner).filter(|p| p.is_finite());
         self.corners.clear();
-        self.corners
-            .extend(polygon.iter().filter(|corner| at(**corner).is_some()));
+        self.spokes.clear();
+        let mut first = None;
+        for &corner in polygon {
+            let position = positions.get(corner as usize);
+            let place = position.map(|p| DVec3::from_array(p.map(f64::from)));
+            if let Some(place) = place.filter(|place| place.is_finite()) {
+                self.corners.push(corner);
+                self.spokes.push(place - *first.get_or_insert(place));
+            }
+        }
         self.unplaced += polygon.len() - self.corners.len();
-        let places = || self.corners.iter().filter_map(|corner| at(*corner));
-        let Some(first) = places().next() else {
-            return;
-        };
         // The sum of the fan's triangles is normal to the polygon, with twice its area as its length.
-        let spokes = || places().map(|place| place - first);
-        let fan = || spokes().zip(spokes().skip(1)).map(|(a, b)| a.cross(b));
+        let fan = || self.spokes.windows(2).map(|edge| edge[0].cross(edge[1]));
         let normal: DVec3 = fan().sum();
         let fan_covers = fan().all(|triangle| triangle.dot(normal) >= 0.0);
         if fan_covers && (normal != DVec3::ZERO || fan().all(|part| part == DVec3::ZERO)) {
@@ -92,14 +92,14 @@ impl Triangulator {
         let [i, j] = [[1, 2], [2, 0], [0, 1]][largest];
         let is_turned = normal[largest] < 0.0;
         self.ring.clear();
-        self.ring
-            .extend(spokes_of(&self.corners, at, first).map(|p| {
-                if is_turned {
-                    [p[j], p[i]]
-                } else {
-                    [p[i], p[j]]
-                }
-            }));
+        let flat = |p: &DVec3| {
+            if is_turned {
+                [p[j], p[i]]
+            } else {
+                [p[i], p[j]]
+            }
+        };
+        self.ring.extend(self.spokes.iter().map(flat));
         self.indices.clear();
         let earcut = self.earcut.get_or_insert_with(Earcut::new);
         earcut.earcut_slice(&self.ring, &[], &mut self.indices);
@@ -129,22 +129,10 @@ impl Triangulator {
     }
 }
 
-fn spokes_of(
-    corners: &[u32],
-    at: impl Fn(u32) -> Option<DVec3>,
-    first: DVec3,
-) -> impl Iterator<Item = DVec3> {
-    corners
-        .iter()
-        .filter_map(move |corner| Some(at(*corner)? - first))
-}
-
 /// Triangles from the first corner to each edge.
 fn fan_of(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-    let first = corners[0];
-    corners[1..]
-        .windows(2)
-        .map(move |edge| [first, edge[0], edge[1]])
+    let edges = corners.get(1..).unwrap_or_default().windows(2);
+    edges.map(move |edge| [corners[0], edge[0], edge[1]])
 }
 
 /// Triangles of a ring, with the corners that the division dropped because they lie on a straight edge. Without these

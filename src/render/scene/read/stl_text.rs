@@ -113,6 +113,7 @@ impl Reader {
                 self.end_solid();
                 self.solid.name = Some(name.trim().to_owned()).filter(|name| !name.is_empty());
             } else if is(b"endsolid") {
+                self.end_facet();
                 self.end_solid();
                 rest = before(rest, &[b"solid", b"facet"]);
             } else if is(b"color") {
