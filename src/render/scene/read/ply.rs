@@ -141,8 +141,13 @@ fn name_unused(
 
 /// Index of a vertex; [`NONE`] for a value that is none.
 fn vertex(value: &f64) -> u32 {
-    let is_index = value.fract() == 0.0 && (0.0..f64::from(NONE)).contains(value);
-    if is_index { *value as u32 } else { NONE }
+    // The conversion gives the nearest index for a value that is none.
+    let index = *value as u32;
+    if f64::from(index) == *value {
+        index
+    } else {
+        NONE
+    }
 }
 
 /// Properties that hold the parts of a vector, if all are there.
@@ -247,7 +252,7 @@ impl Decoded {
         })
     }
 
-    fn draw(self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
+    fn draw(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
         let used = self
             .faces
             .corners
@@ -276,8 +281,8 @@ impl Decoded {
                 .iter()
                 .map(|p| (*p - origin).as_vec3().to_array())
                 .collect(),
-            normals: self.normals.clone(),
-            uvs: self.uvs.clone(),
+            normals: std::mem::take(&mut self.normals),
+            uvs: std::mem::take(&mut self.uvs),
             colors: colors(&self.codes),
             ..FileObject::default()
         };
