@@ -105,3 +105,16 @@ fn other_formats_say_what_they_are() {
         String::from_utf8_lossy(&said)
     );
 }
+
+/// What a file has and is not drawn is named once, on standard error and in the JSON object.
+#[test]
+fn info_names_what_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nbevel on\nlod 5\nlod 6\n";
+    std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let expected = "a.obj: left out: OBJ statements (3: bevel, lod)";
+    let said = gpc(folder.path(), &["info", "a.obj"]).ok().stderr;
+    assert!(said.contains(expected), "{said}");
+    let json = gpc(folder.path(), &["info", "a.obj", "--json"]).ok().json();
+    assert_eq!(json["warnings"], serde_json::json!([expected]));
+}

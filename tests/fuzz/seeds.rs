@@ -27,6 +27,28 @@ const EDGES: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n
 const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
     map_Kd -s 1 1 1 none.png\n";
 
+/// Materials with maps, in the spellings that programs write.
+const MAPS: &str = "newmtl paint\nKD .5\nmap_kd -s 2 2 -o 0 0 a.bmp\nMAP_D -imfchan l a.tga\nTr 0.5\nnewmtl\n\
+    map_Kd \"C:\\maps\\a.png\"\nd -halo 0.5\nKs 1 1 1\n";
+
+/// Concave polygons, holes with bridges, numbers that are none, and faces before their vertices.
+const POLYGONS: &str = "mtllib \"a b.mtl\" c.mtl\rusemtl\rf 1 2 3 4 5\rf -1 -2 -3\rs 1\rv 0 0 0 255 0 0\rv 4 0 0\rv 4 4 0\r\
+    v 2 1 0\rv 0 4 -nan(ind)\rg holes\rv 0 0 461234.5\rv 4 0 461234.5\rv 4 4 461234.5\rv 0 4 461234.5\rv 1 1 461234.5\r\
+    v 1 3 461234.5\rv 3 3 461234.5\rv 3 1 461234.5\rf 6 7 8 9 6 10 11 12 13 10\rvt 1.#QNAN 0 1\rcurv 0 1 1 2\r";
+const POINTS: &str = "v 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 0 1\nv nan 0 0\nvn 0 0 1\n";
+
+const SOLIDS: &str = "\n SOLID a name\r\nFACET NORMAL nan 0 1\r\nOUTER LOOP\r\nVERTEX 461234.5 5428765.25 0\r\n\
+    VERTEX 461235.5 5428765.25 0\r\nVERTEX 461234.5 5428766.25 0\r\nEND LOOP\r\nENDFACET color 1023\r\nEND SOLID\r\n\
+    solid\rcolor 1 0 0\rfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 4 0 0 vertex 4 4 0 vertex 2 1 0 vertex 0 4 0 endloop\r";
+
+const FACES: &str = "ply\nformat ascii 1.0\ncomment TextureFile a.bmp\ncomment TextureFile a.tga\nelement vertex 5\n\
+    property double x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n\
+    property float s\nproperty float t\nproperty uchar alpha\nelement face 2\nproperty uchar r\nproperty uchar g\n\
+    property uchar b\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\nproperty int texnumber\n\
+    element tristrips 1\nproperty list int int vertex_indices\nelement material 1\nproperty float k\nend_header\n\
+    0 0 0 0 0 1 0 0 255\n4 0 0 -nan(ind) 0 1 1 0 0\n4 4 0 0 0 1 1 1 255\n2 1 0 0 0 1 1 0 9\n0 4 0 0 0 1 0 0 5\n\
+    255 0 0 5 0 1 2 3 4 10 0 0 1 0 1 1 0 1 0 0 0\n0 9 1 3 0 1 2 6 0 0 0 0 0 0 1\n6 0 1 2 -1 0 1\n1\n";
+
 /// All seeds: those made here, whose OBJ file is in `folder`, and small scenes of `../shared` if that exists.
 pub fn all(folder: &Path) -> Vec<Seed> {
     let mut seeds = vec![
@@ -37,7 +59,13 @@ pub fn all(folder: &Path) -> Vec<Seed> {
             beside: Some((folder.join("none.mtl"), MTL.into())),
             ..made("quad.obj", OBJ.into())
         },
+        made("polygons.obj", POLYGONS.into()),
+        made("points.obj", POINTS.into()),
+        material("plain.mtl", folder, MTL),
+        material("maps.mtl", folder, MAPS),
         made("text.stl", STL.into()),
+        made("solids.stl", SOLIDS.into()),
+        made("colored.stl", colored_stl()),
         made("binary.stl", binary_stl()),
         made("text.ply", ascii_ply()),
         made("binary.ply", binary_ply(false)),
@@ -45,7 +73,15 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("sky.hdr", hdr()),
         made("sky.exr", exr(folder)),
         made("edges.ply", EDGES.into()),
+        Seed {
+            base: Some(folder.to_owned()),
+            ..made("faces.ply", FACES.into())
+        },
     ];
+    let image = image::RgbaImage::from_fn(4, 4, |x, y| image::Rgba([9, 8, 7, (50 * x + y) as u8]));
+    for name in ["a.bmp", "a.tga", "a.png"] {
+        image.save(folder.join(name)).unwrap();
+    }
     let scenes = [
         "Box-Draco/Box.gltf",
         "BoxMeshopt/BoxMeshopt.glb",
@@ -67,6 +103,17 @@ fn made(name: &str, bytes: Vec<u8>) -> Seed {
         bytes,
         base: None,
         beside: None,
+    }
+}
+
+/// A scene whose MTL file is mutated, but not the scene itself.
+fn material(name: &str, folder: &Path, mtl: &str) -> Seed {
+    let path = folder.join(name);
+    std::fs::write(&path, mtl).unwrap();
+    Seed {
+        base: Some(folder.to_owned()),
+        beside: Some((path, mtl.into())),
+        ..made(name, OBJ.replace("none.mtl", name).into())
     }
 }
 
@@ -194,6 +241,16 @@ fn binary_stl() -> Vec<u8> {
         bytes.extend(floats.flat_map(|x: &f32| x.to_le_bytes()));
         bytes.extend([0, 0]);
     }
+    bytes
+}
+
+/// Colours of both conventions, and bytes behind the triangles.
+fn colored_stl() -> Vec<u8> {
+    let mut bytes = binary_stl();
+    bytes[..10].copy_from_slice(b"COLOR=\x01\x02\x03\xFF");
+    bytes[132..134].copy_from_slice(&0x8000_u16.to_le_bytes());
+    bytes[182..184].copy_from_slice(&0x001F_u16.to_le_bytes());
+    bytes.extend(*b"more");
     bytes
 }
 

@@ -1,8 +1,6 @@
 //! One device that simulates others: several teams in a subgroup, and the limits that Vulkan guarantees.
 
-use gpc::render::{
-    EngineError, Headless, RenderError, SceneRequest, Settings, Shading,
-};
+use gpc::render::{EngineError, Headless, RenderError, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
 use gpc::vulkan::{Limits, Teams, VulkanError};

@@ -8,9 +8,12 @@ mod formats;
 mod geometry;
 mod hostile;
 mod indexed;
+mod kinds;
+mod left_out;
 mod look;
 mod malformed;
 mod motion;
+mod reports;
 #[path = "../common/scene_builder.rs"]
 mod scene_builder;
 #[path = "../common/shared.rs"]

@@ -1,6 +1,6 @@
 //! Errors of scenes, and their places in the file.
 
-use std::{fmt, io, sync::Arc};
+use std::{collections::BTreeMap, fmt, io, sync::Arc};
 
 /// Error of loading or posing a scene. Every message names the file and, if there is one, the place in it as a JSON
 /// pointer (RFC 6901).
@@ -138,12 +138,51 @@ impl fmt::Display for Fault {
 }
 
 /// Warnings about a file. Only the first [`Warnings::KEPT`] are kept and the others counted, so that a file with a
-/// fault in every element does not flood its user.
+/// fault in every element does not flood its user. What a reader met and does not use is counted by its kind, and named
+/// in one warning at the end.
 #[derive(Debug)]
 pub(super) struct Warnings {
     file: String,
     list: Vec<String>,
     dropped: usize,
+    /// Kinds of things that are left out.
+    left_out: BTreeMap<String, LeftOut>,
+}
+
+/// Number of things of one kind that a reader met and does not use, and descriptions of them.
+#[derive(Debug, Default)]
+struct LeftOut {
+    count: u64,
+    /// The first [`LeftOut::NAMED`] different descriptions.
+    named: Vec<String>,
+    /// Whether there are other descriptions.
+    more: bool,
+}
+
+impl LeftOut {
+    const NAMED: usize = 20;
+
+    fn add(&mut self, count: u64, name: &str) {
+        self.count += count;
+        if name.is_empty() || self.named.iter().any(|other| other == name) {
+            return;
+        }
+        if self.named.len() < Self::NAMED {
+            self.named.push(name.to_owned());
+        } else {
+            self.more = true;
+        }
+    }
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}", self.count)?;
+        for (index, name) in self.named.iter().enumerate() {
+            write!(f, "{} {name}", if index == 0 { ":" } else { "," })?;
+        }
+        f.write_str(if self.more { ", ...)" } else { ")" })
+    }
 }
 
 impl Warnings {
@@ -154,6 +193,7 @@ impl Warnings {
             file: file.to_owned(),
             list: Vec::new(),
             dropped: 0,
+            left_out: BTreeMap::new(),
         }
     }
 
@@ -167,6 +207,12 @@ impl Warnings {
         let room = Self::KEPT.saturating_sub(self.list.len());
         self.dropped += others.dropped + others.list.len().saturating_sub(room);
         self.list.extend(others.list.into_iter().take(room));
+        for (kind, other) in others.left_out {
+            let ours = self.left_out.entry(kind).or_default();
+            other.named.iter().for_each(|name| ours.add(0, name));
+            ours.count += other.count;
+            ours.more |= other.more;
+        }
     }
 
     pub fn push(&mut self, fault: &Fault) {
@@ -183,11 +229,59 @@ impl Warnings {
         }
     }
 
+    /// Counts `count` things of a kind that the file has and the reader does not use. `name` describes them further,
+    /// unless it is empty.
+    pub fn leave_out(&mut self, kind: &str, count: usize, name: &str) {
+        if count > 0 {
+            let left_out = self.left_out.entry(kind.to_owned()).or_default();
+            left_out.add(count as u64, name);
+        }
+    }
+
     pub fn into_vec(mut self) -> Vec<String> {
         if self.dropped > 0 {
             self.list
                 .push(format!("{}: and {} more warnings", self.file, self.dropped));
         }
+        if !self.left_out.is_empty() {
+            let kinds = self.left_out.iter();
+            let kinds: Vec<String> = kinds
+                .map(|(kind, left_out)| format!("{kind} {left_out}"))
+                .collect();
+            self.list
+                .push(format!("{}: left out: {}", self.file, kinds.join("; ")));
+        }
         self.list
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_counted_and_named_once() {
+        let mut warnings = Warnings::new("file");
+        (0..200).for_each(|i| warnings.push(&Fault::new(i.to_string(), "fault")));
+        warnings.leave_out("textures", 1, "a.tif: TIFF is not supported");
+        warnings.leave_out("face colours", 12, "");
+        let mut others = warnings.of_the_same_file();
+        others.leave_out("textures", 2, "b.gif: GIF is not supported");
+        others.leave_out("textures", 0, "none");
+        warnings.append(others);
+        let list = warnings.into_vec();
+        assert_eq!(list.len(), Warnings::KEPT + 2);
+        assert_eq!(
+            list[Warnings::KEPT + 1],
+            "file: left out: face colours (12); textures (3: a.tif: TIFF is not supported, b.gif: GIF is not supported)"
+        );
+        let mut many = Warnings::new("file");
+        (0..50).for_each(|i| many.leave_out("properties", 1, &format!("p{i}")));
+        let [line] = many.into_vec().try_into().unwrap();
+        assert!(
+            line.starts_with("file: left out: properties (50: p0, p1,"),
+            "{line}"
+        );
+        assert!(line.ends_with("p19, ...)"), "{line}");
     }
 }

@@ -16,8 +16,8 @@
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
-//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. These formats define
-//! no unit, no up axis and no light; positions are taken unchanged.
+//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals, base colours and opacities. These
+//! formats define no unit, no up axis and no light; positions are taken unchanged.
 //!
 //! Supported extensions: `KHR_animation_pointer` (into materials, lights and cameras, to the transforms, weights and
 //! visibility of nodes and the weights of meshes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
@@ -91,7 +91,7 @@ pub struct Loaded {
     /// Loaded scene.
     pub scene: Scene,
     /// Warnings, each a sentence that names the file and the place in it, and says what was left out or replaced, and
-    /// why.
+    /// why. The last one counts and names what the file has and is not drawn.
     pub warnings: Vec<String>,
 }
 

@@ -63,6 +63,11 @@ const VISIBLE: [&str; 3] = [
     "KHR_materials_volume_scatter",
 ];
 
+/// Whether an extension is read, or a warning about it names it.
+pub fn is_mentioned(name: &str) -> bool {
+    SUPPORTED.contains(&(name, true)) || VISIBLE.contains(&name)
+}
+
 /// Reads `asset`; refuses another version of glTF.
 pub fn read(value: &Value, file: &str) -> Result<Asset, SceneError> {
     let malformed = |fault: Fault| fault.into_error(file);

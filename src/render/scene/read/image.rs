@@ -10,7 +10,7 @@ use gltf::json::{self, Index};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
-use super::{Context, buffer::Buffers, model::Model, uri};
+use super::{Context, buffer::Buffers, model::Model, texture_file::TextureFault, uri};
 use crate::scene::{error::Fault, material::Image};
 
 /// Largest width and height.
@@ -47,7 +47,8 @@ impl DecodedImages {
             let fetched = fetch(index, context.model, &context.buffers);
             let encoded = fetched.and_then(|(bytes, place, note)| {
                 faults.extend(note);
-                match self.admit(bytes) {
+                let admitted = sniff(&bytes).and_then(|format| self.admit(bytes, format));
+                match admitted {
                     Ok(encoded) => Ok((index, encoded, place)),
                     Err(reason) => Err(Fault::new(place, reason)),
                 }
@@ -77,8 +78,11 @@ impl DecodedImages {
     }
 
     /// Checks an image's header against the limits.
-    fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, String> {
-        let format = sniff(&bytes)?;
+    fn admit<'b>(
+        &mut self,
+        bytes: Cow<'b, [u8]>,
+        format: ImageEncoding,
+    ) -> Result<Encoded<'b>, String> {
         let (width, height) = match format {
             ImageEncoding::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
                 .into_dimensions()
@@ -106,16 +110,38 @@ impl DecodedImages {
         })
     }
 
-    /// Decodes an image that is not part of a document; returns its index among the decoded images.
-    pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
-        let image = self.admit(bytes)?.decode()?;
+    /// Decodes an image of the file `name`, which is not part of a document.
+    pub fn decode_named(
+        &mut self,
+        bytes: Cow<'_, [u8]>,
+        name: &str,
+    ) -> Result<Image, TextureFault> {
+        let fault = |reason, is_supported| TextureFault {
+            file: name.to_owned(),
+            reason,
+            is_supported,
+        };
+        let format = sniff_named(&bytes, name).map_err(|reason| fault(reason, false))?;
+        let admitted = self.admit(bytes, format);
+        admitted
+            .and_then(|encoded| encoded.decode())
+            .map_err(|reason| fault(reason, true))
+    }
+
+    /// Adds a decoded image; returns its index among the decoded images.
+    pub fn push(&mut self, image: Image) -> u32 {
         self.decoded.push(image);
-        Ok(self.decoded.len() as u32 - 1)
+        self.decoded.len() as u32 - 1
     }
 
     /// Index, among the decoded images, of the document's image `index`; `None` if it was not decoded.
     pub fn place(&self, index: usize) -> Option<u32> {
         self.places.get(&index).copied().flatten()
+    }
+
+    /// A decoded image.
+    pub fn decoded(&self, index: u32) -> Option<&Image> {
+        self.decoded.get(index as usize)
     }
 
     pub fn into_decoded(self) -> Vec<Image> {
@@ -148,7 +174,7 @@ fn fetch<'b>(
 /// Encoding of an image.
 #[derive(Clone, Copy)]
 enum ImageEncoding {
-    /// PNG, JPEG or WebP.
+    /// A format that `image` decodes.
     Picture(ImageFormat),
     /// KTX2 of Basis Universal.
     Basis,
@@ -164,6 +190,29 @@ fn sniff(bytes: &[u8]) -> Result<ImageEncoding, String> {
         _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
 }
+
+/// Format of an image that an MTL or PLY file names: one of glTF's, BMP, or TGA, which only its name or its last bytes
+/// tell.
+fn sniff_named(bytes: &[u8], name: &str) -> Result<ImageEncoding, String> {
+    if let Ok(format) = sniff(bytes) {
+        return Ok(format);
+    }
+    let is_tga = name.to_ascii_lowercase().ends_with(".tga") || bytes.ends_with(TGA_END);
+    match image::guess_format(bytes) {
+        Ok(ImageFormat::Bmp) => Ok(ImageEncoding::Picture(ImageFormat::Bmp)),
+        Err(_) if is_tga => Ok(ImageEncoding::Picture(ImageFormat::Tga)),
+        Ok(other) => {
+            let format = format!("{other:?}").to_uppercase();
+            Err(format!("{format} is not supported; convert it to PNG"))
+        }
+        Err(_) => {
+            Err("is neither PNG, JPEG, WebP, KTX2, BMP nor TGA; convert it to PNG".to_owned())
+        }
+    }
+}
+
+/// Last bytes of newer TGA files.
+const TGA_END: &[u8] = b"TRUEVISION-XFILE.\0";
 
 /// First bytes of a KTX2 file.
 const KTX2: &[u8] = b"\xABKTX 20\xBB";

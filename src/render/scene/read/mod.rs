@@ -31,17 +31,24 @@ mod material;
 mod mesh;
 mod meshopt;
 mod model;
+mod mtl;
 mod node;
 mod obj;
-mod obj_fault;
+mod obj_part;
 mod packed;
 mod ply;
+mod ply_data;
 mod pointer;
+mod polygon;
 mod primitive;
 mod shape;
 mod skin;
 mod stl;
+mod stl_text;
+mod text;
 mod texture;
+mod texture_file;
+mod unread;
 mod uri;
 mod vertex;
 
@@ -105,9 +112,11 @@ pub fn read(
     let loaded = if stl::is_stl(bytes) {
         stl::read(bytes, file)?
     } else if ply::is_ply(bytes) {
-        ply::read(bytes, file)?
+        ply::read(bytes, file, base)?
     } else if obj::is_obj(bytes) {
         obj::read(bytes, file, base)?
+    } else if stl::is_named(bytes, file) {
+        stl::read(bytes, file)?
     } else {
         return read_gltf(bytes, file, base, variant);
     };
@@ -150,6 +159,7 @@ fn read_gltf(
     let mut value = container.json;
     model::settle(&mut value, "");
     let mut warnings = Warnings::new(file);
+    unread::name(&value, &mut warnings);
     // The version comes first, because a file of another version looks malformed throughout.
     let asset = asset::read(&value, file)?;
     let mut model = Model::new(value, asset, &mut warnings).map_err(malformed)?;

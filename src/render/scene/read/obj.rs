@@ -1,29 +1,24 @@
-//! OBJ: polygons, lines and points, with the base colours of its MTL files.
+//! OBJ: polygons, lines and points, with the base colours of its MTL files. A file without polygons, lines and points
+//! shows its vertices as points.
 
 use std::{
-    borrow::Cow,
-    cell::RefCell,
-    panic::{AssertUnwindSafe, catch_unwind},
+    collections::{BTreeSet, HashMap},
     path::Path,
 };
 
-use gltf::json::mesh::Mode;
-use tobj::{LoadError, LoadOptions};
+use glam::DVec3;
 
 use super::{
-    image::DecodedImages,
-    obj_fault,
-    shape::{Drawing, FileObject, linear, plain},
-    uri,
+    mtl::{self, Description},
+    obj_part::{Corner, Part, Pool, Welder},
+    shape::{Drawing, FileObject, origin_of, plain},
+    text::{self, keyword, no_number, number, statements, words},
+    texture_file::{NamedTextures, fetch},
 };
 use crate::scene::{
     Loaded, SceneError,
     error::{Fault, Warnings},
-    material::{AlphaMode, Material, Sampler, Texture, TextureTransform, TextureUse},
 };
-
-/// Largest number of bytes of an MTL file, and of an image that it names.
-const MAX_FILE: u64 = 1 << 30;
 
 /// Statements with which OBJ files start, apart from comments.
 const STATEMENTS: [&[u8]; 12] = [
@@ -32,11 +27,9 @@ const STATEMENTS: [&[u8]; 12] = [
 
 /// Whether `bytes` look like an OBJ file: it begins with a statement of the format, and has a vertex.
 pub fn is_obj(bytes: &[u8]) -> bool {
-    let word = |line: &[u8]| {
-        let mut words = line.split(u8::is_ascii_whitespace).map(<[u8]>::to_vec);
-        words.find(|word| !word.is_empty())
-    };
-    let mut words = bytes.split(|&byte| byte == b'\n').filter_map(word);
+    let mut words = statements(bytes)
+        .map(|(_, statement)| keyword(&statement).0.to_vec())
+        .filter(|word| !word.is_empty());
     let first = words.find(|word| !word.starts_with(b"#"));
     let Some(first) = first.filter(|word| STATEMENTS.contains(&word.as_slice())) else {
         return false;
@@ -46,286 +39,382 @@ pub fn is_obj(bytes: &[u8]) -> bool {
 
 /// Reads an OBJ file; files that it names are in the folder `base`.
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
-    let options = LoadOptions {
-        triangulate: true,
-        single_index: true,
-        ignore_points: true,
-        ignore_lines: true,
-    };
-    let faults = RefCell::new(Vec::new());
-    let load_mtl = |path: &Path| {
-        let name = path.to_string_lossy();
-        let fetched = uri::fetch(&name, base, MAX_FILE).map(|file| file.bytes);
-        let fetched = fetched.map_err(|reason| (reason, LoadError::OpenFileFailed));
-        let parsed = fetched.and_then(|bytes| {
-            tobj::load_mtl_buf(&mut complete_colours(&plain_text(&bytes)).as_slice())
-                .map_err(|error| (format!("the MTL file is broken: {error}"), error))
-        });
-        parsed.map_err(|(reason, error)| {
-            let fault = Fault::new(format!("mtllib {name}"), reason);
-            faults
-                .borrow_mut()
-                .push(fault.but("its materials are grey"));
-            error
-        })
-    };
-    let parse =
-        |text: &[u8], options: &LoadOptions, load_mtl: &dyn Fn(&Path) -> tobj::MTLLoadResult| {
-            // With overflow checks, the parser panics at an index before the first vertex.
-            let parse = || tobj::load_obj_buf(&mut &*text, options, load_mtl);
-            let loaded = catch_unwind(AssertUnwindSafe(parse));
-            loaded
-                .unwrap_or(Err(LoadError::GenericFailure))
-                .map_err(|error| {
-                    let unplaced = || {
-                        let reason = format!("the OBJ file is broken: {error}; export it again");
-                        Fault::new("statements", reason)
-                    };
-                    let found = obj_fault::find(bytes);
-                    found.unwrap_or_else(unplaced).into_error(file)
-                })
-        };
-    let text = plain_text(bytes);
-    let (faces, strokes) = split(&text);
-    let (models, materials) = parse(&faces, &options, &load_mtl)?;
     let mut warnings = Warnings::new(file);
-    warnings.extend(faults.take());
-    let strokes = match strokes {
-        Some(text) => {
-            let options = LoadOptions {
-                ignore_points: false,
-                ignore_lines: false,
-                ..options
-            };
-            // The MTL files have the same faults as in the first parse, which has reported them.
-            let (mut models, _) = parse(&text, &options, &load_mtl)?;
-            models.retain(|model| !model.mesh.indices.is_empty());
-            models
-        }
-        None => Vec::new(),
-    };
-
-    let mut drawing = Drawing::default();
-    let mut images = DecodedImages::default();
-    for material in materials.unwrap_or_default() {
-        let read = read_material(
-            &material,
-            base,
-            &mut images,
-            &mut drawing.textures,
-            &mut warnings,
-        );
-        drawing.materials.push(read);
+    let mut reader = Reader::default();
+    for (line, statement) in statements(bytes) {
+        reader
+            .add(&statement, line, &mut warnings)
+            .map_err(|reason| broken(line, &reason).into_error(file))?;
     }
-    drawing.images = images.into_decoded();
-    // Index of the material for shapes without one.
-    let grey = drawing.materials.len();
-    drawing.materials.push(plain());
-    let models = models.into_iter().map(|model| (model, false));
-    let strokes = strokes.into_iter().map(|model| (model, true));
-    for (tobj::Model { mesh, name }, is_strokes) in models.chain(strokes) {
-        let corners: &[[u32; 3]] = mesh.indices.as_chunks().0;
-        let triangles = if is_strokes { &[] } else { corners };
-        let pairs = corners.iter().map(|&[a, b, _]| [a, b]);
-        let (points, lines) = pairs.filter(|_| is_strokes).partition(|[a, b]| a == b);
-        let points: Vec<[u32; 2]> = points;
-        drawing.shapes.push(FileObject {
-            name: Some(name),
-            material: mesh.material_id.unwrap_or(grey),
-            triangles: triangles.to_vec(),
-            lines,
-            points: points.into_iter().map(|[point, _]| point).collect(),
-            positions: mesh.positions.as_chunks().0.to_vec(),
-            normals: mesh.normals.as_chunks().0.to_vec(),
-            uvs: mesh.texcoords.as_chunks().0.to_vec(),
-            colors: opaque(&mesh.vertex_color),
-        });
-    }
+    reader.check().map_err(|fault| fault.into_error(file))?;
+    let drawing = reader.into_drawing(base, &mut warnings);
     drawing.into_scene("OBJ", file, warnings)
 }
 
-/// Text that the parser can read: Unicode, with invalid bytes replaced so that they aren't part of a number, and with
-/// each statement in a line of its own.
-fn plain_text(bytes: &[u8]) -> Vec<u8> {
-    let text = String::from_utf8_lossy(bytes);
-    text.replace("\\\r\n", " ")
-        .replace("\\\n", " ")
-        .into_bytes()
+fn broken(line: usize, reason: &str) -> Fault {
+    let reason = format!("the OBJ file is broken: {reason}; export it again");
+    Fault::new(format!("line {line}"), reason)
 }
 
-/// An OBJ file's text without lines and points, and the text without faces if it has lines or points. The parser takes
-/// a line of three vertices for a face, and knows no points; in the second text each line has two vertices, and a
-/// point one.
-fn split(obj: &[u8]) -> (Cow<'_, [u8]>, Option<Vec<u8>>) {
-    let lines = || obj.split(|&byte| byte == b'\n');
-    let words = |line: &'_ [u8]| -> Vec<Vec<u8>> {
-        let words = line.split(u8::is_ascii_whitespace);
-        words
-            .filter(|word| !word.is_empty())
-            .map(<[u8]>::to_vec)
-            .collect()
-    };
-    let kind = |line: &[u8]| {
-        let mut words = line.split(u8::is_ascii_whitespace);
-        match words.find(|word| !word.is_empty()) {
-            Some(b"l") => Some(Mode::Lines),
-            Some(b"p") => Some(Mode::Points),
-            Some(b"f") => Some(Mode::Triangles),
-            _ => None,
-        }
-    };
-    let is_stroke = |line: &&[u8]| matches!(kind(line), Some(Mode::Lines | Mode::Points));
-    if !lines().any(|line| is_stroke(&line)) {
-        return (Cow::Borrowed(obj), None);
-    }
-    let faces: Vec<&[u8]> = lines().filter(|line| !is_stroke(line)).collect();
-    let mut strokes: Vec<Vec<u8>> = Vec::new();
-    for line in lines() {
-        let per_line = match kind(line) {
-            Some(Mode::Lines) => 2,
-            Some(Mode::Points) => 1,
-            Some(_) => continue,
-            None => {
-                strokes.push(line.to_vec());
-                continue;
+/// Elements to which indices refer, in the order of a face's corner.
+const NAMED: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+
+fn out_of_range(kind: usize, index: i64, count: usize) -> String {
+    let name = NAMED[kind];
+    format!("{name} {index} is named, and there are {count}, counted from 1")
+}
+
+/// Contents of a file, while it is read. Faces may name elements that come after them.
+#[derive(Default)]
+struct Reader {
+    pool: Pool,
+    parts: Vec<Part>,
+    part: Part,
+    /// Largest index of each kind of element that was named, and its line.
+    largest: [(i64, usize); 3],
+    /// Names of materials, and their indices in the order in which they appear.
+    materials: HashMap<String, u32>,
+    /// Operands of `mtllib`.
+    libraries: Vec<String>,
+    /// Names of smoothing groups, and their numbers.
+    groups: HashMap<Vec<u8>, u32>,
+    /// Largest component of a vertex colour.
+    largest_code: f32,
+}
+
+impl Reader {
+    /// Adds a statement. The error is a reason without the place.
+    fn add(
+        &mut self,
+        statement: &[u8],
+        line: usize,
+        warnings: &mut Warnings,
+    ) -> Result<(), String> {
+        let (word, rest) = keyword(statement);
+        match word {
+            b"v" => self.add_vertex(rest, warnings)?,
+            b"vt" => {
+                let [u, v, w] = numbers(rest, 1)?.1;
+                self.pool.uvs.push([u as f32, v as f32]);
+                warnings.leave_out("third texture coordinates", usize::from(w != 0.0), "");
             }
-        };
-        let words = words(line);
-        let vertices = words.get(1..).unwrap_or(&[]).windows(per_line);
-        strokes.extend(vertices.map(|ends| [b"l ", ends.join(&b' ').as_slice()].concat()));
-    }
-    (Cow::Owned(faces.join(&b'\n')), Some(strokes.join(&b'\n')))
-}
-
-/// An MTL file whose colours all have three components, without which the parser panics. Missing components repeat the
-/// last one, as the format says.
-fn complete_colours(mtl: &[u8]) -> Vec<u8> {
-    let mut completed = Vec::with_capacity(mtl.len());
-    for line in mtl.split(|&byte| byte == b'\n') {
-        let words = line.split(u8::is_ascii_whitespace);
-        let words: Vec<&[u8]> = words.filter(|word| !word.is_empty()).collect();
-        match words.as_slice() {
-            [b"Ka" | b"Kd" | b"Ks" | b"Ke"] => continue,
-            [b"Ka" | b"Kd" | b"Ks" | b"Ke", components @ ..] if components.len() < 3 => {
-                completed.extend(words.join(&b' '));
-                for _ in components.len()..3 {
-                    completed.push(b' ');
-                    completed.extend(components[components.len() - 1]);
+            b"vn" => {
+                let normal = numbers::<3>(rest, 3)?.1;
+                self.pool.normals.push(normal.map(|x| x as f32));
+            }
+            b"f" | b"fo" => {
+                for word in operands(rest) {
+                    let corner = self.corner(word, line)?;
+                    self.part.corners.push(corner);
+                }
+                self.part.ends.push(self.part.corners.len());
+            }
+            b"l" => {
+                let mut before = None;
+                for word in operands(rest) {
+                    let corner = self.corner(word, line)?;
+                    self.part
+                        .lines
+                        .extend(before.map(|before| [before, corner]));
+                    before = Some(corner);
                 }
             }
-            _ => completed.extend(line),
+            b"p" => {
+                for word in operands(rest) {
+                    let corner = self.corner(word, line)?;
+                    self.part.points.push(corner);
+                }
+            }
+            b"o" | b"g" => {
+                self.begin_part();
+                self.part.name = Some(text::text(rest)).filter(|name| !name.is_empty());
+            }
+            b"usemtl" => {
+                let name = unquoted(rest);
+                let next = self.materials.len() as u32;
+                let material = Some(*self.materials.entry(name).or_insert(next));
+                if self.part.material != material {
+                    self.begin_part();
+                    self.part.material = material;
+                }
+            }
+            b"mtllib" => self.libraries.push(text::text(rest)),
+            b"s" => {
+                let group = match rest {
+                    b"off" | b"0" | b"" => None,
+                    name => {
+                        let next = self.groups.len() as u32;
+                        Some(*self.groups.entry(name.to_owned()).or_insert(next))
+                    }
+                };
+                self.part.set_smoothing(group);
+            }
+            b"" => {}
+            comment if comment.starts_with(b"#") => {}
+            other => {
+                let shown = text::text(&other[..other.len().min(24)]);
+                warnings.leave_out("OBJ statements", 1, &shown);
+            }
         }
-        completed.push(b'\n');
+        Ok(())
     }
-    completed
-}
 
-/// Vertex colours with an alpha of 1, because the format has none.
-fn opaque(colors: &[f32]) -> Vec<[f32; 4]> {
-    let (colors, _) = colors.as_chunks();
-    let opaque = |color: &[f32; 3]| {
-        let [r, g, b] = color.map(|x| linear(x.into()));
-        [r, g, b, 1.0]
-    };
-    colors.iter().map(opaque).collect()
-}
+    /// Begins another part with the name and the material of the present one, unless that is empty.
+    fn begin_part(&mut self) {
+        if self.part.is_empty() {
+            return;
+        }
+        let next = Part {
+            name: self.part.name.clone(),
+            material: self.part.material,
+            smoothing: self.part.present_smoothing(),
+            ..Part::default()
+        };
+        self.parts.push(std::mem::replace(&mut self.part, next));
+    }
 
-/// Name of the file in a map statement, and its placement: `-s` multiplies coordinates and `-o` adds to them. Other
-/// options don't affect a base colour.
-fn placed(map: &str) -> (&str, TextureTransform) {
-    let (mut scale, mut offset) = ([1.0; 2], [0.0; 2]);
-    let mut rest = map.trim();
-    let next = |text: &'_ str| -> Option<(String, usize)> {
-        let word = text.split_ascii_whitespace().next()?;
-        let start = text.find(word)?;
-        Some((word.to_owned(), start + word.len()))
-    };
-    while rest.trim_start().starts_with('-') {
-        let Some((option, end)) = next(rest) else {
-            break;
+    /// Adds a vertex: x, y and z; then its weight in curves, or a colour.
+    fn add_vertex(&mut self, rest: &[u8], warnings: &mut Warnings) -> Result<(), String> {
+        let (count, [x, y, z, a, b, c, d]) = numbers(rest, 3)?;
+        self.pool.positions.push(DVec3::new(x, y, z));
+        match count {
+            4 => warnings.leave_out("weights of vertices", usize::from(a != 1.0), ""),
+            6.. => {
+                let color = [a, b, c].map(|x| x as f32);
+                let is_number = color.iter().all(|x| x.is_finite());
+                warnings.leave_out("undefined colours of vertices", usize::from(!is_number), "");
+                self.largest_code = color.into_iter().fold(self.largest_code, f32::max);
+                let before = self.pool.positions.len() - 1;
+                self.pool.colors.resize(before, [1.0; 3]);
+                self.pool.colors.push(color);
+                let is_alpha = count > 6 && d != 1.0;
+                warnings.leave_out("seventh numbers of vertices", usize::from(is_alpha), "");
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A corner, written `vertex/texture coordinate/normal`; the last two may be missing.
+    fn corner(&mut self, word: &[u8], line: usize) -> Result<Corner, String> {
+        let mut named = [Corner::NONE; 3];
+        let mut parts = word.split(|&byte| byte == b'/');
+        let no_corner = || {
+            format!(
+                "\"{}\" names no corner",
+                text::text(&word[..word.len().min(40)])
+            )
         };
-        rest = &rest[end..];
-        let (most, are_numbers) = match option.as_str() {
-            "-o" | "-s" | "-t" => (3, true),
-            "-mm" => (2, true),
-            _ => (1, false),
+        for (kind, place) in named.iter_mut().enumerate() {
+            let Some(part) = parts.next() else { break };
+            if part.is_empty() {
+                continue;
+            }
+            let index = integer(part).ok_or_else(no_corner)?;
+            *place = self.resolve(kind, index, line)?;
+        }
+        if named[0] == Corner::NONE || parts.next().is_some() {
+            return Err(no_corner());
+        }
+        Ok(Corner(named))
+    }
+
+    /// Index from 0 of an element that is named by its number from 1, or by how far before the statement it stands.
+    fn resolve(&mut self, kind: usize, index: i64, line: usize) -> Result<u32, String> {
+        let count = self.pool.counts()[kind];
+        let resolved = match index {
+            1.. => {
+                if index > self.largest[kind].0 {
+                    self.largest[kind] = (index, line);
+                }
+                u32::try_from(index - 1).unwrap_or(Corner::NONE - 1)
+            }
+            // The corner has neither a texture coordinate nor a normal.
+            0 if kind > 0 => Corner::NONE,
+            // Indices to a kind of element that the file lacks are ignored.
+            ..0 if kind > 0 && count == 0 => Corner::NONE,
+            _ => {
+                let back = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
+                let found = count.checked_sub(back).filter(|_| back > 0);
+                found.ok_or_else(|| out_of_range(kind, index, count))? as u32
+            }
         };
-        let mut numbers = Vec::new();
-        for _ in 0..most {
-            let Some((word, end)) = next(rest) else {
-                break;
+        Ok(resolved)
+    }
+
+    /// Fails if an element is named that the file lacks.
+    fn check(&self) -> Result<(), Fault> {
+        for (kind, count) in self.pool.counts().into_iter().enumerate() {
+            let (index, line) = self.largest[kind];
+            let is_ignored = kind > 0 && count == 0;
+            if index > count as i64 && !is_ignored {
+                return Err(broken(line, &out_of_range(kind, index, count)));
+            }
+        }
+        Ok(())
+    }
+
+    fn into_drawing(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
+        self.begin_part();
+        let lacking = (1..3).filter(|kind| self.pool.counts()[*kind] == 0);
+        for kind in lacking.filter(|kind| self.largest[*kind].0 > 0) {
+            warnings.leave_out(
+                "elements that corners name and the file lacks",
+                1,
+                NAMED[kind],
+            );
+        }
+        let mut pool = std::mem::take(&mut self.pool);
+        pool.finish(self.largest_code);
+        let origin = origin_of(pool.used(&self.parts));
+        pool.smooth(&mut self.parts, origin);
+
+        let mut textures = NamedTextures::new(base);
+        let (described, is_complete) = self.read_libraries(base, warnings);
+        let by_name = described.iter().enumerate();
+        let by_name: HashMap<&str, usize> = by_name.map(|(i, it)| (it.name.as_str(), i)).collect();
+        let mut materials: Vec<_> = described
+            .iter()
+            .map(|it| it.read(&mut textures, warnings))
+            .collect();
+        // Materials of parts without one: grey, or white if the vertices have colours.
+        let mut grey = plain();
+        if !pool.colors.is_empty() {
+            grey.base_color = [1.0; 4];
+        }
+        let unnamed = materials.len();
+        materials.push(grey);
+        let mut places = vec![unnamed; self.materials.len()];
+        let mut unknown = BTreeSet::new();
+        for (name, index) in &self.materials {
+            match by_name.get(name.as_str()) {
+                Some(place) => places[*index as usize] = *place,
+                // A file without a name means no material.
+                None if name.is_empty() => {}
+                None => drop(unknown.insert(name)),
+            }
+        }
+        // If an MTL file is missing, a warning says so.
+        if is_complete {
+            for name in unknown {
+                warnings.leave_out("materials that no MTL file has", 1, name);
+            }
+        }
+        let (textures, images) = textures.into_parts();
+        let mut drawing = Drawing {
+            origin,
+            materials,
+            textures,
+            images,
+            ..Drawing::default()
+        };
+        if self.parts.is_empty() {
+            drawing.shapes.push(pool.cloud(drawing.origin, unnamed));
+        }
+        let mut welder = Welder::new(&pool, drawing.origin);
+        for part in &self.parts {
+            let material = part
+                .material
+                .map_or(unnamed, |index| places[index as usize]);
+            let shapes: Vec<FileObject> = welder.shapes(part, material, warnings);
+            drawing.shapes.extend(shapes);
+        }
+        drawing
+    }
+
+    /// The materials of all MTL files, and whether no file is missing.
+    fn read_libraries(
+        &self,
+        base: Option<&Path>,
+        warnings: &mut Warnings,
+    ) -> (Vec<Description>, bool) {
+        let mut described = Vec::new();
+        let mut is_complete = true;
+        let mut known = BTreeSet::new();
+        for library in &self.libraries {
+            // Names have blanks, and a statement may name several files.
+            let whole = unquoted(library.as_bytes());
+            let names = match fetch(&whole, "", base) {
+                Err(_) if whole.contains(char::is_whitespace) => several(library),
+                _ => vec![whole],
             };
-            match word.parse::<f32>() {
-                Ok(number) => numbers.push(number),
-                Err(_) if are_numbers => break,
-                Err(_) => {}
+            for name in names {
+                if !known.insert(name.clone()) {
+                    continue;
+                }
+                match fetch(&name, "", base) {
+                    Ok(bytes) => {
+                        let path = name.replace('\\', "/");
+                        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+                        described.extend(mtl::parse(&bytes, folder, warnings));
+                    }
+                    Err(reason) => {
+                        let fault = Fault::new(format!("mtllib {name}"), reason);
+                        warnings.push(&fault.but("its materials are grey"));
+                        is_complete = false;
+                    }
+                }
             }
-            rest = &rest[end..];
         }
-        let place = match option.as_str() {
-            "-s" => &mut scale,
-            "-o" => &mut offset,
-            _ => continue,
-        };
-        place.iter_mut().zip(numbers).for_each(|(to, x)| *to = x);
+        (described, is_complete)
     }
-    // In the format v points up.
-    let rows = [
-        [scale[0], 0.0, offset[0]],
-        [0.0, scale[1], 1.0 - scale[1] - offset[1]],
-    ];
-    let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
-    let transform = is_finite.then_some(TextureTransform(rows));
-    (rest.trim(), transform.unwrap_or_default())
 }
 
-fn read_material(
-    item: &tobj::Material,
-    base: Option<&Path>,
-    images: &mut DecodedImages,
-    textures: &mut Vec<Texture>,
-    warnings: &mut Warnings,
-) -> Material {
-    let unit = |x: f32| {
-        if x.is_finite() {
-            x.clamp(0.0, 1.0)
+/// Names in a list, of which some may be in quotes.
+fn several(list: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for (index, part) in list.split('"').enumerate() {
+        if index % 2 == 1 {
+            names.push(part.to_owned());
         } else {
-            1.0
-        }
-    };
-    let [r, g, b] = item.diffuse.unwrap_or([0.8; 3]).map(unit);
-    let alpha = unit(item.dissolve.unwrap_or(1.0));
-    let mut material = Material {
-        name: Some(item.name.clone()),
-        base_color: [r, g, b, alpha],
-        ..plain()
-    };
-    if alpha < 1.0 {
-        material.alpha_mode = AlphaMode::Blend;
-    }
-    if let Some(name) = &item.diffuse_texture {
-        let (name, transform) = placed(name);
-        // Programs on Windows write backslashes.
-        let uri = name.replace('\\', "/");
-        let image =
-            uri::fetch(&uri, base, MAX_FILE).and_then(|file| images.add(Cow::Owned(file.bytes)));
-        match image {
-            Ok(image) => {
-                material.base_color_texture = Some(TextureUse {
-                    texture: textures.len() as u32,
-                    uv_set: 0,
-                    transform,
-                });
-                textures.push(Texture {
-                    image,
-                    sampler: Sampler::default(),
-                });
-            }
-            Err(reason) => {
-                let place = format!("newmtl {}/map_Kd", item.name);
-                warnings.push(&Fault::new(place, reason).but("the texture is left out"));
-            }
+            names.extend(part.split_whitespace().map(str::to_owned));
         }
     }
-    material
+    names
+}
+
+/// A name without the quotes around it.
+fn unquoted(name: &[u8]) -> String {
+    let name = text::text(name);
+    let inner = name
+        .strip_prefix('"')
+        .and_then(|name| name.strip_suffix('"'));
+    inner
+        .filter(|inner| !inner.contains('"'))
+        .unwrap_or(&name)
+        .to_owned()
+}
+
+/// Operands of a statement, without a comment behind them.
+fn operands(rest: &[u8]) -> impl Iterator<Item = &[u8]> {
+    words(rest).take_while(|word| !word.starts_with(b"#"))
+}
+
+/// The first numbers of a statement, and how many there are. Those that are missing are zero, and at least `least` must
+/// be there.
+fn numbers<const N: usize>(rest: &[u8], least: usize) -> Result<(usize, [f64; N]), String> {
+    let (mut count, mut found) = (0, [0.0; N]);
+    for (place, word) in found.iter_mut().zip(operands(rest)) {
+        *place = number(word).ok_or_else(|| no_number(word))?;
+        count += 1;
+    }
+    if count < least {
+        return Err(format!("{least} numbers are needed, and there are {count}"));
+    }
+    Ok((count, found))
+}
+
+/// A whole number.
+fn integer(word: &[u8]) -> Option<i64> {
+    let digits = word.strip_prefix(b"-").or_else(|| word.strip_prefix(b"+"));
+    let is_negative = word.starts_with(b"-");
+    let digits = digits.unwrap_or(word);
+    if digits.is_empty() {
+        return None;
+    }
+    let magnitude = digits.iter().try_fold(0_i64, |sum, byte| {
+        let digit = i64::from(byte.checked_sub(b'0').filter(|digit| *digit < 10)?);
+        sum.checked_mul(10)?.checked_add(digit)
+    });
+    magnitude.map(|magnitude| if is_negative { -magnitude } else { magnitude })
 }

@@ -70,6 +70,21 @@ pub fn linear(code: f64) -> f32 {
     linear as f32
 }
 
+/// Origin for positions in single precision: zero, unless the positions are far from zero for their extent, as those of
+/// surveys are; then the first of them.
+pub fn origin_of(positions: impl Iterator<Item = DVec3>) -> DVec3 {
+    /// Distance from zero, in extents, from which on positions would lose more than 3 bits.
+    const FAR: f64 = 8.0;
+    let mut positions = positions.filter(|position| position.is_finite());
+    let Some(first) = positions.next() else {
+        return DVec3::ZERO;
+    };
+    let (low, high) = positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+    let extent = (high - low).max_element();
+    let is_far = low.abs().max(high.abs()).max_element() > FAR * extent;
+    if is_far { first } else { DVec3::ZERO }
+}
+
 impl Drawing {
     /// Makes a scene of the drawing; `format` is the file's format.
     pub fn into_scene(
@@ -207,7 +222,7 @@ impl FileObject {
         }
         Some(Primitive {
             material,
-            uvs: self.uvs_of(uses_uvs, &sources),
+            uvs: self.uvs_of(uses_uvs, &sources, place, warnings),
             colors: self.colors_of(&sources),
             triangles: self.triangles,
             positions,
@@ -251,7 +266,7 @@ impl FileObject {
             material,
             positions: pick(&self.positions, &sources),
             normals,
-            uvs: self.uvs_of(uses_uvs, &sources),
+            uvs: self.uvs_of(uses_uvs, &sources, place, warnings),
             colors: self.colors_of(&sources),
             triangles: strokes.triangles,
             corners: strokes.corners,
@@ -259,15 +274,31 @@ impl FileObject {
         })
     }
 
-    fn uvs_of(&self, uses_uvs: bool, sources: &[u32]) -> Vec<[f32; 4]> {
+    fn uvs_of(
+        &self,
+        uses_uvs: bool,
+        sources: &[u32],
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Vec<[f32; 4]> {
         if !uses_uvs {
             return Vec::new();
         }
         if self.uvs.len() != self.positions.len() {
+            warnings.leave_out("textures of surfaces without texture coordinates", 1, place);
             return vec![[0.0; 4]; sources.len()];
         }
-        let uvs = pick(&self.uvs, sources).into_iter();
-        let uvs = uvs.map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
+        let uvs = pick(&self.uvs, sources);
+        let lost = uvs
+            .iter()
+            .filter(|uv| !uv.iter().all(|x| x.is_finite()))
+            .count();
+        if lost > 0 {
+            let reason =
+                format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
+            warnings.push(&Fault::new(place, reason));
+        }
+        let uvs = uvs.into_iter().map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
         uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 }))
             .collect()
     }
