@@ -352,6 +352,7 @@ impl Plan {
 mod tests {
     use super::*;
     use crate::engine::sampler::SuperpixelOptions;
+    use crate::vulkan::Teams;
     use ash::vk;
 
     /// A million triangles.
@@ -378,9 +379,6 @@ mod tests {
             true
         }
 
-        fn is_mostly_high_frequency(&self) -> bool {
-            false
-        }
 
         fn is_tinted(&self) -> bool {
             false
@@ -398,9 +396,7 @@ mod tests {
             driver: String::new(),
             device_type: vk::PhysicalDeviceType::DISCRETE_GPU,
             local_bytes,
-            lanes: 32,
-            subgroup_size: 32,
-            can_require_subgroup_size: true,
+            teams: Teams::new(32, [32; 2], true),
             max_image_side: 1 << 15,
             snap: 0.0,
             max_texel_elements: 1 << 27,

@@ -357,7 +357,7 @@ pub struct Teams {
 
 impl Teams {
     /// Teams for a device whose subgroups usually have `usual` invocations, at least `least` and at most `most`.
-    fn new(usual: u32, [least, most]: [u32; 2], can_choose: bool) -> Self {
+    pub(crate) fn new(usual: u32, [least, most]: [u32; 2], can_choose: bool) -> Self {
         let preferred_subgroup = can_choose.then_some(least.max(8).min(most));
         let subgroup = preferred_subgroup.unwrap_or(usual);
         let members = if preferred_subgroup.unwrap_or(least) < 8 {
