@@ -218,9 +218,13 @@ fn vertices_of_obj_are_points_where_nothing_connects_them() {
 #[test]
 fn colours_of_obj_are_codes_of_one_or_of_a_byte() {
     let faces = "f 1 2 3\n";
-    for (scale, name) in [(1.0, "one"), (255.0, "byte")] {
+    for (largest, scale, name) in [
+        (1.0, 1.0, "one"),
+        (255.0, 255.0, "byte"),
+        (1.5, 1.0, "bright"),
+    ] {
         let code = 0.5 * scale;
-        let text = format!("v 0 0 0 {scale} 0 {code}\nv 1 0 0 0 0 0\nv 0 1 0\n{faces}");
+        let text = format!("v 0 0 0 {largest} 0 {code}\nv 1 0 0 0 0 0\nv 0 1 0\n{faces}");
         let (_, pose) = load(&text);
         let [r, g, b, a] = pose.geometry.streams.colors[0];
         assert_eq!((r, g, a), (1.0, 0.0, 1.0), "{name}");

@@ -157,9 +157,11 @@ impl Description {
         let file = file.trim_matches('"').to_owned();
         (!file.is_empty()).then(|| Map {
             file,
-            transform: is_finite
-                .then_some(TextureTransform(rows))
-                .unwrap_or_default(),
+            transform: if is_finite {
+                TextureTransform(rows)
+            } else {
+                TextureTransform::default()
+            },
         })
     }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{
     polygon::Triangulator,
-    shape::{FileObject, linear},
+    shape::{FileObject, linear, scale_of_codes},
 };
 use crate::scene::error::Warnings;
 
@@ -26,12 +26,12 @@ impl Pool {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    /// Makes colours linear. Codes are 0 to 1, unless the largest is more than 1: then they are 0 to 255.
+    /// Makes colours linear.
     pub fn finish(&mut self, largest_code: f32) {
         if self.colors.is_empty() {
             return;
         }
-        let scale = if largest_code > 1.0 { 255.0 } else { 1.0 };
+        let scale = scale_of_codes(largest_code);
         self.colors.resize(self.positions.len(), [scale; 3]);
         for color in &mut self.colors {
             *color = color.map(|code| linear(f64::from(code / scale)));

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::{
     ply_data::{Data, Element, Row},
     polygon::Triangulator,
-    shape::{Drawing, FileObject, linear, origin_of, plain},
+    shape::{Drawing, FileObject, linear, origin_of, plain, scale_of_codes},
     texture_file::{NamedTextures, TextureFiles},
 };
 use crate::scene::{
@@ -201,13 +201,13 @@ impl Codes {
     }
 }
 
-/// Linear colours and alpha. Codes are 0 to 1; numbers with a fraction are 0 to 255 if one of them is more than 1.
+/// Linear colours and alpha.
 fn colors(codes: &[[f32; 4]]) -> Vec<[f32; 4]> {
     let largest = codes
         .as_flattened()
         .iter()
         .fold(0.0, |a, &b| f32::max(a, b));
-    let scale = if largest > 1.0 { 255.0 } else { 1.0 };
+    let scale = scale_of_codes(largest);
     let color = |[r, g, b, a]: &[f32; 4]| {
         let [r, g, b] = [r, g, b].map(|code| linear(f64::from(code / scale)));
         let alpha = if a.is_nan() {

@@ -55,6 +55,12 @@ pub fn plain() -> Material {
     }
 }
 
+/// What the numbers of colours are divided by, by the largest of them: some programs write bytes as numbers with a
+/// fraction. Colours brighter than white stay below the limit.
+pub fn scale_of_codes(largest: f32) -> f32 {
+    if largest > 16.0 { 255.0 } else { 1.0 }
+}
+
 /// Linear value of an sRGB code of 0 to 1; 1 for NaN.
 pub fn linear(code: f64) -> f32 {
     let code = if code.is_nan() {
