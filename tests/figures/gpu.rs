@@ -5,7 +5,7 @@ use crate::text::{Table, cells, grouped, short};
 
 /// Rows of `gpu-*.csv` that are no part of what the library adds: sums of others, and what a host's frame has anyway or does not
 /// have at all.
-const NOT_ADDED: [&str; 3] = ["total", "raster", "copy"];
+const NOT_ADDED: [&str; 4] = ["total", "raster", "encode", "copy"];
 
 /// Table of what superpixels add to the frame, driver by driver.
 pub fn table() -> String {

@@ -56,7 +56,7 @@ impl Statistics {
     /// Name of all passes that composite BLEND triangles in every pixel.
     pub const BLEND: &'static str = "blend";
 
-    /// Device time of the whole frame in milliseconds, without [copies of the image](PassTime::COPY).
+    /// Device time of the whole frame in milliseconds, without the [output of the image](PassTime::is_output).
     #[must_use]
     pub fn gpu_ms(&self) -> f64 {
         PassTime::total(&self.passes)

@@ -25,10 +25,19 @@ impl PassTime {
     /// Copies of the image to where the caller wants it.
     pub const COPY: &'static str = "copy";
 
-    /// Milliseconds of all parts of a frame but its [copies](Self::COPY), which a host that shows the image has none of.
+    /// Conversion of the image to the encoding that the caller wants. The name is that of the pass.
+    pub const ENCODE: &'static str = "encode";
+
+    /// Whether this part only brings the finished image to the caller.
+    #[must_use]
+    pub fn is_output(pass: &str) -> bool {
+        [Self::ENCODE, Self::COPY].contains(&pass)
+    }
+
+    /// Milliseconds of all parts of a frame but its [output](Self::is_output).
     #[must_use]
     pub fn total(parts: &[Self]) -> f64 {
-        let parts = parts.iter().filter(|part| part.pass != Self::COPY);
+        let parts = parts.iter().filter(|part| !Self::is_output(part.pass));
         parts.map(|part| part.ms).sum()
     }
 }

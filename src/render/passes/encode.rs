@@ -128,6 +128,13 @@ fn around(reaches: impl Fn([u32; 2]) -> bool) -> [[u32; 2]; 2] {
 mod tests {
     use super::*;
     use crate::random::Random;
+    use crate::vulkan::PassTime;
+
+    /// Times leave out the pass by its name.
+    #[test]
+    fn the_pass_has_the_name_of_its_time() {
+        assert_eq!(spirv::Encode::INTERFACE.name, PassTime::ENCODE);
+    }
 
     /// The twin of `reaches` in `shaders/encode.comp`.
     fn reaches(dividend: f32, divisor: f32, [numerator, denominator]: [u32; 2]) -> bool {

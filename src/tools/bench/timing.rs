@@ -21,7 +21,7 @@ struct Timed {
 /// Cost of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Milliseconds on the device, without [copies of the image](PassTime::COPY).
+    /// Milliseconds on the device, without the [output of the image](PassTime::is_output).
     pub gpu_ms: Spread,
     /// Wall-clock milliseconds, from recording to the image in host memory.
     pub wall_ms: Spread,

@@ -11,7 +11,7 @@ pub struct Effort {
     pub samples: u32,
     pub superpixels: Superpixels,
     pub triangles: Triangles,
-    /// Device milliseconds of each pass, and of all but `copy` together as `total`; medians over repetitions.
+    /// Device milliseconds of each pass, and of all but `encode` and `copy` together as `total`; medians over repetitions.
     pub gpu_ms: BTreeMap<&'static str, f64>,
     /// Wall-clock milliseconds from recording to the image in host memory; the median.
     pub wall_ms: f64,
@@ -75,7 +75,7 @@ impl Effort {
         }
     }
 
-    /// Device milliseconds of all passes together, without copies of the image.
+    /// Device milliseconds of all passes together, without the output of the image.
     pub fn total_gpu_ms(&self) -> f64 {
         self.gpu_ms.get("total").copied().unwrap_or_default()
     }
@@ -94,7 +94,7 @@ fn count(counts: &TriangleCounts) -> Triangles {
     }
 }
 
-/// The median time of each pass and of their sum without copies, over the renderings. A pass that runs several times in a frame
+/// The median time of each pass and of their sum without output, over the renderings. A pass that runs several times in a frame
 /// counts once, with its total.
 fn medians(renderings: &[Vec<PassTime>]) -> BTreeMap<&'static str, f64> {
     let mut times: BTreeMap<&str, Vec<f64>> = BTreeMap::new();

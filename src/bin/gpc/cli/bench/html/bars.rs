@@ -82,7 +82,7 @@ const OTHER: &str = "other";
 /// The passes of a row that are part of its time.
 fn timed(row: &Row) -> impl Iterator<Item = &PassCost> {
     let passes = row.cost.passes.iter();
-    passes.filter(|pass| pass.pass != PassTime::COPY)
+    passes.filter(|pass| !PassTime::is_output(pass.pass))
 }
 
 /// The passes that get a segment of their own, in the order in which they run.
