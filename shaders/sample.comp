@@ -37,7 +37,7 @@ layout(constant_id = SAMPLE_CONSTANT_LONG) const bool LONG = false;         // A
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : TEAM;
 #ifndef UNLISTED
-const uint ROOM = LONG && TEAMS == 1u ? 3072u : 1024u;  // words of `kept` for a team, which takes more trips if it is too small
+const uint ROOM = TEAMS > 1u ? 1024u / TEAMS : LONG ? 3072u : 1024u;   // words of `kept` for a team, which takes more trips if it is too small
 const uint KEPT = APART ? ROOM : 2u * ROOM / TEAM;     // room for candidates in the short list of a cell
 
 // The short lists, cell by cell: numbers of candidates, two in a word, since 16 bits can count the tile's list; APART: one.

@@ -379,7 +379,6 @@ mod tests {
             true
         }
 
-
         fn is_tinted(&self) -> bool {
             false
         }
