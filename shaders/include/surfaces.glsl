@@ -184,31 +184,31 @@ uvec2 record_samples(Cell cell, uint cell_id) {
 // Makes a record for each surface or part of one; returns the first record and their number.
 uvec2 record_surfaces(Cell cell, uint cell_id) {
     HeldSurface held[OWN_SURFACES];
-    uint count = find_surfaces(held), own = 0u, own_singles = 0u, several = 0u, greatest = 0u, shaded_in[OWN_SURFACES];
+    uint count = find_surfaces(held), own = 0u, singles = 0u, several = 0u, greatest = 0u, shaded_in[OWN_SURFACES];
     Variation around;
     if (BY_PART && !LOCATIONS) around = variation_of(cell.member);
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) {
         bool by_part = BY_PART && held[h].id != 0u && high_frequency_triangle(held[h].id);
         shaded_in[h] = BY_PART && !LOCATIONS ? parts_around(around, held[h].id) : PARTS_ALL;
         by_part = by_part && shaded_in[h] != PARTS_ONE;
-        several |= by_part ? 1u << (h * TEAM + member()) : 0u;
-        own_singles += held[h].id != 0u && !by_part ? 1u : 0u;
+        uint bit = held[h].id != 0u ? 1u << (h * TEAM + member()) : 0u;
+        several |= by_part ? bit : 0u;
+        singles |= by_part ? 0u : bit;
         own += by_part ? uint(bitCount(merge_bits(held[h].parts, shaded_in[h]))) : 0u;
         greatest = max(greatest, held[h].id);
     }
     trips += 2u * count;
-    uint singles = team_add(own_singles), beyond = count - min(count, HELD), used = singles + beyond + team_add(own);
+    singles = team_or(singles);
+    uint single_count = uint(bitCount(singles)), beyond = count - min(count, HELD), used = single_count + beyond + team_add(own);
     bool fits;
     uint base = allocate_records(used, fits);
 
     // Surfaces with one record: those that members hold are written at once, the others one by one.
-    uint slot = base + team_before(own_singles);
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) {
-        bool single = held[h].id != 0u && (several >> (h * TEAM + member()) & 1u) == 0u;
-        if (fits && single) records_out[slot] = uvec4(cell_id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
-        slot += single ? 1u : 0u;
+        uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
+        if (fits && (singles & bit) != 0u) records_out[base + before] = uvec4(cell_id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
     }
-    slot = base + singles;
+    uint slot = base + single_count;
     uint seen = team_max(greatest), stored = 0u;
     do {
         Surface s = surface_after(seen);

@@ -26,16 +26,8 @@ fn in_teams_of_four(teams: &mut Teams) {
     teams.members = 4;
 }
 
-/// Largest difference of a channel of two images.
-fn largest_difference(found: &[[f32; 4]], expected: &[[f32; 4]]) -> f32 {
-    assert_eq!(found.len(), expected.len());
-    let channels = found.as_flattened().iter().zip(expected.as_flattened());
-    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-}
-
 /// Every image has the same bytes with teams of 4 as with teams of 8, whether each subgroup samples the cells of a tile or several
-/// single cells. The compilers of GPUs may round divisions differently in two variants of a kernel, which moves places of shading by a
-/// step of theirs.
+/// single cells.
 #[test]
 fn several_teams_in_a_subgroup_make_the_same_image() {
     const SIZE: [u32; 2] = [64, 48];
@@ -43,21 +35,16 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
         everywhere(SIZE, pattern.clone(), samples)
             .map_superpixels(|options| options.shading(shading))
     };
-    let mut cases = Vec::new();
-    for samples in [4, 16, 64, 256, 1024] {
-        cases.push(settings(&Pattern::Lines, samples, Shading::Part));
-    }
-    for samples in [2, 8, 64, 256] {
-        cases.push(settings(&Pattern::Sobol, samples, Shading::Part));
-        cases.push(settings(&Pattern::Sobol, samples, Shading::Triangle));
-    }
-    cases.push(settings(&Pattern::Lines, 64, Shading::Triangle));
-    cases.push(settings(&Pattern::Sobol, 16, Shading::Sample));
+    let cases = [
+        settings(&Pattern::Lines, 64, Shading::Part),
+        settings(&Pattern::Lines, 1024, Shading::Part),
+        settings(&Pattern::Sobol, 8, Shading::Part),
+        settings(&Pattern::Sobol, 64, Shading::Part),
+        settings(&Pattern::Sobol, 16, Shading::Sample),
+    ];
     let stages = [ball_over_checker(), layered(), mosaic(5, SIZE)];
     let mut images = Vec::new();
-    let mut computes_on_cpu = true;
     on_gpu(|gpu| {
-        computes_on_cpu = gpu.gpu().limits().driver.contains("llvmpipe");
         for stage in &stages {
             images.extend(
                 cases
@@ -78,12 +65,10 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
             let mut expected = images.iter();
             for (number, stage) in stages.iter().enumerate() {
                 for settings in &cases {
-                    let found = stage.render(gpu, settings).colors;
-                    let expected = expected.next().unwrap();
-                    let apart = largest_difference(&found, expected);
+                    let found = stage.render(gpu, settings);
                     assert!(
-                        found == *expected || (!computes_on_cpu && apart < 0.5 / 255.0),
-                        "{kind}, stage {number}, {:?}: {apart}",
+                        Some(&found.colors) == expected.next(),
+                        "{kind}, stage {number}, {:?}",
                         settings.method
                     );
                 }
