@@ -45,7 +45,7 @@ impl DecodedImages {
         for index in wanted {
             self.places.insert(index, None);
             let fetched = fetch(index, context.model, &context.buffers);
-            let encoded = fetched.and_then(|(bytes, place, note)| {
+            let encoded = fetched.and_then(|EncodedImage { bytes, place, note }| {
                 faults.extend(note);
                 let admitted = sniff(&bytes).and_then(|format| self.admit(bytes, format));
                 match admitted {
@@ -149,23 +149,39 @@ impl DecodedImages {
     }
 }
 
-/// The encoded bytes of an image, its place, and a fault that is tolerated.
+/// An image as it is stored.
+struct EncodedImage<'b> {
+    bytes: Cow<'b, [u8]>,
+    place: String,
+    /// Fault that is tolerated.
+    note: Option<Fault>,
+}
+
+/// Fetches the encoded bytes of an image.
 fn fetch<'b>(
     index: usize,
     model: &Model,
     buffers: &'b Buffers<'_>,
-) -> Result<(Cow<'b, [u8]>, String, Option<Fault>), Fault> {
+) -> Result<EncodedImage<'b>, Fault> {
     let (item, place) = model.get::<json::Image>(Index::new(index as u32), "/images")?;
     match (&item.uri, item.buffer_view) {
         (Some(uri), _) => {
             let fault = |reason| Fault::new(format!("{place}/uri"), reason);
             let fetched = uri::fetch(uri, buffers.base(), MAX_FILE).map_err(fault)?;
             let note = fetched.note.map(fault);
-            Ok((Cow::Owned(fetched.bytes), place, note))
+            Ok(EncodedImage {
+                bytes: Cow::Owned(fetched.bytes),
+                place,
+                note,
+            })
         }
         (None, Some(view)) => {
             let view = buffers.view(view, &format!("{place}/bufferView"))?;
-            Ok((Cow::Borrowed(view.bytes), place, None))
+            Ok(EncodedImage {
+                bytes: Cow::Borrowed(view.bytes),
+                place,
+                note: None,
+            })
         }
         _ => Err(Fault::new(place, "has neither a URI nor a buffer view")),
     }
