@@ -6,8 +6,10 @@ use gpc::render::{
 };
 use gpc::scene::{AlphaMode, Material};
 
+use crate::devices::within;
+use crate::meshes::Random;
 use crate::scenes::ball_over_checker;
-use crate::stage::{Stage, camera, flat, on_gpu};
+use crate::stage::{Stage, as_cpu, as_gpu, camera, flat, on_gpu, seen_at};
 
 const SIZE: [u32; 2] = [157, 113];
 
@@ -117,6 +119,61 @@ fn a_region_is_that_part_of_the_image() {
             }
         }
     });
+}
+
+/// Small triangles that lie denser to the right: the lists of some tiles have more than a thousand, and a pixel may see none or
+/// more than a kernel has room for.
+fn crowd() -> Stage {
+    let mut random = Random::new(8);
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+    for number in 0..40_000_u32 {
+        let across = random.range(0.0, 1.0).sqrt().sqrt();
+        let middle = [60.0 * across - 30.0, random.range(-20.0, 20.0)];
+        let side = if number % 200 == 0 { 6.0 } else { 0.6 };
+        let depth = random.range(2.0, 9.0);
+        let corners = [0, 1, 2].map(|_| {
+            let place = middle.map(|at| at + side * random.range(-1.0, 1.0));
+            seen_at(place, depth, CROWDED[1])
+        });
+        stage.add(0, corners);
+        let color = [0, 1, 2].map(|_| random.range(0.0, 1.0) as f32);
+        if let Some(triangle) = stage.triangles.last_mut() {
+            triangle.color = [color[0], color[1], color[2], 1.0];
+        }
+    }
+    stage
+}
+
+const CROWDED: [u32; 2] = [64, 48];
+
+/// What a pixel is sampled by does not depend on other pixels of its tile. Regions that cut tiles at random show the same, whether a
+/// frame has rounds for a CPU or for a GPU.
+#[test]
+fn regions_of_crowded_tiles_are_parts_of_the_image() {
+    let mut random = Random::new(3);
+    let regions = [(); 8].map(|()| {
+        let corner = CROWDED.map(|side| random.below(u64::from(side) - 1) as u32);
+        let size = [0, 1].map(|axis| {
+            let most = u64::from(CROWDED[axis] - corner[axis]);
+            1 + random.below(most) as u32
+        });
+        (corner, size)
+    });
+    let stage = crowd();
+    for (name, policy) in [
+        ("CPU", as_cpu as fn(&mut gpc::vulkan::Limits)),
+        ("GPU", as_gpu as fn(&mut gpc::vulkan::Limits)),
+    ] {
+        within(policy, |gpu| {
+            for samples in [16, 64] {
+                let settings = Settings::new(CROWDED[0], CROWDED[1])
+                    .attributes(true)
+                    .method(SuperpixelOptions::new(samples));
+                let what = format!("{name}, {samples} samples");
+                assert_regions_are_parts(gpu, &stage, &settings, &regions, &what);
+            }
+        });
+    }
 }
 
 /// A large image is rendered in parts; a region may span several of them.
