@@ -36,21 +36,14 @@ const VISIBILITY: &[Variant] = &[
 const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 
 /// Shaders of the tests' host in Rust.
-const HOST: &[Variant] = &[
-    ("samples", "samples.comp", &[]),
-    ("corners", "corners.comp", &[]),
-    ("filters", "filters.comp", &[]),
-];
+const HOST: &[Variant] =
+    &[("samples", "samples.comp", &[]), ("corners", "corners.comp", &[]), ("filters", "filters.comp", &[])];
 
 /// The shader with which a test reads what the host writes.
 const ROWS: &[Variant] = &[("rows", "rows.comp", &[])];
 
 /// Name of a compiled shader, its source file, and its macro definitions.
-type Variant = (
-    &'static str,
-    &'static str,
-    &'static [(&'static str, &'static str)],
-);
+type Variant = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
 const VARIANTS: &[Variant] = &[
     ("pose", "pose.comp", &[]),
@@ -60,19 +53,11 @@ const VARIANTS: &[Variant] = &[
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),
     ("raster_opaque_bytes", "raster.frag", &[("BYTES", "")]),
-    (
-        "raster_masked_bytes",
-        "raster.frag",
-        &[("MASKED", ""), ("BYTES", "")],
-    ),
+    ("raster_masked_bytes", "raster.frag", &[("MASKED", ""), ("BYTES", "")]),
     ("filter", "filter.comp", &[]),
     ("detect", "detect.comp", &[]),
     ("thin", "thin.comp", &[]),
-    (
-        "detect_multisampled",
-        "detect.comp",
-        &[("MULTISAMPLED", "")],
-    ),
+    ("detect_multisampled", "detect.comp", &[("MULTISAMPLED", "")]),
     ("grow", "grow.comp", &[]),
     ("neighbours", "neighbours.comp", &[]),
     ("cull", "cull.comp", &[]),
@@ -93,81 +78,21 @@ const VARIANTS: &[Variant] = &[
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
     ("sample_16", "sample.comp", &[("ROWS", "16")]),
     ("sample_lines", "sample_lines.comp", &[]),
-    (
-        "sample_layered_1",
-        "sample.comp",
-        &[("ROWS", "1"), ("LAYERED", "")],
-    ),
-    (
-        "sample_layered_2",
-        "sample.comp",
-        &[("ROWS", "2"), ("LAYERED", "")],
-    ),
-    (
-        "sample_layered_4",
-        "sample.comp",
-        &[("ROWS", "4"), ("LAYERED", "")],
-    ),
-    (
-        "sample_layered_8",
-        "sample.comp",
-        &[("ROWS", "8"), ("LAYERED", "")],
-    ),
-    (
-        "sample_layered_16",
-        "sample.comp",
-        &[("ROWS", "16"), ("LAYERED", "")],
-    ),
-    (
-        "sample_unlisted_1",
-        "sample.comp",
-        &[("ROWS", "1"), ("UNLISTED", "")],
-    ),
-    (
-        "sample_unlisted_2",
-        "sample.comp",
-        &[("ROWS", "2"), ("UNLISTED", "")],
-    ),
-    (
-        "sample_unlisted_4",
-        "sample.comp",
-        &[("ROWS", "4"), ("UNLISTED", "")],
-    ),
-    (
-        "sample_unlisted_8",
-        "sample.comp",
-        &[("ROWS", "8"), ("UNLISTED", "")],
-    ),
-    (
-        "sample_unlisted_16",
-        "sample.comp",
-        &[("ROWS", "16"), ("UNLISTED", "")],
-    ),
-    (
-        "sample_layered_unlisted_1",
-        "sample.comp",
-        &[("ROWS", "1"), ("LAYERED", ""), ("UNLISTED", "")],
-    ),
-    (
-        "sample_layered_unlisted_2",
-        "sample.comp",
-        &[("ROWS", "2"), ("LAYERED", ""), ("UNLISTED", "")],
-    ),
-    (
-        "sample_layered_unlisted_4",
-        "sample.comp",
-        &[("ROWS", "4"), ("LAYERED", ""), ("UNLISTED", "")],
-    ),
-    (
-        "sample_layered_unlisted_8",
-        "sample.comp",
-        &[("ROWS", "8"), ("LAYERED", ""), ("UNLISTED", "")],
-    ),
-    (
-        "sample_layered_unlisted_16",
-        "sample.comp",
-        &[("ROWS", "16"), ("LAYERED", ""), ("UNLISTED", "")],
-    ),
+    ("sample_layered_1", "sample.comp", &[("ROWS", "1"), ("LAYERED", "")]),
+    ("sample_layered_2", "sample.comp", &[("ROWS", "2"), ("LAYERED", "")]),
+    ("sample_layered_4", "sample.comp", &[("ROWS", "4"), ("LAYERED", "")]),
+    ("sample_layered_8", "sample.comp", &[("ROWS", "8"), ("LAYERED", "")]),
+    ("sample_layered_16", "sample.comp", &[("ROWS", "16"), ("LAYERED", "")]),
+    ("sample_unlisted_1", "sample.comp", &[("ROWS", "1"), ("UNLISTED", "")]),
+    ("sample_unlisted_2", "sample.comp", &[("ROWS", "2"), ("UNLISTED", "")]),
+    ("sample_unlisted_4", "sample.comp", &[("ROWS", "4"), ("UNLISTED", "")]),
+    ("sample_unlisted_8", "sample.comp", &[("ROWS", "8"), ("UNLISTED", "")]),
+    ("sample_unlisted_16", "sample.comp", &[("ROWS", "16"), ("UNLISTED", "")]),
+    ("sample_layered_unlisted_1", "sample.comp", &[("ROWS", "1"), ("LAYERED", ""), ("UNLISTED", "")]),
+    ("sample_layered_unlisted_2", "sample.comp", &[("ROWS", "2"), ("LAYERED", ""), ("UNLISTED", "")]),
+    ("sample_layered_unlisted_4", "sample.comp", &[("ROWS", "4"), ("LAYERED", ""), ("UNLISTED", "")]),
+    ("sample_layered_unlisted_8", "sample.comp", &[("ROWS", "8"), ("LAYERED", ""), ("UNLISTED", "")]),
+    ("sample_layered_unlisted_16", "sample.comp", &[("ROWS", "16"), ("LAYERED", ""), ("UNLISTED", "")]),
     ("sort", "sort.comp", &[]),
     ("receivers", "receivers.comp", &[]),
     ("occlude_8", "occlude.comp", &[("ROWS", "8")]),
@@ -211,14 +136,10 @@ fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=build");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
-    let root =
-        PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let out = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let group = |folder: &str, variants| Group {
-        sources: root.join(folder),
-        includes: root.join("shaders/include"),
-        variants,
-    };
+    let group =
+        |folder: &str, variants| Group { sources: root.join(folder), includes: root.join("shaders/include"), variants };
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
@@ -230,11 +151,7 @@ fn main() {
     interfaces(&own, &folder, &root.join("src/engine/spirv.rs"));
     let mut code = String::new();
     // Paths begin with a variable, so that built files stay valid if the sources are moved.
-    let (variable, beside) = if folder.starts_with(&out) {
-        ("OUT_DIR", &out)
-    } else {
-        ("CARGO_MANIFEST_DIR", &root)
-    };
+    let (variable, beside) = if folder.starts_with(&out) { ("OUT_DIR", &out) } else { ("CARGO_MANIFEST_DIR", &root) };
     let folder = folder.strip_prefix(beside).expect("a folder of ours");
     for (name, source, _) in VARIANTS {
         let path = Path::new("/").join(folder).join(format!("{name}.spv"));
@@ -275,9 +192,7 @@ impl Group {
     fn fingerprint(&self) -> String {
         let mut files: Vec<PathBuf> = [&self.sources, &self.includes]
             .iter()
-            .flat_map(|folder| {
-                fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
-            })
+            .flat_map(|folder| fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())))
             .map(|entry| entry.expect("a folder's entry").path())
             .filter(|path| path.is_file())
             .collect();
@@ -319,8 +234,7 @@ fn spirv(group: &Group, out: &Path) -> PathBuf {
     if mode == "write" {
         let _ = fs::remove_dir_all(&checked_in);
         fs::create_dir_all(&checked_in).expect("the sources' folder is writable");
-        fs::write(checked_in.join("fingerprint"), group.fingerprint())
-            .expect("the sources' folder is writable");
+        fs::write(checked_in.join("fingerprint"), group.fingerprint()).expect("the sources' folder is writable");
     }
     if mode == "check" {
         let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
@@ -353,9 +267,7 @@ fn spirv(group: &Group, out: &Path) -> PathBuf {
 fn interfaces(group: &Group, folder: &Path, file: &Path) {
     /// Include through which shaders of hosts bind a set.
     const LENT: &str = "include/gpc_visibility.glsl";
-    let read = |path: &Path| {
-        fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-    };
+    let read = |path: &Path| fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     // Only modules that are not optimised keep the names.
     let named = compile(group, shaderc::OptimizationLevel::Zero);
     let shaders = group.variants.iter().zip(named);
@@ -375,12 +287,7 @@ fn interfaces(group: &Group, folder: &Path, file: &Path) {
     let text = format!(
         "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"{LENT}\"\nlayout(local_size_x = 1) in;\nvoid main() {{}}\n"
     );
-    let lent = compile_text(
-        group,
-        (LENT, "lent.comp", &text),
-        &[],
-        shaderc::OptimizationLevel::Zero,
-    );
+    let lent = compile_text(group, (LENT, "lent.comp", &text), &[], shaderc::OptimizationLevel::Zero);
     all.push(reflect::Compiled {
         name: "lent".to_owned(),
         source: LENT.to_owned(),
@@ -392,25 +299,19 @@ fn interfaces(group: &Group, folder: &Path, file: &Path) {
     let code = reflect::rust(&all, &read(&group.includes.join("interface.glsl")));
     match std::env::var("GPC_SPIRV").unwrap_or_default().as_str() {
         "write" => fs::write(file, code).expect("the sources' folder is writable"),
-        "check" => assert!(
-            read(file) == code,
-            "\n\n{} is not what the shaders say: run `make shaders`\n",
-            file.display()
-        ),
+        "check" => {
+            assert!(read(file) == code, "\n\n{} is not what the shaders say: run `make shaders`\n", file.display())
+        }
         _ => {}
     }
 }
 
 #[cfg(feature = "compile-shaders")]
-fn compile(
-    group: &Group,
-    optimization: shaderc::OptimizationLevel,
-) -> Vec<(&'static str, Vec<u8>)> {
+fn compile(group: &Group, optimization: shaderc::OptimizationLevel) -> Vec<(&'static str, Vec<u8>)> {
     let variants = group.variants.iter();
     variants
         .map(|(name, source, definitions)| {
-            let text = fs::read_to_string(group.sources.join(source))
-                .unwrap_or_else(|e| panic!("{source}: {e}"));
+            let text = fs::read_to_string(group.sources.join(source)).unwrap_or_else(|e| panic!("{source}: {e}"));
             let words = compile_text(group, (name, source, &text), definitions, optimization);
             (*name, words)
         })
@@ -428,15 +329,10 @@ fn compile_text(
     let sources = &group.sources;
     let compiler = shaderc::Compiler::new().expect("shaderc starts");
     let mut options = shaderc::CompileOptions::new().expect("shaderc options");
-    options.set_target_env(
-        shaderc::TargetEnv::Vulkan,
-        shaderc::EnvVersion::Vulkan1_3 as u32,
-    );
+    options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_3 as u32);
     options.set_optimization_level(optimization);
     options.set_include_callback(|requested, _, from, _| {
-        let nested = Path::new(from)
-            .parent()
-            .map(|folder| sources.join(folder).join(requested));
+        let nested = Path::new(from).parent().map(|folder| sources.join(folder).join(requested));
         let beside = [sources, &group.includes].map(|folder| Some(folder.join(requested)));
         let path = [nested]
             .into_iter()
@@ -445,15 +341,8 @@ fn compile_text(
             .find(|path| path.is_file())
             .ok_or_else(|| format!("{requested} is in no folder of includes"))?;
         let content = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let resolved_name = path
-            .strip_prefix(sources)
-            .unwrap_or(&path)
-            .display()
-            .to_string();
-        Ok(shaderc::ResolvedInclude {
-            resolved_name,
-            content,
-        })
+        let resolved_name = path.strip_prefix(sources).unwrap_or(&path).display().to_string();
+        Ok(shaderc::ResolvedInclude { resolved_name, content })
     });
     for (key, value) in definitions {
         options.add_macro_definition(key, Some(value));

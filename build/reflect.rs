@@ -135,16 +135,10 @@ impl Known {
         };
         for i in &known.all {
             match i.operands.as_slice() {
-                [Operand::IdRef(of), Operand::LiteralString(name)]
-                    if i.class.opcode == Op::Name =>
-                {
+                [Operand::IdRef(of), Operand::LiteralString(name)] if i.class.opcode == Op::Name => {
                     known.names.insert(*of, name.clone());
                 }
-                [
-                    Operand::IdRef(of),
-                    Operand::LiteralBit32(member),
-                    Operand::LiteralString(name),
-                ] => {
+                [Operand::IdRef(of), Operand::LiteralBit32(member), Operand::LiteralString(name)] => {
                     known.members.insert((*of, *member), name.clone());
                 }
                 [Operand::IdRef(of), Operand::Decoration(what), rest @ ..] => {
@@ -163,9 +157,7 @@ impl Known {
             }
         }
         let all = known.all.iter();
-        known.made = all
-            .filter_map(|i| Some((i.result_id?, i.clone())))
-            .collect();
+        known.made = all.filter_map(|i| Some((i.result_id?, i.clone()))).collect();
         known
     }
 
@@ -182,23 +174,15 @@ impl Known {
 
     fn type_of(&self, id: Word, matrix_stride: u32) -> Type {
         let made = &self.made[&id];
-        let several = |of: Word, count, stride: u32| {
-            Type::Several(Box::new(self.type_of(of, stride)), count, stride)
-        };
+        let several = |of: Word, count, stride: u32| Type::Several(Box::new(self.type_of(of, stride)), count, stride);
         match made.class.opcode {
             Op::TypeFloat => Type::Float,
             Op::TypeInt if number(&made.operands[1]) == Some(1) => Type::Int,
             Op::TypeInt => Type::Uint,
             Op::TypeVector => several(ids(made)[0], number(&made.operands[1]).expect("a count"), 4),
-            Op::TypeMatrix => several(
-                ids(made)[0],
-                number(&made.operands[1]).expect("a count"),
-                matrix_stride,
-            ),
+            Op::TypeMatrix => several(ids(made)[0], number(&made.operands[1]).expect("a count"), matrix_stride),
             Op::TypeArray => {
-                let stride = self
-                    .decoration(id, Decoration::ArrayStride)
-                    .expect("a stride");
+                let stride = self.decoration(id, Decoration::ArrayStride).expect("a stride");
                 several(ids(made)[0], self.constant(ids(made)[1]), stride)
             }
             Op::TypeStruct => Type::Struct(self.block(id)),
@@ -213,10 +197,7 @@ impl Known {
             // Columns of matrices are stored as four floats.
             (name, self.type_of(of, 16), self.offsets[&(id, member)])
         });
-        Block {
-            name: self.names[&id].clone(),
-            members: members.collect(),
-        }
+        Block { name: self.names[&id].clone(), members: members.collect() }
     }
 
     /// Variables of a storage class, and the types to which they point.
@@ -224,9 +205,7 @@ impl Known {
         let variables = self.all.iter().filter(|i| i.class.opcode == Op::Variable);
         variables.map(|i| {
             let pointer = &self.made[&i.result_type.expect("a type")];
-            let Operand::StorageClass(class) = i.operands[0] else {
-                panic!("a variable of no class")
-            };
+            let Operand::StorageClass(class) = i.operands[0] else { panic!("a variable of no class") };
             (i.result_id.expect("an ID"), class, ids(pointer)[0])
         })
     }
@@ -316,10 +295,7 @@ fn shared_block(known: &Known, kind: &str, block: Option<Word>) -> Option<Block>
         return None;
     };
     let of = &known.made[&member];
-    let element = ids(of)
-        .first()
-        .copied()
-        .filter(|_| of.class.opcode == Op::TypeRuntimeArray)?;
+    let element = ids(of).first().copied().filter(|_| of.class.opcode == Op::TypeRuntimeArray)?;
     let is_struct = known.made[&element].class.opcode == Op::TypeStruct;
     is_struct.then(|| known.block(element))
 }
@@ -338,10 +314,8 @@ fn reflect(compiled: &Compiled) -> Interface {
         };
         let (kind, count, block) = run.kind(class, of);
         let (reads, writes) = run.uses(variable, block.is_none());
-        let (same, named_class, named_of) = named
-            .variables()
-            .find(|(other, _, _)| place(&named, *other) == Some(at))
-            .expect("both modules have it");
+        let (same, named_class, named_of) =
+            named.variables().find(|(other, _, _)| place(&named, *other) == Some(at)).expect("both modules have it");
         let (_, _, named_block) = named.kind(named_class, named_of);
         let binding = Binding {
             name: bound_name(&named, same, named_block),
@@ -360,12 +334,9 @@ fn reflect(compiled: &Compiled) -> Interface {
         }
         let id = values[0];
         let made = &run.made[of];
-        let name = named
-            .decorations
-            .iter()
-            .find_map(|((other, what), values)| {
-                (*what == Decoration::SpecId && values[0] == id).then(|| named.names.get(other))?
-            });
+        let name = named.decorations.iter().find_map(|((other, what), values)| {
+            (*what == Decoration::SpecId && values[0] == id).then(|| named.names.get(other))?
+        });
         let value = made.operands.first().and_then(number);
         let (kind, default) = match made.class.opcode {
             Op::SpecConstantTrue => ("bool", "true".to_owned()),
@@ -380,10 +351,8 @@ fn reflect(compiled: &Compiled) -> Interface {
         };
         interface.constants.insert(id, constant);
     }
-    interface.push = named
-        .variables()
-        .find(|(_, class, _)| *class == StorageClass::PushConstant)
-        .map(|(_, _, of)| named.block(of));
+    interface.push =
+        named.variables().find(|(_, class, _)| *class == StorageClass::PushConstant).map(|(_, _, of)| named.block(of));
     interface.local_size = run.all.iter().find_map(|mode| {
         let is_size = mode.class.opcode == Op::ExecutionMode
             && mode.operands[1] == Operand::ExecutionMode(ExecutionMode::LocalSize);
@@ -456,9 +425,7 @@ impl Type {
             Self::Float => "f32".to_owned(),
             // In Rust, matrices are flat arrays.
             Self::Several(of, count, stride) => match &**of {
-                Self::Several(inner, rows, _)
-                    if **inner == Self::Float && (*count, *rows, *stride) == (4, 4, 16) =>
-                {
+                Self::Several(inner, rows, _) if **inner == Self::Float && (*count, *rows, *stride) == (4, 4, 16) => {
                     "[f32; 16]".to_owned()
                 }
                 of => format!("[{}; {count}]", of.rust()),
@@ -482,9 +449,7 @@ impl Type {
 
 impl Block {
     fn bytes(&self) -> u32 {
-        self.members
-            .last()
-            .map_or(0, |(_, of, offset)| offset + of.bytes())
+        self.members.last().map_or(0, |(_, of, offset)| offset + of.bytes())
     }
 
     /// Definition of the structure in Rust under a name, preceded by those of its members' types. Blocks whose size
@@ -496,8 +461,7 @@ impl Block {
         let mut end = 0;
         let pad = |code: &mut String, end: u32, to: u32| {
             if to > end {
-                writeln!(code, "    pub padding_{end}: [u32; {}],", (to - end) / 4)
-                    .expect("a string");
+                writeln!(code, "    pub padding_{end}: [u32; {}],", (to - end) / 4).expect("a string");
             }
         };
         for (name, of, offset) in &self.members {
@@ -606,34 +570,20 @@ include!(concat!(env!(\"OUT_DIR\"), \"/spirv.rs\"));
 ";
 
 fn binding(number: u32, binding: &Binding) -> String {
-    format!(
-        "Binding::new({number}, {:?}, Kind::{}, {})",
-        binding.name, binding.kind, binding.count
-    )
+    format!("Binding::new({number}, {:?}, Kind::{}, {})", binding.name, binding.kind, binding.count)
 }
 
 /// Module with the bindings of a set, and with a list of them where it is `lent` to hosts.
 fn set_module(name: &str, what: &str, bound: &[(u32, &Binding)], lent: bool) -> String {
-    let mut code =
-        format!("\n/// {what}\npub mod {name} {{\n    use super::{{Binding, Kind}};\n\n");
+    let mut code = format!("\n/// {what}\npub mod {name} {{\n    use super::{{Binding, Kind}};\n\n");
     let mut all = String::new();
     for (number, bound) in bound {
         let name = bound.name.to_uppercase();
-        writeln!(
-            code,
-            "    pub const {name}: Binding = {};",
-            binding(*number, bound)
-        )
-        .expect("a string");
+        writeln!(code, "    pub const {name}: Binding = {};", binding(*number, bound)).expect("a string");
         writeln!(all, "        {name},").expect("a string");
     }
     if lent {
-        writeln!(
-            code,
-            "    pub const ALL: [Binding; {}] = [\n{all}    ];",
-            bound.len()
-        )
-        .expect("a string");
+        writeln!(code, "    pub const ALL: [Binding; {}] = [\n{all}    ];", bound.len()).expect("a string");
     }
     code + "}\n"
 }
@@ -643,16 +593,8 @@ pub fn rust(all: &[Compiled], numbers: &str) -> String {
     let shaders = shaders(all);
     let mut code = HEAD.to_owned();
     let frame = frame_set(&shaders);
-    let bound: Vec<_> = frame
-        .iter()
-        .map(|(number, bound)| (*number, bound))
-        .collect();
-    code += &set_module(
-        "frame_set",
-        "The sets that the passes of a frame share.",
-        &bound,
-        false,
-    );
+    let bound: Vec<_> = frame.iter().map(|(number, bound)| (*number, bound)).collect();
+    code += &set_module("frame_set", "The sets that the passes of a frame share.", &bound, false);
     let mut blocks: Vec<(String, Block)> = Vec::new();
     let mut pushed: Vec<(String, Block)> = Vec::new();
     for (name, shader) in &shaders {
@@ -660,12 +602,8 @@ pub fn rust(all: &[Compiled], numbers: &str) -> String {
     }
     let own = shaders.iter().filter(|(_, shader)| !shader.lent);
     let all: Vec<_> = own.map(|(name, _)| camel(name)).collect();
-    writeln!(
-        code,
-        "\n/// Interfaces of all shaders.\npub const INTERFACES: [&Interface; {}] = [",
-        all.len()
-    )
-    .expect("a string");
+    writeln!(code, "\n/// Interfaces of all shaders.\npub const INTERFACES: [&Interface; {}] = [", all.len())
+        .expect("a string");
     for name in all {
         writeln!(code, "    {name}::INTERFACE,").expect("a string");
     }
@@ -679,13 +617,7 @@ fn of_shader(
     blocks: &mut Vec<(String, Block)>,
     pushed: &mut Vec<(String, Block)>,
 ) -> String {
-    let Shader {
-        source,
-        in_frame,
-        lent,
-        variants,
-        interface,
-    } = shader;
+    let Shader { source, in_frame, lent, variants, interface } = shader;
     let mut code = String::new();
     let title = camel(name);
     for bound in interface.bindings.values() {
@@ -701,11 +633,7 @@ fn of_shader(
             "UNIFORM_BUFFER" => ("The uniform block", 16),
             _ => ("An element of the buffer", 4),
         };
-        code += &block.rust(
-            &block.name,
-            &format!("{what} `{}`, as in `shaders/{source}`.", bound.name),
-            multiple,
-        );
+        code += &block.rust(&block.name, &format!("{what} `{}`, as in `shaders/{source}`.", bound.name), multiple);
         blocks.push((block.name.clone(), block.clone()));
     }
     let push_type = match interface.push {
@@ -714,16 +642,10 @@ fn of_shader(
     };
     let push = interface.push.as_ref().map(|push| {
         let name = push_type.clone();
-        match pushed
-            .iter()
-            .find(|(_, known)| known.members == push.members)
-        {
+        match pushed.iter().find(|(_, known)| known.members == push.members) {
             Some((known, _)) => {
-                writeln!(
-                    code,
-                    "\n/// What is pushed to `shaders/{source}`.\npub type {name} = {known};"
-                )
-                .expect("a string");
+                writeln!(code, "\n/// What is pushed to `shaders/{source}`.\npub type {name} = {known};")
+                    .expect("a string");
             }
             None => {
                 code += &push.rust(&name, &format!("What is pushed to `shaders/{source}`."), 4);
@@ -738,11 +660,7 @@ fn of_shader(
     }
     let is_frames = |set: u32| set < 2 && *in_frame;
     for (_, bound) in by_set.iter().filter(|(set, _)| !is_frames(**set)) {
-        let beside = if *in_frame {
-            "beside the frame's"
-        } else {
-            "of its own"
-        };
+        let beside = if *in_frame { "beside the frame's" } else { "of its own" };
         let what = if *lent {
             format!("The set of `shaders/{source}`, which hosts' shaders bind.")
         } else {
@@ -771,14 +689,10 @@ fn of_shader(
         for constant in constants.clone() {
             writeln!(code, "    pub {}: {},", constant.name, constant.kind).expect("a string");
         }
-        writeln!(
-            code,
-            "}}\n\nimpl Default for {title} {{\n    fn default() -> Self {{\n        Self {{"
-        )
-        .expect("a string");
+        writeln!(code, "}}\n\nimpl Default for {title} {{\n    fn default() -> Self {{\n        Self {{")
+            .expect("a string");
         for constant in constants {
-            writeln!(code, "            {}: {},", constant.name, constant.default)
-                .expect("a string");
+            writeln!(code, "            {}: {},", constant.name, constant.default).expect("a string");
         }
         code += "        }\n    }\n}\n";
     }
@@ -795,18 +709,13 @@ fn of_shader(
                 (false, true) => "Write",
                 _ => "Read",
             };
-            writeln!(
-                code,
-                "            Use {{ set: {set}, binding: {what}, access: Access::{access} }},"
-            )
-            .expect("a string");
+            writeln!(code, "            Use {{ set: {set}, binding: {what}, access: Access::{access} }},")
+                .expect("a string");
         }
     }
     let invocations = match (interface.local_size, interface.constants.get(&0)) {
         (Some(size), _) => format!("Invocations::Fixed({size})"),
-        (None, Some(constant)) if constant.name == "local_size" => {
-            "Invocations::Constant".to_owned()
-        }
+        (None, Some(constant)) if constant.name == "local_size" => "Invocations::Constant".to_owned(),
         _ => "Invocations::Drawn".to_owned(),
     };
     writeln!(
@@ -820,21 +729,19 @@ fn of_shader(
         .constants
         .iter()
         .map(|(id, constant)| {
-            let how = if constant.kind == "bool" {
-                "flag"
-            } else {
-                "with"
-            };
+            let how = if constant.kind == "bool" { "flag" } else { "with" };
             format!("\n            .{how}({id}, self.{})", constant.name)
         })
         .collect();
-    writeln!(
-        code,
-        "\n    fn constants(&self) -> Constants {{\n        Constants::new(){values}\n    }}\n}}"
-    )
-    .expect("a string");
+    writeln!(code, "\n    fn constants(&self) -> Constants {{\n        Constants::new(){values}\n    }}\n}}")
+        .expect("a string");
     if let [variant] = variants[..] {
-        writeln!(code, "\nimpl Compiled for {title} {{\n    fn code() -> &'static [u8] {{\n        {}\n    }}\n}}", variant.to_uppercase()).expect("a string");
+        writeln!(
+            code,
+            "\nimpl Compiled for {title} {{\n    fn code() -> &'static [u8] {{\n        {}\n    }}\n}}",
+            variant.to_uppercase()
+        )
+        .expect("a string");
     }
     code
 }
@@ -865,9 +772,7 @@ fn of_numbers(numbers: &str) -> String {
     code += "    ];\n}\n\n";
     let known = ["COUNTER_", "ARGUMENT_", "BINDING_", "CONSTANT_", "SET_"];
     for (name, value) in defines(numbers, "") {
-        let is_known = known
-            .iter()
-            .any(|part| name.starts_with(part) || name.contains(&format!("_{part}")));
+        let is_known = known.iter().any(|part| name.starts_with(part) || name.contains(&format!("_{part}")));
         if !is_known {
             writeln!(code, "pub const {name}: u32 = {value};").expect("a string");
         }

@@ -28,9 +28,7 @@ const HEIGHT: u32 = 360;
 
 fn main() -> anyhow::Result<()> {
     let [scene, out] = arguments::paths("embed [SCENE [OUT.png]]");
-    let scene = scene.unwrap_or_else(|| {
-        PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/spheres.glb"))
-    });
+    let scene = scene.unwrap_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/spheres.glb")));
     let out = out.unwrap_or_else(|| "embed.png".into());
 
     let app = App::new()?;
@@ -85,22 +83,16 @@ impl App {
 
             let mut features = Requirements::features13();
             // Conditional rendering skips rounds of superpixels that are not needed.
-            let conditional_rendering =
-                Requirements::has_conditional_rendering(&instance, physical_device);
-            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
-                .conditional_rendering(true);
+            let conditional_rendering = Requirements::has_conditional_rendering(&instance, physical_device);
+            let mut conditional =
+                vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
             let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
             let priorities = [1.0];
-            let queues = [vk::DeviceQueueCreateInfo::default()
-                .queue_family_index(queue_family)
-                .queue_priorities(&priorities)];
-            let mut info = vk::DeviceCreateInfo::default()
-                .queue_create_infos(&queues)
-                .push_next(&mut features);
+            let queues =
+                [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&priorities)];
+            let mut info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
             if conditional_rendering {
-                info = info
-                    .enabled_extension_names(&extensions)
-                    .push_next(&mut conditional);
+                info = info.enabled_extension_names(&extensions).push_next(&mut conditional);
             }
             let device = instance.create_device(physical_device, &info, None)?;
             let info = vk::CommandPoolCreateInfo::default().queue_family_index(queue_family);
@@ -128,36 +120,22 @@ impl App {
 
     /// Renders a scene to rows of sRGB-encoded RGBA bytes.
     fn render(&self, scene: &Scene) -> anyhow::Result<Vec<u8>> {
-        let mut host = Host::new(
-            self.instance.clone(),
-            self.physical_device,
-            self.device.clone(),
-            self.queue_family,
-        );
-        host.memory = self
-            .allocator
-            .clone()
-            .map_or(MemorySource::Own, MemorySource::Shared);
+        let mut host = Host::new(self.instance.clone(), self.physical_device, self.device.clone(), self.queue_family);
+        host.memory = self.allocator.clone().map_or(MemorySource::Own, MemorySource::Shared);
         host.conditional_rendering = self.conditional_rendering;
         // SAFETY: the handles belong together, the features are enabled, and `self` outlives the renderer.
         let renderer = unsafe { Renderer::new(host) }?;
 
         // Everything that can fail happens here: memory, pipelines, limits.
         let pose = scene.pose(&PoseRequest::default())?;
-        let settings = Settings::new(WIDTH, HEIGHT)
-            .background(Some([0.2, 0.3, 0.5]))
-            .shadows(Shadows::Exact);
-        let (low, high) = pose
-            .geometry
-            .bounds()
-            .context("the scene has no triangles")?;
+        let settings = Settings::new(WIDTH, HEIGHT).background(Some([0.2, 0.3, 0.5])).shadows(Shadows::Exact);
+        let (low, high) = pose.geometry.bounds().context("the scene has no triangles")?;
         let camera = match pose.cameras.first() {
             Some(camera) => Camera::from_scene(camera),
             None => Orbit::default().frame(low, high, f64::from(WIDTH) / f64::from(HEIGHT))?,
         };
-        let request = SceneRequest::new(scene, &pose)
-            .shadowed(settings.scene.shadows)
-            .within(settings.scene.max_memory);
+        let request =
+            SceneRequest::new(scene, &pose).shadowed(settings.scene.shadows).within(settings.scene.max_memory);
         let prepared = renderer.prepare_scene(request)?;
         let mut frame = renderer.prepare(&prepared, &settings, Some(Encoding::Rgba8))?;
         let target = OwnImage::new(self)?;
@@ -191,11 +169,7 @@ impl App {
 
         // The commands have run: statistics can be read, and `frame` may be recorded again.
         let statistics = frame.statistics()?;
-        println!(
-            "{} superpixels, {:.1} ms on the GPU",
-            statistics.superpixels,
-            statistics.gpu_ms()
-        );
+        println!("{} superpixels, {:.1} ms on the GPU", statistics.superpixels, statistics.gpu_ms());
         target.into_pixels()
     }
 
@@ -203,19 +177,15 @@ impl App {
     fn submit(&self, record: impl FnOnce(vk::CommandBuffer)) -> anyhow::Result<()> {
         // SAFETY: plain use of handles that live as long as `self`; the queue is used by this thread alone.
         unsafe {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);
             let buffers = self.device.allocate_command_buffers(&info)?;
             let commands = *buffers.first().context("no command buffer")?;
-            let begin = vk::CommandBufferBeginInfo::default()
-                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
             self.device.begin_command_buffer(commands, &begin)?;
             record(commands);
             self.device.end_command_buffer(commands)?;
             let submitted = [vk::SubmitInfo::default().command_buffers(&buffers)];
-            self.device
-                .queue_submit(self.queue, &submitted, vk::Fence::null())?;
+            self.device.queue_submit(self.queue, &submitted, vk::Fence::null())?;
             self.device.queue_wait_idle(self.queue)?;
             self.device.free_command_buffers(self.pool, &buffers);
         }
@@ -250,11 +220,7 @@ impl<'a> OwnImage<'a> {
             let info = vk::ImageCreateInfo::default()
                 .image_type(vk::ImageType::TYPE_2D)
                 .format(vk::Format::R8G8B8A8_UNORM)
-                .extent(vk::Extent3D {
-                    width: WIDTH,
-                    height: HEIGHT,
-                    depth: 1,
-                })
+                .extent(vk::Extent3D { width: WIDTH, height: HEIGHT, depth: 1 })
                 .mip_levels(1)
                 .array_layers(1)
                 .samples(vk::SampleCountFlags::TYPE_1)
@@ -266,12 +232,7 @@ impl<'a> OwnImage<'a> {
                 .size(u64::from(WIDTH * HEIGHT * 4))
                 .usage(vk::BufferUsageFlags::TRANSFER_DST);
             let buffer = app.device.create_buffer(&info, None)?;
-            let mut own = Self {
-                app,
-                image,
-                buffer,
-                memory: Vec::new(),
-            };
+            let mut own = Self { app, image, buffer, memory: Vec::new() };
             let needs = app.device.get_image_memory_requirements(image);
             let (memory, offset) = own.allocate(needs, MemoryLocation::GpuOnly)?;
             app.device.bind_image_memory(image, memory, offset)?;
@@ -288,16 +249,15 @@ impl<'a> OwnImage<'a> {
         location: MemoryLocation,
     ) -> anyhow::Result<(vk::DeviceMemory, u64)> {
         let shared = self.app.allocator.as_ref().context("no allocator")?;
-        let allocation = shared
-            .lock()
-            .map_err(|_| anyhow!("the allocator's lock is poisoned"))?
-            .allocate(&AllocationCreateDesc {
+        let allocation = shared.lock().map_err(|_| anyhow!("the allocator's lock is poisoned"))?.allocate(
+            &AllocationCreateDesc {
                 name: "host",
                 requirements,
                 location,
                 linear: location == MemoryLocation::GpuToCpu,
                 allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-            })?;
+            },
+        )?;
         // SAFETY: the memory is bound and freed through this allocation alone.
         let placed = (unsafe { allocation.memory() }, allocation.offset());
         self.memory.push(allocation);
@@ -316,11 +276,7 @@ impl<'a> OwnImage<'a> {
                 base_array_layer: 0,
                 layer_count: 1,
             })
-            .image_extent(vk::Extent3D {
-                width: WIDTH,
-                height: HEIGHT,
-                depth: 1,
-            });
+            .image_extent(vk::Extent3D { width: WIDTH, height: HEIGHT, depth: 1 });
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::COPY)
             .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)

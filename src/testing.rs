@@ -6,12 +6,11 @@
 //! duties of everything that follows, so that safe code outside of the crate can't cause undefined behaviour.
 
 pub use crate::engine::data::{
-    Argument, CellSizes, Cells, Content, Counter, FrameUniform, ListedLocation, LocationSizes,
-    Offsets, ResourceSizes, Resources,
+    Argument, CellSizes, Cells, Content, Counter, FrameUniform, ListedLocation, LocationSizes, Offsets, ResourceSizes,
+    Resources,
 };
 pub use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks,
-    SampleOptions,
+    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks, SampleOptions,
 };
 pub use crate::engine::pipelines::{FrameLayout, Pass};
 pub use crate::engine::sampler::Load;
@@ -47,13 +46,6 @@ pub unsafe fn frame_layout(gpu: &Arc<Gpu>) -> Result<Arc<FrameLayout>, VulkanErr
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub fn load_passes(
-    layout: &FrameLayout,
-    cells: Cells,
-    load: &Load,
-) -> Result<[Pass; 2], VulkanError> {
-    Ok([
-        tally::pass(layout, cells, load.pushed())?,
-        schedule::pass(layout, cells, load.pushed())?,
-    ])
+pub fn load_passes(layout: &FrameLayout, cells: Cells, load: &Load) -> Result<[Pass; 2], VulkanError> {
+    Ok([tally::pass(layout, cells, load.pushed())?, schedule::pass(layout, cells, load.pushed())?])
 }

@@ -4,9 +4,7 @@ use crate::Failure;
 use ash::vk;
 use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator};
 use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::{
-    Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
-};
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc};
 use std::ffi::CStr;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,9 +40,8 @@ impl Device {
         unsafe {
             let entry = ash::Entry::load()?;
             let application = vk::ApplicationInfo::default().api_version(Requirements::API_VERSION);
-            let info = vk::InstanceCreateInfo::default()
-                .application_info(&application)
-                .enabled_extension_names(&of_instance);
+            let info =
+                vk::InstanceCreateInfo::default().application_info(&application).enabled_extension_names(&of_instance);
             let instance = entry.create_instance(&info, None)?;
             let (physical, family) = instance
                 .enumerate_physical_devices()?
@@ -54,19 +51,17 @@ impl Device {
                 .ok_or("no suitable device")?;
             let mut features13 = Requirements::features13();
             // Conditional rendering skips rounds of superpixels that are not needed.
-            let conditional_rendering =
-                Requirements::has_conditional_rendering(&instance, physical);
-            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
-                .conditional_rendering(true);
+            let conditional_rendering = Requirements::has_conditional_rendering(&instance, physical);
+            let mut conditional =
+                vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
             if conditional_rendering {
                 extensions.push(ash::ext::conditional_rendering::NAME.as_ptr());
             }
             // The host's own fragment shader needs this feature for gl_PrimitiveID.
             let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
             let priorities = [1.0];
-            let queues = [vk::DeviceQueueCreateInfo::default()
-                .queue_family_index(family)
-                .queue_priorities(&priorities)];
+            let queues =
+                [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];
             let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_features(&features)
@@ -104,16 +99,8 @@ impl Device {
 
     /// Handles that the library is lent.
     pub fn lent(&self) -> Host {
-        let mut host = Host::new(
-            self.instance.clone(),
-            self.physical,
-            self.raw.clone(),
-            self.family,
-        );
-        host.memory = self
-            .allocator
-            .clone()
-            .map_or(MemorySource::Own, MemorySource::Shared);
+        let mut host = Host::new(self.instance.clone(), self.physical, self.raw.clone(), self.family);
+        host.memory = self.allocator.clone().map_or(MemorySource::Own, MemorySource::Shared);
         host.conditional_rendering = self.conditional_rendering.is_some();
         host
     }
@@ -151,14 +138,8 @@ impl Device {
             let raw = self.raw.create_buffer(&info, None)?;
             let needs = self.raw.get_buffer_memory_requirements(raw);
             let memory = self.allocate(needs, MemoryLocation::CpuToGpu, true)?;
-            self.raw
-                .bind_buffer_memory(raw, memory.memory(), memory.offset())?;
-            Ok(Buffer {
-                device: self,
-                raw,
-                bytes,
-                memory: Some(memory),
-            })
+            self.raw.bind_buffer_memory(raw, memory.memory(), memory.offset())?;
+            Ok(Buffer { device: self, raw, bytes, memory: Some(memory) })
         }
     }
 
@@ -182,11 +163,7 @@ impl Device {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
-            .extent(vk::Extent3D {
-                width,
-                height,
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(levels)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -196,8 +173,7 @@ impl Device {
             let raw = self.raw.create_image(&info, None)?;
             let needs = self.raw.get_image_memory_requirements(raw);
             let memory = self.allocate(needs, MemoryLocation::GpuOnly, false)?;
-            self.raw
-                .bind_image_memory(raw, memory.memory(), memory.offset())?;
+            self.raw.bind_image_memory(raw, memory.memory(), memory.offset())?;
             let info = vk::ImageViewCreateInfo::default()
                 .image(raw)
                 .view_type(vk::ImageViewType::TYPE_2D)
@@ -220,23 +196,16 @@ impl Device {
     }
 
     /// Records, submits and waits.
-    pub fn run(
-        &self,
-        record: impl FnOnce(vk::CommandBuffer) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+    pub fn run(&self, record: impl FnOnce(vk::CommandBuffer) -> Result<(), Failure>) -> Result<(), Failure> {
         // SAFETY: plain use of handles that live as long as `self`; the queue is used by this thread alone.
         unsafe {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);
             let buffers = self.raw.allocate_command_buffers(&info)?;
-            self.raw
-                .begin_command_buffer(buffers[0], &vk::CommandBufferBeginInfo::default())?;
+            self.raw.begin_command_buffer(buffers[0], &vk::CommandBufferBeginInfo::default())?;
             record(buffers[0])?;
             self.raw.end_command_buffer(buffers[0])?;
             let submitted = [vk::SubmitInfo::default().command_buffers(&buffers)];
-            self.raw
-                .queue_submit(self.queue, &submitted, vk::Fence::null())?;
+            self.raw.queue_submit(self.queue, &submitted, vk::Fence::null())?;
             self.raw.queue_wait_idle(self.queue)?;
             self.raw.free_command_buffers(self.pool, &buffers);
         }
@@ -348,22 +317,13 @@ impl Image {
             }
             sum.map(|sum| sum / (side * side) as f32)
         };
-        Self {
-            size,
-            colors: (0..width * height)
-                .map(|i| mean(i % width, i / width))
-                .collect(),
-        }
+        Self { size, colors: (0..width * height).map(|i| mean(i % width, i / width)).collect() }
     }
 
     fn codes(&self) -> impl Iterator<Item = f64> {
         self.colors.iter().flatten().map(|&linear| {
             let linear = f64::from(linear).clamp(0.0, 1.0);
-            if linear <= 0.003_130_8 {
-                12.92 * linear
-            } else {
-                1.055 * linear.powf(1.0 / 2.4) - 0.055
-            }
+            if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
         })
     }
 
@@ -375,10 +335,7 @@ impl Image {
     }
 
     pub fn save(&self, path: &Path) -> Result<(), Failure> {
-        let bytes: Vec<u8> = self
-            .codes()
-            .map(|code| (255.0 * code).round() as u8)
-            .collect();
+        let bytes: Vec<u8> = self.codes().map(|code| (255.0 * code).round() as u8).collect();
         let [width, height] = self.size;
         let file = std::io::BufWriter::new(std::fs::File::create(path)?);
         let mut encoder = png::Encoder::new(file, width, height);

@@ -51,26 +51,17 @@ impl<'a> Lens<'a> {
                 .stage_flags(vk::ShaderStageFlags::COMPUTE)];
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
             let layouts = [raw.create_descriptor_set_layout(&info, None)?];
-            let sizes = [vk::DescriptorPoolSize {
-                ty: vk::DescriptorType::STORAGE_BUFFER,
-                descriptor_count: 1,
-            }];
-            let info = vk::DescriptorPoolCreateInfo::default()
-                .max_sets(1)
-                .pool_sizes(&sizes);
+            let sizes = [vk::DescriptorPoolSize { ty: vk::DescriptorType::STORAGE_BUFFER, descriptor_count: 1 }];
+            let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
             let pool = raw.create_descriptor_pool(&info, None)?;
-            let info = vk::DescriptorSetAllocateInfo::default()
-                .descriptor_pool(pool)
-                .set_layouts(&layouts);
+            let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
             let set = raw.allocate_descriptor_sets(&info)?[0];
             let push = [vk::PushConstantRange {
                 stage_flags: vk::ShaderStageFlags::COMPUTE,
                 offset: 0,
                 size: size_of::<Push>() as u32,
             }];
-            let info = vk::PipelineLayoutCreateInfo::default()
-                .set_layouts(&layouts)
-                .push_constant_ranges(&push);
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&push);
             let layout = raw.create_pipeline_layout(&info, None)?;
             Ok(Self {
                 device,
@@ -94,27 +85,15 @@ impl<'a> Lens<'a> {
         let most_rows = (MOST_LOCATIONS / row).clamp(1, height);
         let capacity = most_rows * row;
         let bytes = size_of::<Location>() as u64 * u64::from(capacity);
-        let usage =
-            vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
         let locations = self.device.buffer(bytes, usage)?;
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let colors = self.device.buffer(16 * u64::from(capacity), usage)?;
-        let lent = LocationList {
-            locations: locations.raw,
-            offset: 0,
-            capacity,
-            colors: colors.raw,
-            colors_offset: 0,
-        };
+        let lent = LocationList { locations: locations.raw, offset: 0, capacity, colors: colors.raw, colors_offset: 0 };
         let geometry = self.slot.geometry(self.world);
         // SAFETY: the buffers have the stated contents, and outlive the list.
-        let mut list = unsafe {
-            self.antialiaser
-                .prepare_list(&geometry, &lent, &ListOptions::from(options))
-        }?;
-        let info = [vk::DescriptorBufferInfo::default()
-            .buffer(locations.raw)
-            .range(vk::WHOLE_SIZE)];
+        let mut list = unsafe { self.antialiaser.prepare_list(&geometry, &lent, &ListOptions::from(options)) }?;
+        let info = [vk::DescriptorBufferInfo::default().buffer(locations.raw).range(vk::WHOLE_SIZE)];
         let writes = [vk::WriteDescriptorSet::default()
             .dst_set(self.set)
             .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
@@ -122,18 +101,11 @@ impl<'a> Lens<'a> {
         // SAFETY: commands that used the set were waited for; the buffer outlives those that will use it.
         unsafe { self.device.raw.update_descriptor_sets(&writes, &[]) };
 
-        let mut picture = Image {
-            size: options.size,
-            colors: Vec::new(),
-        };
+        let mut picture = Image { size: options.size, colors: Vec::new() };
         for first_row in (0..height).step_by(most_rows as usize) {
             let rows = most_rows.min(height - first_row);
             let count = rows * row;
-            let push = Push {
-                size: options.size,
-                side,
-                first_row,
-            };
+            let push = Push { size: options.size, side, first_row };
             self.device.run(|commands| {
                 // SAFETY: the commands are waited for, and everything that they use outlives them.
                 unsafe { self.record(commands, &mut list, &push, count) }
@@ -165,13 +137,7 @@ impl<'a> Lens<'a> {
         unsafe {
             raw.cmd_bind_pipeline(commands, compute, self.pipeline);
             raw.cmd_bind_descriptor_sets(commands, compute, self.layout, 0, &[self.set], &[]);
-            raw.cmd_push_constants(
-                commands,
-                self.layout,
-                vk::ShaderStageFlags::COMPUTE,
-                0,
-                bytes,
-            );
+            raw.cmd_push_constants(commands, self.layout, vk::ShaderStageFlags::COMPUTE, 0, bytes);
             raw.cmd_dispatch(commands, count.div_ceil(64), 1, 1);
             list.record(commands, &self.world.draws, count, &materials)?;
             self.device.show_to_host(commands);

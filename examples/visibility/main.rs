@@ -69,13 +69,7 @@ fn main() -> Result<(), Failure> {
                 slot.resize(&pipelines, size)?;
             }
         } else {
-            slots.push(Slot::new(
-                &device,
-                &world,
-                &pipelines,
-                size,
-                Some((&antialiaser, &options(size))),
-            )?);
+            slots.push(Slot::new(&device, &world, &pipelines, size, Some((&antialiaser, &options(size))))?);
         }
         let slot = &mut slots[index];
         slot.show(&world, time(frame), camera(size))?;
@@ -108,18 +102,9 @@ fn main() -> Result<(), Failure> {
         slot.pixels(side)
     };
     let reference = last(REFERENCE, None)?;
-    let images = [
-        &last(1, None)?,
-        &last(BRUTE, None)?,
-        &own,
-        &last(1, Some(&placed))?,
-        &last(1, Some(&each))?,
-    ];
+    let images = [&last(1, None)?, &last(BRUTE, None)?, &own, &last(1, Some(&placed))?, &last(1, Some(&each))?];
     print_errors("", &reference, images);
-    println!(
-        "share of superpixels: {:.4}",
-        superpixels as f64 / f64::from(SIZE[0] * SIZE[1])
-    );
+    println!("share of superpixels: {:.4}", superpixels as f64 / f64::from(SIZE[0] * SIZE[1]));
     own.save(&out)?;
     println!("{}", out.display());
 

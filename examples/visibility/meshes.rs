@@ -71,12 +71,7 @@ struct Builder {
 impl Builder {
     /// Adds a mesh over a grid; `at` gives position and normal for u and v from 0 to 1. Front faces are on the side of
     /// the normal.
-    fn grid(
-        &mut self,
-        [columns, rows]: [u32; 2],
-        repeat: [f32; 2],
-        at: impl Fn(f32, f32) -> (Vec3, Vec3),
-    ) -> Mesh {
+    fn grid(&mut self, [columns, rows]: [u32; 2], repeat: [f32; 2], at: impl Fn(f32, f32) -> (Vec3, Vec3)) -> Mesh {
         let (first_vertex, first_index) = (self.vertices.len() as u32, self.indices.len() as u32);
         for row in 0..=rows {
             for column in 0..=columns {
@@ -97,12 +92,7 @@ impl Builder {
                 self.indices.extend([a, b, d, a, d, c]);
             }
         }
-        Mesh {
-            first_vertex,
-            vertex_count: (columns + 1) * (rows + 1),
-            first_index,
-            triangle_count: 2 * columns * rows,
-        }
+        Mesh { first_vertex, vertex_count: (columns + 1) * (rows + 1), first_index, triangle_count: 2 * columns * rows }
     }
 
     fn torus(&mut self, thickness: f32, cells: [u32; 2]) -> Mesh {
@@ -118,9 +108,7 @@ impl Builder {
 impl<'a> World<'a> {
     pub fn new(device: &'a Device) -> Result<Self, Failure> {
         let mut builder = Builder::default();
-        let floor = builder.grid([8, 8], [1.0; 2], |u, v| {
-            (Vec3::new(16.0 * v - 8.0, 0.0, 16.0 * u - 8.0), Vec3::Y)
-        });
+        let floor = builder.grid([8, 8], [1.0; 2], |u, v| (Vec3::new(16.0 * v - 8.0, 0.0, 16.0 * u - 8.0), Vec3::Y));
         let ring = builder.torus(0.3, [96, 32]);
         let wire = builder.torus(0.006, [128, 6]);
         let fence = builder.grid([48, 1], [30.0, 3.0], |u, v| {
@@ -141,10 +129,7 @@ impl<'a> World<'a> {
         let mut posed = 0;
         for (index, &(mesh, key)) in parts.iter().enumerate() {
             table.push([draw_of.len() as u32, mesh.first_index, posed, key]);
-            draw_of.extend(std::iter::repeat_n(
-                index as u32,
-                mesh.triangle_count as usize,
-            ));
+            draw_of.extend(std::iter::repeat_n(index as u32, mesh.triangle_count as usize));
             draws.push(Draw {
                 first_index: mesh.first_index,
                 triangle_count: mesh.triangle_count,
@@ -202,13 +187,9 @@ impl<'a> World<'a> {
             match key {
                 WAVES => Mat4::IDENTITY,
                 BRICKS => {
-                    let turn = Quat::from_rotation_y(time + number)
-                        * Quat::from_rotation_x(0.9 + 0.7 * number + 0.5 * time);
-                    let at = Vec3::new(
-                        2.0 * (number - 3.0),
-                        1.0 + 0.2 * (number + time).sin(),
-                        -0.6 * (number % 2.0),
-                    );
+                    let turn =
+                        Quat::from_rotation_y(time + number) * Quat::from_rotation_x(0.9 + 0.7 * number + 0.5 * time);
+                    let at = Vec3::new(2.0 * (number - 3.0), 1.0 + 0.2 * (number + time).sin(), -0.6 * (number % 2.0));
                     Mat4::from_rotation_translation(turn, at) * Mat4::from_scale(Vec3::splat(0.7))
                 }
                 FENCE => Mat4::from_rotation_y(0.1 * time),

@@ -62,15 +62,9 @@ impl<'a> Pipelines<'a> {
                 .collect();
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
             let set_layout = raw.create_descriptor_set_layout(&info, None)?;
-            let push = [vk::PushConstantRange {
-                stage_flags: all,
-                offset: 0,
-                size: 16,
-            }];
+            let push = [vk::PushConstantRange { stage_flags: all, offset: 0, size: 16 }];
             let sets = [set_layout];
-            let info = vk::PipelineLayoutCreateInfo::default()
-                .set_layouts(&sets)
-                .push_constant_ranges(&push);
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
             let layout = raw.create_pipeline_layout(&info, None)?;
             let sets = [samples_set, set_layout];
             let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
@@ -96,10 +90,7 @@ impl<'a> Pipelines<'a> {
             let stages = [&spirv!("ids_vertex")[..], &spirv!("ids_fragment")[..]];
             let back = vk::CullModeFlags::BACK;
             pipelines.ids = pipelines.graphics(stages, IDS, Some(DEPTH), back)?;
-            let stages = [
-                &spirv!("ids_masked_vertex")[..],
-                &spirv!("ids_masked_fragment")[..],
-            ];
+            let stages = [&spirv!("ids_masked_vertex")[..], &spirv!("ids_masked_fragment")[..]];
             let none = vk::CullModeFlags::NONE;
             pipelines.ids_masked = pipelines.graphics(stages, IDS, Some(DEPTH), none)?;
             let stages = [&spirv!("screen_vertex")[..], &spirv!("screen_fragment")[..]];
@@ -128,21 +119,10 @@ impl<'a> Pipelines<'a> {
     ///
     /// # Safety
     /// Code and layout match.
-    pub unsafe fn compute(
-        &self,
-        code: &[u8],
-        layout: vk::PipelineLayout,
-        key: u32,
-    ) -> Result<vk::Pipeline, Failure> {
-        let map = [vk::SpecializationMapEntry {
-            constant_id: 0,
-            offset: 0,
-            size: 4,
-        }];
+    pub unsafe fn compute(&self, code: &[u8], layout: vk::PipelineLayout, key: u32) -> Result<vk::Pipeline, Failure> {
+        let map = [vk::SpecializationMapEntry { constant_id: 0, offset: 0, size: 4 }];
         let data = key.to_ne_bytes();
-        let specialization = vk::SpecializationInfo::default()
-            .map_entries(&map)
-            .data(&data);
+        let specialization = vk::SpecializationInfo::default().map_entries(&map).data(&data);
         // SAFETY: guaranteed by the caller; a module may be destroyed once its pipeline is made.
         unsafe {
             let module = self.module(code)?;
@@ -151,13 +131,8 @@ impl<'a> Pipelines<'a> {
                 .module(module)
                 .name(c"main")
                 .specialization_info(&specialization);
-            let info = [vk::ComputePipelineCreateInfo::default()
-                .layout(layout)
-                .stage(stage)];
-            let made =
-                self.device
-                    .raw
-                    .create_compute_pipelines(vk::PipelineCache::null(), &info, None);
+            let info = [vk::ComputePipelineCreateInfo::default().layout(layout).stage(stage)];
+            let made = self.device.raw.create_compute_pipelines(vk::PipelineCache::null(), &info, None);
             self.device.raw.destroy_shader_module(module, None);
             Ok(made.map_err(|(_, error)| error)?[0])
         }
@@ -176,34 +151,26 @@ impl<'a> Pipelines<'a> {
     ) -> Result<vk::Pipeline, Failure> {
         // SAFETY: guaranteed by the caller.
         let modules = unsafe { [self.module(vertex)?, self.module(fragment)?] };
-        let stage = |stage, module| {
-            vk::PipelineShaderStageCreateInfo::default()
-                .stage(stage)
-                .module(module)
-                .name(c"main")
-        };
-        let stages = [
-            stage(vk::ShaderStageFlags::VERTEX, modules[0]),
-            stage(vk::ShaderStageFlags::FRAGMENT, modules[1]),
-        ];
+        let stage =
+            |stage, module| vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main");
+        let stages =
+            [stage(vk::ShaderStageFlags::VERTEX, modules[0]), stage(vk::ShaderStageFlags::FRAGMENT, modules[1])];
         let input = vk::PipelineVertexInputStateCreateInfo::default();
-        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-        let viewport = vk::PipelineViewportStateCreateInfo::default()
-            .viewport_count(1)
-            .scissor_count(1);
+        let assembly =
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
             .cull_mode(cull)
             .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
-        let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let multisample =
+            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let tests = vk::PipelineDepthStencilStateCreateInfo::default()
             .depth_test_enable(depth.is_some())
             .depth_write_enable(depth.is_some())
             .depth_compare_op(vk::CompareOp::GREATER);
-        let attachments = [vk::PipelineColorBlendAttachmentState::default()
-            .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let attachments =
+            [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
@@ -236,10 +203,7 @@ impl<'a> Pipelines<'a> {
 
     /// The host's materials, as the library calls them; `set` is the host's.
     pub fn materials(&self, set: vk::DescriptorSet) -> Materials<'_> {
-        Materials {
-            pipelines: self,
-            set,
-        }
+        Materials { pipelines: self, set }
     }
 }
 
@@ -268,20 +232,12 @@ pub struct Materials<'a> {
 
 impl ShadeSamples for Materials<'_> {
     fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples) {
-        let Pipelines {
-            device,
-            samples_layout,
-            samples: pipelines,
-            ..
-        } = self.pipelines;
+        let Pipelines { device, samples_layout, samples: pipelines, .. } = self.pipelines;
         let raw = &device.raw;
         let sets = [samples.descriptor_set(), self.set];
         let compute = vk::PipelineBindPoint::COMPUTE;
         // Conditional rendering skips rounds that have nothing to do.
-        let skipping = device
-            .conditional_rendering
-            .as_ref()
-            .zip(samples.condition());
+        let skipping = device.conditional_rendering.as_ref().zip(samples.condition());
         // SAFETY: the command buffer is being recorded; sets and pipelines have compatible layouts and outlive its
         // execution. Conditional rendering that is begun is ended.
         unsafe {

@@ -7,8 +7,8 @@ use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Materials, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
-    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images, Indices,
-    LentImage, Mesh, Options, PositionSpace, Scenery,
+    Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images, Indices, LentImage, Mesh,
+    Options, PositionSpace, Scenery,
 };
 
 /// The library's frame for a slot.
@@ -70,12 +70,7 @@ impl<'a> Targets<'a> {
 }
 
 /// The kinds of images that the library is lent.
-const KINDS: ImageKinds = ImageKinds {
-    ids: true,
-    depth: true,
-    color_format: COLOR,
-    color_encoded: false,
-};
+const KINDS: ImageKinds = ImageKinds { ids: true, depth: true, color_format: COLOR, color_encoded: false };
 /// Background that the host draws. The lens, which has no image with a background, gets it as an option.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 
@@ -107,23 +102,14 @@ impl<'a> Slot<'a> {
         // SAFETY: plain creations on a live device. Handles that were made before a failure leak, but the program ends
         // then.
         let (commands, fence, pool, set) = unsafe {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(device.pool)
-                .command_buffer_count(1);
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(device.pool).command_buffer_count(1);
             let commands = raw.allocate_command_buffers(&info)?[0];
             let fence = raw.create_fence(&vk::FenceCreateInfo::default(), None)?;
-            let sizes = BINDINGS.map(|ty| vk::DescriptorPoolSize {
-                ty,
-                descriptor_count: 1,
-            });
-            let info = vk::DescriptorPoolCreateInfo::default()
-                .max_sets(1)
-                .pool_sizes(&sizes);
+            let sizes = BINDINGS.map(|ty| vk::DescriptorPoolSize { ty, descriptor_count: 1 });
+            let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
             let pool = raw.create_descriptor_pool(&info, None)?;
             let layouts = [pipelines.set_layout];
-            let info = vk::DescriptorSetAllocateInfo::default()
-                .descriptor_pool(pool)
-                .set_layouts(&layouts);
+            let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
             let set = raw.allocate_descriptor_sets(&info)?[0];
             (commands, fence, pool, set)
         };
@@ -137,11 +123,7 @@ impl<'a> Slot<'a> {
             &posed,
             &world.coordinates,
         ]
-        .map(|buffer| {
-            [vk::DescriptorBufferInfo::default()
-                .buffer(buffer.raw)
-                .range(vk::WHOLE_SIZE)]
-        });
+        .map(|buffer| [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)]);
         let images = [&world.bricks, &world.fence, &targets.ids].map(|texture| {
             [vk::DescriptorImageInfo::default()
                 .sampler(pipelines.sampler)
@@ -157,11 +139,7 @@ impl<'a> Slot<'a> {
         let writes: Vec<_> = (0..)
             .zip(&buffers)
             .map(|(binding, info)| write(binding).buffer_info(info))
-            .chain(
-                (buffers.len()..)
-                    .zip(&images)
-                    .map(|(binding, info)| write(binding).image_info(info)),
-            )
+            .chain((buffers.len()..).zip(&images).map(|(binding, info)| write(binding).image_info(info)))
             .collect();
         // SAFETY: the set is new; its buffers and images live as long as the slot.
         unsafe { raw.update_descriptor_sets(&writes, &[]) };
@@ -183,10 +161,7 @@ impl<'a> Slot<'a> {
             let geometry = slot.geometry(world);
             // SAFETY: buffers and alpha maps are as they say, and live as long as the slot.
             let frame = unsafe { antialiaser.prepare(&geometry, &KINDS, options) }?;
-            slot.antialiasing = Some(Antialiasing {
-                frame,
-                projection: Mat4::IDENTITY,
-            });
+            slot.antialiasing = Some(Antialiasing { frame, projection: Mat4::IDENTITY });
         }
         Ok(slot)
     }
@@ -222,11 +197,7 @@ impl<'a> Slot<'a> {
             positions_offset: 0,
             position_stride: 16,
             vertex_capacity: world.posed_count,
-            coordinates: Some(Coordinates {
-                buffer: world.coordinates.raw,
-                offset: 0,
-                stride: 8,
-            }),
+            coordinates: Some(Coordinates { buffer: world.coordinates.raw, offset: 0, stride: 8 }),
             indices: Some(Indices {
                 buffer: world.indices.raw,
                 offset: 0,
@@ -242,11 +213,7 @@ impl<'a> Slot<'a> {
             keys: KEYS,
             alpha_maps: vec![world.alpha_map()],
             blended: false,
-            clip: ClipSpace {
-                y_up: true,
-                reversed_depth: true,
-                ..ClipSpace::default()
-            },
+            clip: ClipSpace { y_up: true, reversed_depth: true, ..ClipSpace::default() },
         }
     }
 
@@ -281,12 +248,7 @@ impl<'a> Slot<'a> {
     }
 
     /// Sets the scene's time and view for the next frame. The slot's previous commands must have run.
-    pub fn show(
-        &mut self,
-        world: &World<'_>,
-        time: f32,
-        (camera, projection): (Mat4, Mat4),
-    ) -> Result<(), Failure> {
+    pub fn show(&mut self, world: &World<'_>, time: f32, (camera, projection): (Mat4, Mat4)) -> Result<(), Failure> {
         let instances = world.instances(time, camera);
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         self.instances.bytes_mut()?[..bytes.len()].copy_from_slice(bytes);
@@ -365,12 +327,7 @@ impl<'a> Slot<'a> {
         Ok(Image::means(self.targets.read_back.colors()?, size, side))
     }
 
-    unsafe fn bind(
-        &self,
-        point: vk::PipelineBindPoint,
-        pipelines: &Pipelines<'_>,
-        pipeline: vk::Pipeline,
-    ) {
+    unsafe fn bind(&self, point: vk::PipelineBindPoint, pipelines: &Pipelines<'_>, pipeline: vk::Pipeline) {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: guaranteed by the caller.
         unsafe {
@@ -383,13 +340,7 @@ impl<'a> Slot<'a> {
         let bytes = bytemuck::cast_slice(values);
         // SAFETY: guaranteed by the caller.
         unsafe {
-            self.device.raw.cmd_push_constants(
-                self.commands,
-                pipelines.layout,
-                vk::ShaderStageFlags::ALL,
-                0,
-                bytes,
-            );
+            self.device.raw.cmd_push_constants(self.commands, pipelines.layout, vk::ShaderStageFlags::ALL, 0, bytes);
         }
     }
 
@@ -432,14 +383,7 @@ impl<'a> Slot<'a> {
                 };
                 self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipeline);
                 self.push(pipelines, &[first_triangle]);
-                raw.cmd_draw_indexed(
-                    commands,
-                    3 * draw.triangle_count,
-                    1,
-                    draw.first_index,
-                    draw.vertex_offset,
-                    0,
-                );
+                raw.cmd_draw_indexed(commands, 3 * draw.triangle_count, 1, draw.first_index, draw.vertex_offset, 0);
                 first_triangle += draw.triangle_count;
             }
             raw.cmd_end_rendering(commands);
@@ -465,10 +409,7 @@ impl<'a> Slot<'a> {
     unsafe fn begin_rendering(&self, color: &Texture<'_>, depth: Option<&Texture<'_>>) {
         let (raw, commands) = (&self.device.raw, self.commands);
         let [width, height] = self.size;
-        let area = vk::Rect2D {
-            offset: vk::Offset2D::default(),
-            extent: vk::Extent2D { width, height },
-        };
+        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
         let attachment = |texture: &Texture<'_>, layout| {
             vk::RenderingAttachmentInfo::default()
                 .image_view(texture.view)
@@ -478,10 +419,7 @@ impl<'a> Slot<'a> {
         };
         let colors = [attachment(color, COLOR_DRAWN.layout)];
         let depth = depth.map(|depth| attachment(depth, DEPTH_DRAWN.layout));
-        let mut info = vk::RenderingInfo::default()
-            .render_area(area)
-            .layer_count(1)
-            .color_attachments(&colors);
+        let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
         if let Some(depth) = &depth {
             info = info.depth_attachment(depth);
         }
@@ -511,11 +449,7 @@ impl<'a> Slot<'a> {
                 base_array_layer: 0,
                 layer_count: 1,
             })
-            .image_extent(vk::Extent3D {
-                width,
-                height,
-                depth: 1,
-            });
+            .image_extent(vk::Extent3D { width, height, depth: 1 });
         let (from, to) = (self.targets.color.raw, self.targets.read_back.raw);
         // SAFETY: guaranteed by the caller; image and buffer have the same size.
         unsafe {
@@ -528,11 +462,7 @@ impl<'a> Slot<'a> {
     unsafe fn record_show(&self, shown: &Shown) {
         let (raw, commands) = (&self.device.raw, self.commands);
         let corners = |[width, height]: [u32; 2]| {
-            let end = vk::Offset3D {
-                x: width as i32,
-                y: height as i32,
-                z: 1,
-            };
+            let end = vk::Offset3D { x: width as i32, y: height as i32, z: 1 };
             [vk::Offset3D::default(), end]
         };
         let layers = vk::ImageSubresourceLayers {

@@ -25,10 +25,7 @@ impl<'a> Surface<'a> {
         let display = window.display_handle()?.as_raw();
         let names = ash_window::enumerate_required_extensions(display)?;
         // SAFETY: the names are constants of the Vulkan bindings.
-        Ok(names
-            .iter()
-            .map(|name| unsafe { CStr::from_ptr(*name) })
-            .collect())
+        Ok(names.iter().map(|name| unsafe { CStr::from_ptr(*name) }).collect())
     }
 
     /// Makes the surface of a window, which must outlive it.
@@ -76,20 +73,14 @@ pub struct Swapchain<'a> {
 impl<'a> Swapchain<'a> {
     /// Makes the images of a window. They replace those of an older swapchain. Handles that were made before a failure
     /// leak, but the program ends then.
-    pub fn new(
-        surface: &'a Surface<'a>,
-        size: [u32; 2],
-        older: Option<Self>,
-    ) -> Result<Self, Failure> {
+    pub fn new(surface: &'a Surface<'a>, size: [u32; 2], older: Option<Self>) -> Result<Self, Failure> {
         let (device, raw) = (surface.device, &surface.device.raw);
         let functions = &surface.instance;
         // SAFETY: queries and creations on a live device and surface.
         unsafe {
             raw.device_wait_idle()?;
-            let able =
-                functions.get_physical_device_surface_capabilities(device.physical, surface.raw)?;
-            let formats =
-                functions.get_physical_device_surface_formats(device.physical, surface.raw)?;
+            let able = functions.get_physical_device_surface_capabilities(device.physical, surface.raw)?;
+            let formats = functions.get_physical_device_surface_formats(device.physical, surface.raw)?;
             // Copies to an sRGB image encode linear light.
             let encodes = |format: &&vk::SurfaceFormatKHR| {
                 [vk::Format::B8G8R8A8_SRGB, vk::Format::R8G8B8A8_SRGB].contains(&format.format)
@@ -97,12 +88,7 @@ impl<'a> Swapchain<'a> {
             let format = formats.iter().find(encodes);
             let format = format.ok_or("the window takes no sRGB images")?;
             let extent = match able.current_extent {
-                vk::Extent2D {
-                    width: u32::MAX, ..
-                } => vk::Extent2D {
-                    width: size[0],
-                    height: size[1],
-                },
+                vk::Extent2D { width: u32::MAX, .. } => vk::Extent2D { width: size[0], height: size[1] },
                 extent => extent,
             };
             let most = match able.max_image_count {
@@ -121,11 +107,7 @@ impl<'a> Swapchain<'a> {
                 .composite_alpha(vk::CompositeAlphaFlagsKHR::OPAQUE)
                 .present_mode(vk::PresentModeKHR::FIFO)
                 .clipped(true)
-                .old_swapchain(
-                    older
-                        .as_ref()
-                        .map_or_else(vk::SwapchainKHR::null, |it| it.raw),
-                );
+                .old_swapchain(older.as_ref().map_or_else(vk::SwapchainKHR::null, |it| it.raw));
             let made = surface.functions.create_swapchain(&info, None)?;
             drop(older);
             let semaphore = || raw.create_semaphore(&vk::SemaphoreCreateInfo::default(), None);
@@ -149,12 +131,7 @@ impl<'a> Swapchain<'a> {
         match unsafe { functions.acquire_next_image(self.raw, u64::MAX, free, none) } {
             Ok((index, _)) => {
                 let (image, written) = self.images[index as usize];
-                Ok(Some(Shown {
-                    image,
-                    size: self.size,
-                    free,
-                    written,
-                }))
+                Ok(Some(Shown { image, size: self.size, free, written }))
             }
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(None),
             Err(error) => Err(error.into()),
@@ -163,16 +140,11 @@ impl<'a> Swapchain<'a> {
 
     /// Presents an image whose commands were submitted. Returns false if the window has another size.
     pub fn present(&self, shown: &Shown) -> Result<bool, Failure> {
-        let index = self
-            .images
-            .iter()
-            .position(|(image, _)| *image == shown.image);
+        let index = self.images.iter().position(|(image, _)| *image == shown.image);
         let indices = [index.ok_or("an image of another swapchain")? as u32];
         let (swapchains, written) = ([self.raw], [shown.written]);
-        let info = vk::PresentInfoKHR::default()
-            .wait_semaphores(&written)
-            .swapchains(&swapchains)
-            .image_indices(&indices);
+        let info =
+            vk::PresentInfoKHR::default().wait_semaphores(&written).swapchains(&swapchains).image_indices(&indices);
         let functions = &self.surface.functions;
         // SAFETY: the commands that signal the semaphore are submitted.
         match unsafe { functions.queue_present(self.surface.device.queue, &info) } {

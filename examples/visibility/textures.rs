@@ -15,11 +15,7 @@ pub fn bricks(device: &Device) -> Result<Texture<'_>, Failure> {
         let column = x + 16 * (row % 2);
         let mortar = y % 16 < 2 || column % 32 < 2;
         let shade = ((row * 7 + (column % SIDE) / 32 * 13) % 5) as f32 / 5.0;
-        if mortar {
-            [0.7, 0.68, 0.62, 1.0]
-        } else {
-            [0.35 + 0.25 * shade, 0.1 + 0.06 * shade, 0.06, 1.0]
-        }
+        if mortar { [0.7, 0.68, 0.62, 1.0] } else { [0.35 + 0.25 * shade, 0.1 + 0.06 * shade, 0.06, 1.0] }
     })
 }
 
@@ -35,15 +31,9 @@ pub fn fence(device: &Device) -> Result<Texture<'_>, Failure> {
 }
 
 /// Makes a texture with all mipmap levels from a square image of linear values, whose side is a power of two.
-fn texture(
-    device: &Device,
-    side: u32,
-    texel: impl Fn(u32, u32) -> [f32; 4],
-) -> Result<Texture<'_>, Failure> {
+fn texture(device: &Device, side: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> Result<Texture<'_>, Failure> {
     let levels = side.ilog2() + 1;
-    let mut level: Vec<[f32; 4]> = (0..side * side)
-        .map(|i| texel(i % side, i / side))
-        .collect();
+    let mut level: Vec<[f32; 4]> = (0..side * side).map(|i| texel(i % side, i / side)).collect();
     let mut bytes: Vec<u8> = Vec::new();
     let mut regions = Vec::new();
     for number in 0..levels {
@@ -57,28 +47,16 @@ fn texture(
                     base_array_layer: 0,
                     layer_count: 1,
                 })
-                .image_extent(vk::Extent3D {
-                    width: side,
-                    height: side,
-                    depth: 1,
-                }),
+                .image_extent(vk::Extent3D { width: side, height: side, depth: 1 }),
         );
-        bytes.extend(
-            level
-                .iter()
-                .flatten()
-                .map(|value| (255.0 * value).round() as u8),
-        );
+        bytes.extend(level.iter().flatten().map(|value| (255.0 * value).round() as u8));
         let half = (side / 2).max(1) as usize;
-        let at = |x: usize, y: usize| {
-            level[(y.min(side as usize - 1)) * side as usize + x.min(side as usize - 1)]
-        };
+        let at = |x: usize, y: usize| level[(y.min(side as usize - 1)) * side as usize + x.min(side as usize - 1)];
         level = (0..half * half)
             .map(|i| {
                 let (x, y) = (2 * (i % half), 2 * (i / half));
                 let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
-                [0, 1, 2, 3]
-                    .map(|channel| four.iter().map(|texel| texel[channel]).sum::<f32>() / 4.0)
+                [0, 1, 2, 3].map(|channel| four.iter().map(|texel| texel[channel]).sum::<f32>() / 4.0)
             })
             .collect();
     }
@@ -99,13 +77,7 @@ fn texture(
         change(vk::ImageLayout::UNDEFINED, written);
         // SAFETY: the buffer holds all levels; the commands are waited for.
         unsafe {
-            device.raw.cmd_copy_buffer_to_image(
-                commands,
-                upload.raw,
-                texture.raw,
-                written,
-                &regions,
-            );
+            device.raw.cmd_copy_buffer_to_image(commands, upload.raw, texture.raw, written, &regions);
         }
         change(written, shown);
         Ok(())

@@ -9,10 +9,7 @@
 #[allow(dead_code, reason = "pictures in files are of the other example")]
 mod device;
 mod meshes;
-#[allow(
-    unused_imports,
-    reason = "another shader is loaded by the other example"
-)]
+#[allow(unused_imports, reason = "another shader is loaded by the other example")]
 mod pipelines;
 #[allow(dead_code, reason = "pictures in files are of the other example")]
 mod slot;
@@ -53,9 +50,8 @@ struct Shell {
 impl ApplicationHandler for Shell {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         let [width, height] = SIZE;
-        let attributes = Window::default_attributes()
-            .with_title("visibility")
-            .with_inner_size(PhysicalSize::new(width, height));
+        let attributes =
+            Window::default_attributes().with_title("visibility").with_inner_size(PhysicalSize::new(width, height));
         match events.create_window(attributes) {
             Ok(window) => self.window = Some(window),
             Err(error) => self.failure = Some(error.to_string()),
@@ -82,8 +78,7 @@ fn main() -> Result<(), Failure> {
         }
     }
     let window = shell.window.take().ok_or("no window")?;
-    let device =
-        Device::with_extensions(&Surface::extensions(&window)?, &[ash::khr::swapchain::NAME])?;
+    let device = Device::with_extensions(&Surface::extensions(&window)?, &[ash::khr::swapchain::NAME])?;
     let surface = Surface::new(&device, &window)?;
     // SAFETY: the handles belong together, the features are enabled, and the device outlives the antialiaser.
     let antialiaser = unsafe { Antialiaser::new(device.lent()) }?;
@@ -109,13 +104,7 @@ fn main() -> Result<(), Failure> {
             None => {
                 let options = options(swapchain.size);
                 let with = Some((&antialiaser, &options));
-                slots.push(Slot::new(
-                    &device,
-                    &world,
-                    &pipelines,
-                    swapchain.size,
-                    with,
-                )?);
+                slots.push(Slot::new(&device, &world, &pipelines, swapchain.size, with)?);
             }
         }
         let slot = &mut slots[index];
@@ -127,11 +116,7 @@ fn main() -> Result<(), Failure> {
         if slot.size() != swapchain.size {
             slot.resize(&pipelines, swapchain.size)?;
         }
-        slot.show(
-            &world,
-            time(0) + 0.02 * frame as f32,
-            camera(swapchain.size),
-        )?;
+        slot.show(&world, time(0) + 0.02 * frame as f32, camera(swapchain.size))?;
         slot.submit_to(&world, &pipelines, Some(shown))?;
         if !swapchain.present(&shown)? {
             swapchain = Swapchain::new(&surface, size_of(&window), Some(swapchain))?;
@@ -148,10 +133,7 @@ fn main() -> Result<(), Failure> {
     if let Some(outcome) = slots.first().and_then(Slot::antialiasing) {
         let outcome = outcome.frame.outcome()?;
         let superpixels = outcome.statistics.superpixels;
-        eprintln!(
-            "{frame} frames, {superpixels} superpixels, {} left over",
-            outcome.left_over
-        );
+        eprintln!("{frame} frames, {superpixels} superpixels, {} left over", outcome.left_over);
     }
     Ok(())
 }

@@ -11,10 +11,7 @@ fuzz_target!(|bytes: &[u8]| {
     if let Ok(loaded) = Scene::from_slice(bytes, "fuzz", None) {
         let mut scene = loaded.scene;
         scene.add_edges(&Edges::default());
-        let request = PoseRequest {
-            time: 0.5,
-            ..PoseRequest::default()
-        };
+        let request = PoseRequest { time: 0.5, ..PoseRequest::default() };
         // Errors are fine here as well.
         if let Ok((_, motion)) = scene.pose_in_motion(&request) {
             let _ = motion.at(&scene, 0.25);

@@ -1,9 +1,7 @@
 //! A lent device, and what its frames share.
 
 use super::error::{Error, GpcResult, answer};
-use super::input::{
-    Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back,
-};
+use super::input::{Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back};
 use super::memory::{Functions, GpcAllocate, GpcFree};
 use crate::host::Antialiaser;
 use crate::vulkan::{Host, MemorySource, Missing, Requirements, VulkanError};
@@ -14,8 +12,7 @@ use std::sync::Arc;
 /// Vulkan's own type.
 ///
 /// cbindgen:ignore
-pub type GetInstanceProcAddr =
-    Option<unsafe extern "system" fn(vk::Instance, *const c_char) -> vk::PFN_vkVoidFunction>;
+pub type GetInstanceProcAddr = Option<unsafe extern "system" fn(vk::Instance, *const c_char) -> vk::PFN_vkVoidFunction>;
 
 /// The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
 /// needed; GpcDevice.conditional_rendering names one that saves time.
@@ -89,9 +86,7 @@ pub struct GpcAntialiaser {
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for another sType.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_require_features(
-    features: *mut vk::PhysicalDeviceVulkan13Features<'static>,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_require_features(features: *mut vk::PhysicalDeviceVulkan13Features<'static>) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
         let features = unsafe { place(features, "features") }?;
@@ -103,14 +98,8 @@ pub unsafe extern "C" fn gpc_require_features(
             (&mut features.dynamic_rendering, needed.dynamic_rendering),
             (&mut features.synchronization2, needed.synchronization2),
             (&mut features.maintenance4, needed.maintenance4),
-            (
-                &mut features.subgroup_size_control,
-                needed.subgroup_size_control,
-            ),
-            (
-                &mut features.shader_demote_to_helper_invocation,
-                needed.shader_demote_to_helper_invocation,
-            ),
+            (&mut features.subgroup_size_control, needed.subgroup_size_control),
+            (&mut features.shader_demote_to_helper_invocation, needed.shader_demote_to_helper_invocation),
         ] {
             *feature |= needed;
         }
@@ -140,10 +129,9 @@ pub unsafe extern "C" fn gpc_check_device(
         }
         // SAFETY: passed on to the caller. Until the instance is known to be made for Vulkan 1.3, nothing newer than 1.0 is called.
         unsafe {
-            Requirements::check_version(&instance, physical_device)
-                .map_err(|version| Error::Missing(vec![version]))?;
-            let family = Requirements::queue_family(&instance, physical_device)
-                .ok_or(Error::Missing(vec![Missing::Queue]))?;
+            Requirements::check_version(&instance, physical_device).map_err(|version| Error::Missing(vec![version]))?;
+            let family =
+                Requirements::queue_family(&instance, physical_device).ok_or(Error::Missing(vec![Missing::Queue]))?;
             check_instance(&instance, physical_device, family)?;
             let missing = Requirements::missing(&instance, physical_device);
             if !missing.is_empty() {
@@ -170,15 +158,11 @@ unsafe fn check_instance(
     device: vk::PhysicalDevice,
     queue_family: u32,
 ) -> Result<(), VulkanError> {
-    let queues = [vk::DeviceQueueCreateInfo::default()
-        .queue_family_index(queue_family)
-        .queue_priorities(&[1.0])];
+    let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
     let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
     // SAFETY: guaranteed by the caller; nothing is made with the device.
     unsafe {
-        let made = instance
-            .create_device(device, &info, None)
-            .map_err(VulkanError::of("vkCreateDevice"))?;
+        let made = instance.create_device(device, &info, None).map_err(VulkanError::of("vkCreateDevice"))?;
         let checked = Requirements::check_functions(instance, made.handle());
         made.destroy_device(None);
         checked
@@ -214,14 +198,10 @@ pub unsafe extern "C" fn gpc_antialiaser_create(
 ///
 /// Threads: any. Lifetime: that of the antialiaser and all its frames; it is the library's to destroy.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_antialiaser_samples_layout(
-    antialiaser: *const GpcAntialiaser,
-) -> vk::DescriptorSetLayout {
+pub unsafe extern "C" fn gpc_antialiaser_samples_layout(antialiaser: *const GpcAntialiaser) -> vk::DescriptorSetLayout {
     // SAFETY: passed on to the caller.
     let antialiaser = unsafe { antialiaser.as_ref() };
-    antialiaser.map_or(vk::DescriptorSetLayout::null(), |found| {
-        found.inner.samples_layout()
-    })
+    antialiaser.map_or(vk::DescriptorSetLayout::null(), |found| found.inner.samples_layout())
 }
 
 /// Destroys an antialiaser; frames created with it go on. NULL does nothing.
@@ -234,11 +214,8 @@ pub unsafe extern "C" fn gpc_antialiaser_destroy(antialiaser: *mut GpcAntialiase
 }
 
 /// Functions that are looked up before any is called, since calling one that is absent ends the program.
-const OF_INSTANCE: [&CStr; 3] = [
-    c"vkGetPhysicalDeviceProperties2",
-    c"vkGetPhysicalDeviceFeatures2",
-    c"vkGetDeviceProcAddr",
-];
+const OF_INSTANCE: [&CStr; 3] =
+    [c"vkGetPhysicalDeviceProperties2", c"vkGetPhysicalDeviceFeatures2", c"vkGetDeviceProcAddr"];
 
 /// # Safety
 /// The function and the instance are null or alive and belong together.
@@ -246,8 +223,7 @@ unsafe fn load_instance(
     get_instance_proc_addr: GetInstanceProcAddr,
     instance: vk::Instance,
 ) -> Result<ash::Instance, Error> {
-    let get_instance_proc_addr =
-        get_instance_proc_addr.ok_or(Error::Null("get_instance_proc_addr"))?;
+    let get_instance_proc_addr = get_instance_proc_addr.ok_or(Error::Null("get_instance_proc_addr"))?;
     if instance == vk::Instance::null() {
         return Err(Error::Null("instance"));
     }
@@ -256,9 +232,7 @@ unsafe fn load_instance(
         let found = unsafe { get_instance_proc_addr(instance, name.as_ptr()) };
         found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
     }
-    let functions = ash::StaticFn {
-        get_instance_proc_addr,
-    };
+    let functions = ash::StaticFn { get_instance_proc_addr };
     // SAFETY: passed on to the caller.
     Ok(unsafe { ash::Instance::load(&functions, instance) })
 }
@@ -277,21 +251,16 @@ unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
     // SAFETY: passed on to the caller.
     let device = unsafe { ash::Device::load(instance.fp_v1_0(), lent.device) };
     let mut host = Host::new(instance, lent.physical_device, device, lent.queue_family);
-    host.conditional_rendering = flag(
-        "GpcDevice.conditional_rendering",
-        lent.conditional_rendering,
-    )?;
+    host.conditional_rendering = flag("GpcDevice.conditional_rendering", lent.conditional_rendering)?;
     host.debug_utils = flag("GpcDevice.debug_utils", lent.debug_utils)?;
     host.pipeline_cache = lent.pipeline_cache;
     host.memory = match (lent.allocate, lent.free) {
         (None, None) => MemorySource::Own,
         (None, Some(_)) => return Err(Error::Null("GpcDevice.allocate")),
         (Some(_), None) => return Err(Error::Null("GpcDevice.free")),
-        (Some(allocate), Some(free)) => MemorySource::Host(Arc::new(Functions {
-            allocate,
-            free,
-            user: lent.memory_user,
-        })),
+        (Some(allocate), Some(free)) => {
+            MemorySource::Host(Arc::new(Functions { allocate, free, user: lent.memory_user }))
+        }
     };
     Ok(host)
 }

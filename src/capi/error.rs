@@ -52,31 +52,16 @@ pub(super) enum Error {
     #[error("{0} is NULL")]
     Null(&'static str),
     #[error("{} is {found}; {}", given.named(name), given.expectation(name, *found, *expected))]
-    StructSize {
-        given: GivenSize,
-        name: &'static str,
-        found: usize,
-        expected: usize,
-    },
-    #[error(
-        "{name}.type is {found}; it can be {expected}, as the struct's gpc_init function sets it"
-    )]
-    StructType {
-        name: &'static str,
-        found: u32,
-        expected: u32,
-    },
+    StructSize { given: GivenSize, name: &'static str, found: usize, expected: usize },
+    #[error("{name}.type is {found}; it can be {expected}, as the struct's gpc_init function sets it")]
+    StructType { name: &'static str, found: u32, expected: u32 },
     #[error(
         "{name}.next leads to a struct of type {found}, by which this library, version {}, does not extend a {name}",
         env!("CARGO_PKG_VERSION")
     )]
     Next { name: &'static str, found: u32 },
     #[error("{name} is {found}; it can be {possible}")]
-    Value {
-        name: &'static str,
-        found: u32,
-        possible: String,
-    },
+    Value { name: &'static str, found: u32, possible: String },
     #[error(
         "there is no {0}: create the instance for Vulkan 1.3 (VkApplicationInfo.apiVersion of GPC_VULKAN_API_VERSION), with a loader and a driver that have it"
     )]
@@ -125,20 +110,13 @@ impl GivenSize {
         let may_be_unfilled = matches!(self, Self::Member);
         if found > expected {
             let version = env!("CARGO_PKG_VERSION");
-            let unfilled = if may_be_unfilled {
-                "either the struct's gpc_init function was not called, or "
-            } else {
-                ""
-            };
+            let unfilled =
+                if may_be_unfilled { "either the struct's gpc_init function was not called, or " } else { "" };
             format!(
                 "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: {unfilled}the program was compiled with the header of a later version; then link the library of that version"
             )
         } else {
-            let by = if may_be_unfilled {
-                ", as the struct's gpc_init function sets it"
-            } else {
-                ""
-            };
+            let by = if may_be_unfilled { ", as the struct's gpc_init function sets it" } else { "" };
             format!("it can be sizeof({name}), which is {expected}{by}")
         }
     }
@@ -175,9 +153,9 @@ impl Error {
             | HostError::Corners { .. }
             | HostError::Vertices { .. } => GpcResult::Capacity,
             HostError::Engine(EngineError::Vulkan(error)) => match error {
-                VulkanError::Missing { .. }
-                | VulkanError::NoFunction(_)
-                | VulkanError::NotEnabled { .. } => GpcResult::Unsupported,
+                VulkanError::Missing { .. } | VulkanError::NoFunction(_) | VulkanError::NotEnabled { .. } => {
+                    GpcResult::Unsupported
+                }
                 VulkanError::QueueFamily { .. } => GpcResult::Value,
                 VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
                 VulkanError::DeviceLost => GpcResult::DeviceLost,
@@ -210,8 +188,7 @@ pub extern "C" fn gpc_last_error() -> *const c_char {
 pub(super) fn answer(body: impl FnOnce() -> Result<(), Error>) -> GpcResult {
     // After a panic, the objects that took part must not be used, as the documentation of the result says.
     let done = catch_unwind(AssertUnwindSafe(body));
-    let Err(error) = done.unwrap_or_else(|payload| Err(Error::Panic(said(payload.as_ref()))))
-    else {
+    let Err(error) = done.unwrap_or_else(|payload| Err(Error::Panic(said(payload.as_ref())))) else {
         return GpcResult::Success;
     };
     let text = error.to_string().replace('\0', " ");

@@ -5,8 +5,7 @@ use super::error::{Error, GpcResult, answer};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::images::{GpcImageKinds, GpcImages};
 use super::input::{
-    Element, GpcStructType, Struct, hand_over, init, object, place, read, shown, sizes, take_back,
-    write,
+    Element, GpcStructType, Struct, hand_over, init, object, place, read, shown, sizes, take_back, write,
 };
 use super::options::GpcOptions;
 use crate::host::{Frame, Scenery, ShadeSamples, Viewport, VisibilitySamples};
@@ -115,13 +114,8 @@ unsafe impl Struct for GpcVisibilitySamples {
 ///
 /// The function may bind and push anything. The function must not throw or jump out, and must not use the frame or
 /// list.
-pub type GpcShade = Option<
-    unsafe extern "C" fn(
-        user: *mut c_void,
-        commands: vk::CommandBuffer,
-        samples: *const GpcVisibilitySamples,
-    ),
->;
+pub type GpcShade =
+    Option<unsafe extern "C" fn(user: *mut c_void, commands: vk::CommandBuffer, samples: *const GpcVisibilitySamples)>;
 
 /// Result of a recording.
 #[derive(Clone, Copy)]
@@ -210,10 +204,7 @@ pub unsafe extern "C" fn gpc_frame_create(
 /// frame too.
 /// Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_frame_grow(
-    frame: *const GpcFrame,
-    grown: *mut *mut GpcFrame,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_frame_grow(frame: *const GpcFrame, grown: *mut *mut GpcFrame) -> GpcResult {
     let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe { object(frame, "frame")?.inner.grow() }?;
@@ -231,11 +222,7 @@ pub unsafe extern "C" fn gpc_frame_grow(
 /// Lifetime: the commands of the frame's last recording are done, or will never be executed.
 /// Errors: as gpc_frame_create; the frame is unchanged then.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_frame_resize(
-    frame: *mut GpcFrame,
-    width: u32,
-    height: u32,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_frame_resize(frame: *mut GpcFrame, width: u32, height: u32) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
         unsafe { place(frame, "frame")?.inner.resize([width, height]) }?;
@@ -289,20 +276,11 @@ pub unsafe extern "C" fn gpc_frame_record(
             )
         }?;
         let [x, y, width, height] = scenery.viewport;
-        let viewport = Viewport {
-            x,
-            y,
-            width,
-            height,
-        };
+        let viewport = Viewport { x, y, width, height };
         let viewport = (scenery.viewport != [0.0; 4]).then_some(viewport);
         let scenery = Scenery::new(&draws, scenery.projection).viewport(viewport);
         // SAFETY: passed on to the caller.
-        unsafe {
-            frame
-                .inner
-                .record(commands, &images, &scenery, &Callback { shade, user })
-        }?;
+        unsafe { frame.inner.record(commands, &images, &scenery, &Callback { shade, user }) }?;
         Ok(())
     })
 }
@@ -314,10 +292,7 @@ pub unsafe extern "C" fn gpc_frame_record(
 /// Threads: no gpc_frame_record of the frame runs at the same time.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_frame_outcome(
-    frame: *const GpcFrame,
-    outcome: *mut GpcOutcome,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_frame_outcome(frame: *const GpcFrame, outcome: *mut GpcOutcome) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
         unsafe {

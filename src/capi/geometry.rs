@@ -2,9 +2,7 @@
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes, unused};
-use crate::host::{
-    AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, Mesh, PositionSpace, Topology,
-};
+use crate::host::{AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, Mesh, PositionSpace, Topology};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -274,17 +272,11 @@ impl GpcGeometry {
             )
         }?;
         let spaces = [
-            (
-                GpcPositionSpace::Clip as u32,
-                "GPC_POSITION_SPACE_CLIP",
-                PositionSpace::Clip,
-            ),
+            (GpcPositionSpace::Clip as u32, "GPC_POSITION_SPACE_CLIP", PositionSpace::Clip),
             (
                 GpcPositionSpace::Object as u32,
                 "GPC_POSITION_SPACE_OBJECT",
-                PositionSpace::Object {
-                    capacity: self.position_capacity,
-                },
+                PositionSpace::Object { capacity: self.position_capacity },
             ),
         ];
         // SAFETY: passed on to the caller.
@@ -303,10 +295,7 @@ impl GpcGeometry {
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
             keys: self.keys,
-            alpha_maps: maps
-                .iter()
-                .map(GpcAlphaMap::alpha_map)
-                .collect::<Result<_, _>>()?,
+            alpha_maps: maps.iter().map(GpcAlphaMap::alpha_map).collect::<Result<_, _>>()?,
             blended: flag("GpcGeometry.blended", self.blended)?,
             clip: ClipSpace {
                 y_up: flag("GpcGeometry.y_up", self.y_up)?,
@@ -397,16 +386,8 @@ impl GpcDraw {
 
     fn draw(&self) -> Result<Draw, Error> {
         let topologies = [
-            (
-                GpcTopology::List as u32,
-                "GPC_TOPOLOGY_LIST",
-                Topology::List,
-            ),
-            (
-                GpcTopology::Strip as u32,
-                "GPC_TOPOLOGY_STRIP",
-                Topology::Strip,
-            ),
+            (GpcTopology::List as u32, "GPC_TOPOLOGY_LIST", Topology::List),
+            (GpcTopology::Strip as u32, "GPC_TOPOLOGY_STRIP", Topology::Strip),
             (GpcTopology::Fan as u32, "GPC_TOPOLOGY_FAN", Topology::Fan),
         ];
         Ok(Draw {

@@ -137,11 +137,7 @@ pub unsafe extern "C" fn gpc_init_images(images: *mut GpcImages, size: usize) ->
 
 impl GpcImageState {
     fn state(&self) -> ImageState {
-        ImageState {
-            layout: self.layout,
-            stage: self.stage,
-            access: self.access,
-        }
+        ImageState { layout: self.layout, stage: self.stage, access: self.access }
     }
 }
 

@@ -98,12 +98,7 @@ fn check_size<T: Element>(found: usize, given: GivenSize) -> Result<(), Error> {
     if T::SIZES.contains(&found) {
         return Ok(());
     }
-    Err(Error::StructSize {
-        given,
-        name: T::NAME,
-        found,
-        expected: size_of::<T>(),
-    })
+    Err(Error::StructSize { given, name: T::NAME, found, expected: size_of::<T>() })
 }
 
 /// Reads the struct at a pointer.
@@ -145,19 +140,12 @@ unsafe fn check<T: Struct>(pointer: *const T) -> Result<Head, Error> {
     // SAFETY: the smallest struct has a head.
     let head = unsafe { pointer.cast::<Head>().read() };
     if head.kind != T::TYPE as u32 {
-        return Err(Error::StructType {
-            name: T::NAME,
-            found: head.kind,
-            expected: T::TYPE as u32,
-        });
+        return Err(Error::StructType { name: T::NAME, found: head.kind, expected: T::TYPE as u32 });
     }
     if !head.next.is_null() {
         // SAFETY: a chained struct begins with a size and a type.
         let found = unsafe { head.next.cast::<[u32; 2]>().read() }[1];
-        return Err(Error::Next {
-            name: T::NAME,
-            found,
-        });
+        return Err(Error::Next { name: T::NAME, found });
     }
     Ok(head)
 }
@@ -182,10 +170,7 @@ pub(super) unsafe fn init<T: Struct>(pointer: *mut T, size: usize) -> GpcResult 
 ///
 /// # Safety
 /// As for [`read`]; nobody else uses the struct during the call.
-pub(super) unsafe fn write<T: Struct>(
-    pointer: *mut T,
-    make: impl FnOnce() -> Result<T, Error>,
-) -> Result<(), Error> {
+pub(super) unsafe fn write<T: Struct>(pointer: *mut T, make: impl FnOnce() -> Result<T, Error>) -> Result<(), Error> {
     // SAFETY: passed on to the caller.
     unsafe {
         let head = check(pointer)?;
@@ -197,11 +182,7 @@ pub(super) unsafe fn write<T: Struct>(
 /// # Safety
 /// The pointer points to `size` bytes, at most the size of a `T`.
 unsafe fn put<T: Struct>(pointer: *mut T, mut value: T, size: usize, next: *const c_void) {
-    let head = Head {
-        size: size as u32,
-        kind: T::TYPE as u32,
-        next,
-    };
+    let head = Head { size: size as u32, kind: T::TYPE as u32, next };
     // SAFETY: guaranteed by the caller; a `T` begins with a head.
     unsafe {
         (&raw mut value).cast::<Head>().write(head);
@@ -290,21 +271,11 @@ pub(super) unsafe fn take_back<T>(object: *mut T) {
 }
 
 /// Value of an enumeration for its number in C.
-pub(super) fn choice<T: Clone>(
-    name: &'static str,
-    found: u32,
-    values: &[(u32, &'static str, T)],
-) -> Result<T, Error> {
+pub(super) fn choice<T: Clone>(name: &'static str, found: u32, values: &[(u32, &'static str, T)]) -> Result<T, Error> {
     let value = values.iter().find(|(number, ..)| *number == found);
     value.map(|(.., value)| value.clone()).ok_or_else(|| {
-        let possible = values
-            .iter()
-            .map(|(number, value, _)| format!("{value} ({number})"));
-        Error::Value {
-            name,
-            found,
-            possible: possible.collect::<Vec<_>>().join(", "),
-        }
+        let possible = values.iter().map(|(number, value, _)| format!("{value} ({number})"));
+        Error::Value { name, found, possible: possible.collect::<Vec<_>>().join(", ") }
     })
 }
 

@@ -5,8 +5,7 @@ use super::error::{Error, GpcResult, answer};
 use super::frame::{Callback, GpcShade};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::input::{
-    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, unused,
-    write,
+    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, unused, write,
 };
 use super::options::GpcOptions;
 use crate::host::{List, ListOptions, Location, LocationList};
@@ -74,10 +73,7 @@ unsafe impl Struct for GpcLocationList {
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_init_location_list(
-    list: *mut GpcLocationList,
-    size: usize,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_init_location_list(list: *mut GpcLocationList, size: usize) -> GpcResult {
     // SAFETY: passed on to the caller.
     unsafe { init(list, size) }
 }
@@ -119,10 +115,7 @@ unsafe impl Struct for GpcListScenery {
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_init_list_scenery(
-    scenery: *mut GpcListScenery,
-    size: usize,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_init_list_scenery(scenery: *mut GpcListScenery, size: usize) -> GpcResult {
     // SAFETY: passed on to the caller.
     unsafe { init(scenery, size) }
 }
@@ -177,10 +170,7 @@ unsafe impl Struct for GpcListOutcome {
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_init_list_outcome(
-    outcome: *mut GpcListOutcome,
-    size: usize,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_init_list_outcome(outcome: *mut GpcListOutcome, size: usize) -> GpcResult {
     // SAFETY: passed on to the caller.
     unsafe { init(outcome, size) }
 }
@@ -209,9 +199,7 @@ pub unsafe extern "C" fn gpc_list_create(
             let geometry = read(geometry)?.geometry()?;
             let locations = read(locations)?.list();
             let options = read(options)?.options()?;
-            antialiaser
-                .inner
-                .prepare_list(&geometry, &locations, &ListOptions::from(&options))
+            antialiaser.inner.prepare_list(&geometry, &locations, &ListOptions::from(&options))
         }?;
         Ok(GpcList { inner })
     };
@@ -227,10 +215,7 @@ pub unsafe extern "C" fn gpc_list_create(
 /// too.
 /// Errors: as gpc_list_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_list_grow(
-    list: *const GpcList,
-    grown: *mut *mut GpcList,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_list_grow(list: *const GpcList, grown: *mut *mut GpcList) -> GpcResult {
     let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe { object(list, "list")?.inner.grow() }?;
@@ -282,10 +267,7 @@ pub unsafe extern "C" fn gpc_list_record(
         }?;
         let shading = Callback { shade, user };
         // SAFETY: passed on to the caller.
-        unsafe {
-            list.inner
-                .record(commands, &draws, scenery.location_count, &shading)
-        }?;
+        unsafe { list.inner.record(commands, &draws, scenery.location_count, &shading) }?;
         Ok(())
     })
 }
@@ -297,10 +279,7 @@ pub unsafe extern "C" fn gpc_list_record(
 /// Threads: no gpc_list_record of the list runs at the same time.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_list_outcome(
-    list: *const GpcList,
-    outcome: *mut GpcListOutcome,
-) -> GpcResult {
+pub unsafe extern "C" fn gpc_list_outcome(list: *const GpcList, outcome: *mut GpcListOutcome) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
         unsafe {

@@ -72,11 +72,7 @@ pub struct GpcMemory {
 /// Threads: those that create antialiasers, frames and lists; several at the same time if the application creates
 /// several at the same time.
 pub type GpcAllocate = Option<
-    unsafe extern "C" fn(
-        user: *mut c_void,
-        request: *const GpcMemoryRequest,
-        memory: *mut GpcMemory,
-    ) -> vk::Bool32,
+    unsafe extern "C" fn(user: *mut c_void, request: *const GpcMemoryRequest, memory: *mut GpcMemory) -> vk::Bool32,
 >;
 
 /// Function of the application that frees memory from GpcAllocate. No command uses the memory any more. The function
@@ -87,8 +83,7 @@ pub type GpcFree = Option<unsafe extern "C" fn(user: *mut c_void, memory: *const
 
 /// Allocation functions of an application.
 pub(super) struct Functions {
-    pub allocate:
-        unsafe extern "C" fn(*mut c_void, *const GpcMemoryRequest, *mut GpcMemory) -> vk::Bool32,
+    pub allocate: unsafe extern "C" fn(*mut c_void, *const GpcMemoryRequest, *mut GpcMemory) -> vk::Bool32,
     pub free: unsafe extern "C" fn(*mut c_void, *const GpcMemory),
     pub user: *mut c_void,
 }
@@ -134,9 +129,7 @@ unsafe impl AllocateMemory for Functions {
         let memory = GpcMemory {
             memory: memory.memory,
             offset: memory.offset,
-            mapped: memory
-                .mapped
-                .map_or(std::ptr::null_mut(), |at| at.as_ptr().cast()),
+            mapped: memory.mapped.map_or(std::ptr::null_mut(), |at| at.as_ptr().cast()),
             user: memory.user,
         };
         // SAFETY: as above.

@@ -217,10 +217,7 @@ const NAMES: [(&str, &str); 32] = [
     ("coordinates_offset", "GpcGeometry.coordinates_offset"),
     ("coordinates_stride", "GpcGeometry.coordinates_stride"),
     ("vertex_capacity", "GpcGeometry.vertex_capacity"),
-    (
-        "the capacity of positions in object space",
-        "GpcGeometry.position_capacity",
-    ),
+    ("the capacity of positions in object space", "GpcGeometry.position_capacity"),
     ("vertices of all meshes", "the sum of all vertex_capacity"),
     ("the number of meshes", "1 + GpcGeometry.more_mesh_count"),
     ("index_capacity", "GpcGeometry.index_capacity"),

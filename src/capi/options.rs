@@ -177,39 +177,15 @@ impl GpcOptions {
     /// With `GpcPattern::List`, `locations` points to as many pairs as `location_count` says.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {
         let shadings = [
-            (
-                GpcShading::Triangle as u32,
-                "GPC_SHADING_TRIANGLE",
-                Shading::Triangle,
-            ),
+            (GpcShading::Triangle as u32, "GPC_SHADING_TRIANGLE", Shading::Triangle),
             (GpcShading::Part as u32, "GPC_SHADING_PART", Shading::Part),
-            (
-                GpcShading::Sample as u32,
-                "GPC_SHADING_SAMPLE",
-                Shading::Sample,
-            ),
+            (GpcShading::Sample as u32, "GPC_SHADING_SAMPLE", Shading::Sample),
         ];
         let detections = [
-            (
-                GpcDetection::Contrast as u32,
-                "GPC_DETECTION_CONTRAST",
-                Detection::Contrast,
-            ),
-            (
-                GpcDetection::Edges as u32,
-                "GPC_DETECTION_EDGES",
-                Detection::Edges,
-            ),
-            (
-                GpcDetection::Exact as u32,
-                "GPC_DETECTION_EXACT",
-                Detection::Exact,
-            ),
-            (
-                GpcDetection::Every as u32,
-                "GPC_DETECTION_EVERY",
-                Detection::Every,
-            ),
+            (GpcDetection::Contrast as u32, "GPC_DETECTION_CONTRAST", Detection::Contrast),
+            (GpcDetection::Edges as u32, "GPC_DETECTION_EDGES", Detection::Edges),
+            (GpcDetection::Exact as u32, "GPC_DETECTION_EXACT", Detection::Exact),
+            (GpcDetection::Every as u32, "GPC_DETECTION_EVERY", Detection::Every),
         ];
         let has_background = flag("GpcOptions.has_background", self.has_background)?;
         Ok(Options {
@@ -255,42 +231,16 @@ impl GpcOptions {
     /// As [`GpcOptions::options`].
     unsafe fn sample_pattern(&self) -> Result<Pattern, Error> {
         let patterns = [
-            (
-                GpcPattern::Sobol as u32,
-                "GPC_PATTERN_SOBOL",
-                Pattern::Sobol,
-            ),
-            (
-                GpcPattern::Lattice as u32,
-                "GPC_PATTERN_LATTICE",
-                Pattern::Lattice,
-            ),
-            (
-                GpcPattern::Korobov as u32,
-                "GPC_PATTERN_KOROBOV",
-                Pattern::Korobov,
-            ),
+            (GpcPattern::Sobol as u32, "GPC_PATTERN_SOBOL", Pattern::Sobol),
+            (GpcPattern::Lattice as u32, "GPC_PATTERN_LATTICE", Pattern::Lattice),
+            (GpcPattern::Korobov as u32, "GPC_PATTERN_KOROBOV", Pattern::Korobov),
             (GpcPattern::Grid as u32, "GPC_PATTERN_GRID", Pattern::Grid),
-            (
-                GpcPattern::Rotated as u32,
-                "GPC_PATTERN_ROTATED",
-                Pattern::Rotated,
-            ),
-            (
-                GpcPattern::List as u32,
-                "GPC_PATTERN_LIST",
-                Pattern::List(Vec::new()),
-            ),
-            (
-                GpcPattern::Lines as u32,
-                "GPC_PATTERN_LINES",
-                Pattern::Lines,
-            ),
+            (GpcPattern::Rotated as u32, "GPC_PATTERN_ROTATED", Pattern::Rotated),
+            (GpcPattern::List as u32, "GPC_PATTERN_LIST", Pattern::List(Vec::new())),
+            (GpcPattern::Lines as u32, "GPC_PATTERN_LINES", Pattern::Lines),
         ];
         match choice("GpcOptions.pattern", self.pattern, &patterns)? {
-            Pattern::List(_) if self.locations.is_null() => {
-                Err(Error::Null("GpcOptions.locations"))
-            }
+            Pattern::List(_) if self.locations.is_null() => Err(Error::Null("GpcOptions.locations")),
             Pattern::List(_) => {
                 let count = self.location_count as usize;
                 // SAFETY: passed on to the caller; the pointer is not null.

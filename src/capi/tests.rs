@@ -75,14 +75,7 @@ unsafe impl Element for Grown {
     const SIZES: &'static [usize] = sizes!(Grown, first, second, third);
 
     fn defaults() -> Self {
-        Self {
-            size: 0,
-            r#type: 0,
-            next: std::ptr::null(),
-            first: 1,
-            second: 2,
-            third: 3,
-        }
+        Self { size: 0, r#type: 0, next: std::ptr::null(), first: 1, second: 2, third: 3 }
     }
 }
 
@@ -93,14 +86,7 @@ unsafe impl Struct for Grown {
 
 /// Memory of an application whose header has a `Grown` of `size` bytes: the struct, and the bytes after it.
 fn compiled_with(size: usize) -> Grown {
-    let mut grown = Grown {
-        size: 0,
-        r#type: 0,
-        next: std::ptr::null(),
-        first: 70,
-        second: 80,
-        third: 90,
-    };
+    let mut grown = Grown { size: 0, r#type: 0, next: std::ptr::null(), first: 70, second: 80, third: 90 };
     // SAFETY: the struct has as many bytes or more.
     assert_eq!(unsafe { init(&raw mut grown, size) }, GpcResult::Success);
     grown
@@ -116,12 +102,7 @@ fn a_struct_of_an_earlier_header_is_read_with_defaults_for_what_it_lacks() {
         // SAFETY: the struct has as many bytes as it says, or more.
         let found = unsafe { read(&raw const grown) }.unwrap();
         assert_eq!((found.first, found.second, found.third), (5, 2, 3));
-        let answered = Grown {
-            first: 6,
-            second: 7,
-            third: 8,
-            ..found
-        };
+        let answered = Grown { first: 6, second: 7, third: 8, ..found };
         // SAFETY: as above.
         unsafe { write(&raw mut grown, || Ok(answered)) }.unwrap();
         let second = if size < 32 { 80 } else { 7 };
@@ -138,14 +119,8 @@ fn a_struct_of_a_later_header_and_one_of_another_size_are_refused() {
             48,
             "Grown.size is 48; a Grown of this library, version 0.2.0, binary interface 1, has 40 bytes: either the struct's gpc_init function was not called, or the program was compiled with the header of a later version; then link the library of that version",
         ),
-        (
-            36,
-            "Grown.size is 36; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it",
-        ),
-        (
-            0,
-            "Grown.size is 0; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it",
-        ),
+        (36, "Grown.size is 36; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it"),
+        (0, "Grown.size is 0; it can be sizeof(Grown), which is 40, as the struct's gpc_init function sets it"),
     ] {
         let mut grown = compiled_with(40);
         grown.size = size;

@@ -13,13 +13,7 @@
 /// # Panics
 /// If the pixel is outside of the image, or there are fewer IDs or colours than pixels.
 #[must_use]
-pub fn behind(
-    width: u32,
-    ids: &[u32],
-    colors: &[[f32; 4]],
-    background: [f32; 4],
-    pixel: [u32; 2],
-) -> [f32; 4] {
+pub fn behind(width: u32, ids: &[u32], colors: &[[f32; 4]], background: [f32; 4], pixel: [u32; 2]) -> [f32; 4] {
     let height = ids.len() as u32 / width;
     assert!(pixel[0] < width && pixel[1] < height);
     let near = |at: u32, end: u32| at.saturating_sub(2)..(at + 3).min(end);

@@ -59,12 +59,8 @@ impl EdgeFunctions {
         };
         // Rounding may differ between the three ways to expand the determinant. The expansion must not depend on which
         // vertex comes first; otherwise coincident triangles would differ in depth.
-        let by_value =
-            |a: &[f64; 3], b: &[f64; 3]| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
-        let (edge, vertex) = edges
-            .iter()
-            .zip([v0, v1, v2])
-            .min_by(|a, b| by_value(&a.1, &b.1))?;
+        let by_value = |a: &[f64; 3], b: &[f64; 3]| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+        let (edge, vertex) = edges.iter().zip([v0, v1, v2]).min_by(|a, b| by_value(&a.1, &b.1))?;
         let determinant = dot(edge, vertex);
         Some(Self { edges, determinant })
     }
@@ -72,15 +68,13 @@ impl EdgeFunctions {
     /// Whether the triangle covers a sample, given in pixels from the screen's centre. The decision is exact, by the
     /// module's rule for edges.
     pub fn covers(&self, [x, y]: [f64; 2]) -> bool {
-        self.edges
-            .iter()
-            .all(|edge| match dot_sign(edge, [x, y, 1.0]) {
-                0 => {
-                    let [[a, _], [b, _], _] = *edge;
-                    a > 0.0 || (a == 0.0 && b > 0.0)
-                }
-                sign => sign > 0,
-            })
+        self.edges.iter().all(|edge| match dot_sign(edge, [x, y, 1.0]) {
+            0 => {
+                let [[a, _], [b, _], _] = *edge;
+                a > 0.0 || (a == 0.0 && b > 0.0)
+            }
+            sign => sign > 0,
+        })
     }
 
     /// Signed distance in pixels from a sample to the border: the smallest of its signed distances from the lines

@@ -53,11 +53,7 @@ impl PinholeView {
         let distance = normal.extend(normal.dot(origin - pinhole.eye()));
         let [u, v, w] = [pixels.row(0), pixels.row(1), pixels.row(3)];
         let [a, b] = pinhole.steps();
-        let to_plane = if pinhole.is_parallel() {
-            1.0
-        } else {
-            (pinhole.origin() - pinhole.eye()).dot(normal)
-        };
+        let to_plane = if pinhole.is_parallel() { 1.0 } else { (pinhole.origin() - pinhole.eye()).dot(normal) };
         Self {
             matrix: DMat4::from_cols(u, v, w, distance).transpose(),
             near: pinhole.near(),
@@ -67,11 +63,7 @@ impl PinholeView {
     }
 
     fn nearness(&self, distance: f64) -> f64 {
-        if self.parallel {
-            -distance
-        } else {
-            1.0 / distance
-        }
+        if self.parallel { -distance } else { 1.0 / distance }
     }
 
     /// Nearness of what a location shows at a depth; a depth of 0 is the background, behind everything.
@@ -143,11 +135,7 @@ impl Crossing {
 
 /// Part of a convex polygon in which a linear function is not negative (Sutherland and Hodgman, "Reentrant Polygon
 /// Clipping", 1974).
-fn clipped<T: Copy>(
-    polygon: &[T],
-    inside: impl Fn(&T) -> f64,
-    between: impl Fn(T, T, f64) -> T,
-) -> Vec<T> {
+fn clipped<T: Copy>(polygon: &[T], inside: impl Fn(&T) -> f64, between: impl Fn(T, T, f64) -> T) -> Vec<T> {
     let following = polygon.iter().cycle().skip(1);
     let mut kept = Vec::new();
     for (v, w) in polygon.iter().zip(following) {
@@ -174,9 +162,7 @@ fn range(places: &[DVec3]) -> [DVec3; 2] {
 fn height(places: &[DVec3]) -> Option<f64> {
     let places: Vec<DVec2> = places.iter().map(|place| place.truncate()).collect();
     let first = *places.first()?;
-    let fan = places
-        .windows(2)
-        .map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
+    let fan = places.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
     let area = fan.sum::<f64>().abs();
     let farthest = |p: &DVec2| places.iter().map(|q| p.distance(*q)).fold(0.0, f64::max);
     let longest = places.iter().map(farthest).fold(0.0, f64::max);
@@ -191,18 +177,11 @@ mod tests {
     fn view() -> PinholeView {
         let corner = DVec3::new(-1.0, 1.0, -1.0);
         let [a, b] = [DVec3::X * 0.1, DVec3::NEG_Y * 0.1];
-        PinholeView::new(
-            &Pinhole::new(DVec4::W, corner, a, b, 0.5, None).unwrap(),
-            DVec3::ZERO,
-        )
+        PinholeView::new(&Pinhole::new(DVec4::W, corner, a, b, 0.5, None).unwrap(), DVec3::ZERO)
     }
 
     fn location(uv: [f64; 2], side: f64) -> SampleLocation {
-        SampleLocation {
-            uv,
-            jacobian: [[side, 0.0], [0.0, side]],
-            output: 0,
-        }
+        SampleLocation { uv, jacobian: [[side, 0.0], [0.0, side]], output: 0 }
     }
 
     /// The strip is 0.3 high at distance 2, where a pixel is 0.2 wide: 1.5 pixels high.
@@ -214,41 +193,21 @@ mod tests {
             let crossing = view().crossing(strip, &location([10.0, 9.9], side));
             assert_eq!(crossing.is_some(), thin, "{side}");
         }
-        assert!(
-            view()
-                .crossing(strip, &location([10.0, 12.0], 1.0))
-                .is_none()
-        );
+        assert!(view().crossing(strip, &location([10.0, 12.0], 1.0)).is_none());
     }
 
     #[test]
     fn gaps_are_as_wide_as_cells() {
         let wire = [[-1.0, 0.0, -2.0], [1.0, 0.0, -2.0], [0.0, 0.02, -2.0]];
         for side in [0.5, 1.0, 3.0] {
-            let crossing =
-                view().crossing(wire.map(DVec3::from_array), &location([10.0, 10.0], side));
-            let at = |widths: f64, fold: bool| {
-                crossing
-                    .unwrap()
-                    .mark(view().behind(2.0 + 0.2 * side * widths), fold)
-            };
+            let crossing = view().crossing(wire.map(DVec3::from_array), &location([10.0, 10.0], side));
+            let at = |widths: f64, fold: bool| crossing.unwrap().mark(view().behind(2.0 + 0.2 * side * widths), fold);
             let marks = |fold: bool| [at(1.6, fold), at(0.5, fold), at(-0.5, fold)];
-            assert_eq!(
-                marks(false),
-                [Mark::Apart, Mark::Painted, Mark::None],
-                "{side}"
-            );
-            assert_eq!(
-                marks(true),
-                [Mark::Apart, Mark::Apart, Mark::None],
-                "{side}"
-            );
+            assert_eq!(marks(false), [Mark::Apart, Mark::Painted, Mark::None], "{side}");
+            assert_eq!(marks(true), [Mark::Apart, Mark::Apart, Mark::None], "{side}");
         }
         let crossing = view().crossing(wire.map(DVec3::from_array), &location([10.0, 10.0], 1.0));
-        assert_eq!(
-            crossing.unwrap().mark(view().behind(0.0), false),
-            Mark::Apart
-        );
+        assert_eq!(crossing.unwrap().mark(view().behind(0.0), false), Mark::Apart);
     }
 
     /// A wire from far ahead to behind the eye is as thin as its visible part.

@@ -67,27 +67,12 @@ impl<'a> DetectionImage<'a> {
         blend_ids: &'a [u32],
         colours: &'a [u32],
     ) -> Result<Self, PlaneError> {
-        for (plane, values) in [
-            ("triangle IDs", ids),
-            ("blend IDs", blend_ids),
-            ("colours", colours),
-        ] {
+        for (plane, values) in [("triangle IDs", ids), ("blend IDs", blend_ids), ("colours", colours)] {
             if values.len() as u64 != u64::from(width) * u64::from(height) {
-                return Err(PlaneError {
-                    plane,
-                    width,
-                    height,
-                    found: values.len(),
-                });
+                return Err(PlaneError { plane, width, height, found: values.len() });
             }
         }
-        Ok(Self {
-            width,
-            height,
-            ids,
-            blend_ids,
-            colours,
-        })
+        Ok(Self { width, height, ids, blend_ids, colours })
     }
 
     /// Whether two pixels contrast; `a` and `b` are their indices.

@@ -29,11 +29,7 @@ impl PlacedLocation {
     /// Half of the width and height of the area over which the samples spread.
     fn half_extent(&self, points: bool) -> [f32; 2] {
         let [[a, b], [c, d]] = self.jacobian;
-        if points {
-            [0.0; 2]
-        } else {
-            [0.5 * (a.abs() + c.abs()), 0.5 * (b.abs() + d.abs())]
-        }
+        if points { [0.0; 2] } else { [0.5 * (a.abs() + c.abs()), 0.5 * (b.abs() + d.abs())] }
     }
 
     /// Place relative to the centre of its tile, in pixels.
@@ -63,8 +59,7 @@ impl ListBounds {
             && extent.iter().all(|v| (0.0..=FARTHEST).contains(v));
         let [column, row] = [0, 1].map(|axis| location.pixel[axis].div_euclid(TILE[axis]));
         let inside = |tile: i32, axis: usize| (0..self.tiles[axis] as i32).contains(&tile);
-        (sound && inside(column, 0) && inside(row, 1))
-            .then(|| row as u32 * self.tiles[0] + column as u32)
+        (sound && inside(column, 0) && inside(row, 1)).then(|| row as u32 * self.tiles[0] + column as u32)
     }
 
     /// Largest distance of a location's samples from the centre of its pixel, and at least half a pixel.
@@ -72,11 +67,7 @@ impl ListBounds {
     pub fn reach(&self, location: &PlacedLocation) -> f32 {
         let extent = location.half_extent(self.points);
         let reach = |axis: usize| (location.within[axis] - 0.5).abs() + extent[axis];
-        if self.points {
-            0.5
-        } else {
-            reach(0).max(reach(1)).max(0.5)
-        }
+        if self.points { 0.5 } else { reach(0).max(reach(1)).max(0.5) }
     }
 
     /// Smallest rectangle, relative to the centre of the tile, around the samples of some locations of a tile: lowest

@@ -27,12 +27,8 @@ pub fn half_plane_area([a, b, c]: [f64; 3]) -> f64 {
 /// and Hodgman, "Reentrant Polygon Clipping", 1974).
 pub fn clipped_area(lines: &[[f64; 3]]) -> f64 {
     let square = vec![[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
-    let polygon = lines
-        .iter()
-        .fold(square, |polygon, line| clip(&polygon, line));
-    let twice: f64 = sides(&polygon)
-        .map(|([x0, y0], [x1, y1])| x0 * y1 - x1 * y0)
-        .sum();
+    let polygon = lines.iter().fold(square, |polygon, line| clip(&polygon, line));
+    let twice: f64 = sides(&polygon).map(|([x0, y0], [x1, y1])| x0 * y1 - x1 * y0).sum();
     twice.max(0.0) / 2.0
 }
 
@@ -45,10 +41,7 @@ pub fn triangle_area(corners: [[f64; 2]; 3], [x, y]: [f64; 2]) -> f64 {
         return 0.0;
     }
     let lines = [(p, q), (q, r), (r, p)].map(|(from, to)| {
-        let [a, b] = [
-            (from[1] - to[1]) * turn.signum(),
-            (to[0] - from[0]) * turn.signum(),
-        ];
+        let [a, b] = [(from[1] - to[1]) * turn.signum(), (to[0] - from[0]) * turn.signum()];
         [a, b, -a * from[0] - b * from[1]]
     });
     clipped_area(&lines)
@@ -65,10 +58,7 @@ fn clip(polygon: &[[f64; 2]], &[a, b, c]: &[f64; 3]) -> Vec<[f64; 2]> {
         }
         if (start > 0.0) != (end > 0.0) {
             let t = start / (start - end);
-            kept.push([
-                from[0] + t * (to[0] - from[0]),
-                from[1] + t * (to[1] - from[1]),
-            ]);
+            kept.push([from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])]);
         }
     }
     kept
@@ -76,8 +66,5 @@ fn clip(polygon: &[[f64; 2]], &[a, b, c]: &[f64; 3]) -> Vec<[f64; 2]> {
 
 /// Sides of a polygon, each as its two ends.
 fn sides(polygon: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
-    polygon
-        .iter()
-        .copied()
-        .zip(polygon.iter().copied().cycle().skip(1))
+    polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1))
 }

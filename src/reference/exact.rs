@@ -16,10 +16,7 @@ pub(super) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> Pair {
 /// below 2^-51.
 pub(super) fn dot(coefficients: &[Pair; 3], point: [f64; 3]) -> f64 {
     let mut terms = [0.0; 12];
-    let factors = coefficients
-        .iter()
-        .zip(point)
-        .flat_map(|([high, low], x)| [(*high, x), (*low, x)]);
+    let factors = coefficients.iter().zip(point).flat_map(|([high, low], x)| [(*high, x), (*low, x)]);
     for (pair, (coefficient, x)) in terms.chunks_exact_mut(2).zip(factors) {
         pair.copy_from_slice(&two_product(coefficient, x));
     }
@@ -108,18 +105,14 @@ mod tests {
     fn agrees_with_integers() {
         let mut state = 1_u64;
         let mut next = |bits: u32| {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 33) as i64 % (1 << bits)
         };
         for _ in 0..20_000 {
             let [a, b, c, x, y] = [24, 24, 3, 24, 24].map(&mut next);
             // c z is close to -(a x + b y), so that a x + b y + c z is near zero.
             let z = -(a * x + b * y) / c.max(1);
-            let exact = i128::from(a) * i128::from(x)
-                + i128::from(b) * i128::from(y)
-                + i128::from(c) * i128::from(z);
+            let exact = i128::from(a) * i128::from(x) + i128::from(b) * i128::from(y) + i128::from(c) * i128::from(z);
             let pairs = [a, b, c].map(|v| [v as f64, 0.0]);
             let point = [x, y, z].map(|v| v as f64);
             assert_eq!(i128::from(dot_sign(&pairs, point)), exact.signum());

@@ -13,13 +13,7 @@ use super::detect::{TILE_HEIGHT, TILE_WIDTH};
 ///
 /// # Panics
 /// If `seen` and `resolved` differ in length, or `superpixels` is too short for them.
-pub fn grown(
-    width: u32,
-    seen: &[u32],
-    resolved: &[u32],
-    superpixels: &[u32],
-    threshold: u8,
-) -> Vec<u32> {
+pub fn grown(width: u32, seen: &[u32], resolved: &[u32], superpixels: &[u32], threshold: u8) -> Vec<u32> {
     assert_eq!(seen.len(), resolved.len());
     let height = seen.len() as u32 / width;
     let tiles_x = width.div_ceil(TILE_WIDTH);
@@ -34,12 +28,10 @@ pub fn grown(
         let own = seen[place(x, y)].to_le_bytes();
         let contrasts = |nx: u32, ny: u32| {
             let pairs = own.into_iter().zip(resolved[place(nx, ny)].to_le_bytes());
-            superpixels[word(nx, ny)] & bit(nx, ny) != 0
-                && pairs.into_iter().any(|(a, b)| a.abs_diff(b) > threshold)
+            superpixels[word(nx, ny)] & bit(nx, ny) != 0 && pairs.into_iter().any(|(a, b)| a.abs_diff(b) > threshold)
         };
         let rows = y.saturating_sub(1)..(y + 2).min(height);
-        let mut around =
-            rows.flat_map(|ny| (x.saturating_sub(1)..(x + 2).min(width)).map(move |nx| (nx, ny)));
+        let mut around = rows.flat_map(|ny| (x.saturating_sub(1)..(x + 2).min(width)).map(move |nx| (nx, ny)));
         if around.any(|(nx, ny)| contrasts(nx, ny)) {
             mask[word(x, y)] |= bit(x, y);
         }

@@ -37,13 +37,7 @@ impl Cube {
     /// Radiance interpolated between the nearest texels of the face in this direction.
     fn read(&self, direction: DVec3) -> DVec3 {
         let ahead = |face: usize| direction.dot(FACES[face][0]);
-        let face = (0..6).fold(0, |best, face| {
-            if ahead(face) > ahead(best) {
-                face
-            } else {
-                best
-            }
-        });
+        let face = (0..6).fold(0, |best, face| if ahead(face) > ahead(best) { face } else { best });
         let last = f64::from(self.side - 1);
         let along = |axis: usize| {
             let at = direction.dot(FACES[face][axis]) / ahead(face);
@@ -67,11 +61,7 @@ pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
     let turn = if normal.z >= 0.0 { 1.0 } else { -1.0 };
     let a = -1.0 / (turn + normal.z);
     let b = normal.x * normal.y * a;
-    let right = DVec3::new(
-        1.0 + turn * normal.x.powi(2) * a,
-        turn * b,
-        -turn * normal.x,
-    );
+    let right = DVec3::new(1.0 + turn * normal.x.powi(2) * a, turn * b, -turn * normal.x);
     let up = DVec3::new(b, turn + normal.y.powi(2) * a, -normal.y);
     let axes = DMat3::from_cols(right, up, normal);
     let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
@@ -89,8 +79,7 @@ pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
 #[must_use]
 pub fn density(alpha: f64, cosine: f64) -> f64 {
     let square = alpha * alpha;
-    let distribution =
-        |n_h_squared: f64| square / (PI * (n_h_squared * (square - 1.0) + 1.0).powi(2));
+    let distribution = |n_h_squared: f64| square / (PI * (n_h_squared * (square - 1.0) + 1.0).powi(2));
     // The mean cosine of the lobe, in closed form; it is 1/4 for the widest.
     let (b, end) = (square - 1.0, 1.0 / (1.0 + square));
     let mean = match b.abs() < 1e-4 {

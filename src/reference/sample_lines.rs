@@ -15,11 +15,7 @@ pub fn offsets(columns: bool, lines: u32) -> Vec<[f64; 2]> {
             let phase = (f64::from(reversed) + 0.5) / f64::from(lines);
             let along = (f64::from(bit) + phase) / f64::from(BITS) - 0.5;
             let across = (f64::from(line) + 0.5) / f64::from(lines) - 0.5;
-            if columns {
-                [across, along]
-            } else {
-                [along, across]
-            }
+            if columns { [across, along] } else { [along, across] }
         })
         .collect()
 }
@@ -33,10 +29,8 @@ mod tests {
         for lines in [8, 16, 32, 64] {
             let rows = offsets(false, lines);
             assert_eq!(rows.len(), (lines * BITS) as usize);
-            let mut columns: Vec<u32> = rows
-                .iter()
-                .map(|[x, _]| ((x + 0.5) * f64::from(lines * BITS)) as u32)
-                .collect();
+            let mut columns: Vec<u32> =
+                rows.iter().map(|[x, _]| ((x + 0.5) * f64::from(lines * BITS)) as u32).collect();
             columns.sort_unstable();
             assert!(columns.into_iter().eq(0..lines * BITS));
             let turned: Vec<_> = rows.iter().map(|&[x, y]| [y, x]).collect();

@@ -93,11 +93,7 @@ impl Rounds {
     /// List in which a tile with superpixels is entered.
     #[must_use]
     pub fn list(&self, tile: Tile) -> ScheduledList {
-        let longest = if tile.has_blend {
-            self.longest_layered
-        } else {
-            self.longest_list
-        };
+        let longest = if tile.has_blend { self.longest_layered } else { self.longest_list };
         if tile.overflows || tile.candidates > longest.min(self.candidates) {
             ScheduledList::Unlisted
         } else if tile.has_blend {
@@ -112,29 +108,16 @@ impl Rounds {
     /// Needs of a tile: candidates, or the room that samples take in their place; records; headers; and entries without
     /// a list.
     fn needs(&self, tile: Tile) -> [u64; 4] {
-        let [samples, block, parts, layers] =
-            [self.samples, self.block, self.parts, self.layers].map(u64::from);
+        let [samples, block, parts, layers] = [self.samples, self.block, self.parts, self.layers].map(u64::from);
         let unlisted = self.list(tile) == ScheduledList::Unlisted;
         let blocks = samples.div_ceil(block);
         let headers = u64::from(tile.cells) * blocks;
         let all_samples = u64::from(tile.cells) * samples;
-        let candidates = u64::from(if unlisted {
-            self.triangles
-        } else {
-            tile.candidates
-        });
+        let candidates = u64::from(if unlisted { self.triangles } else { tile.candidates });
         let layered = tile.has_blend || (unlisted && self.blends);
         let records = if layered {
-            let lists_of_block = if parts > 8 {
-                layers * parts / 4
-            } else {
-                2 * layers
-            };
-            let lists = if self.per_sample {
-                all_samples
-            } else {
-                all_samples.min(headers * lists_of_block)
-            };
+            let lists_of_block = if parts > 8 { layers * parts / 4 } else { 2 * layers };
+            let lists = if self.per_sample { all_samples } else { all_samples.min(headers * lists_of_block) };
             lists * (2 + candidates.min(layers))
         } else if self.per_sample {
             all_samples
@@ -180,10 +163,7 @@ impl Rounds {
                 used = after;
                 next += 1;
             }
-            rounds.push(Round {
-                tiles: first..next,
-                placed,
-            });
+            rounds.push(Round { tiles: first..next, placed });
         }
         rounds
     }

@@ -38,11 +38,7 @@ pub struct Receiver {
 
 /// Offsets from a pixel's centre of further places that are tested. The pixel becomes a superpixel if a light reaches
 /// either its centre or a place on the same triangle, but not both.
-pub const PROBES: [[f64; 2]; 3] = [
-    [0.34375, 0.34375],
-    [-0.296_875, 0.40625],
-    [0.46875, -0.296_875],
-];
+pub const PROBES: [[f64; 2]; 3] = [[0.34375, 0.34375], [-0.296_875, 0.40625], [0.46875, -0.296_875]];
 
 /// Fraction of the distance, or of the scene's depth, within which a triangle does not block light, because it may be
 /// the receiver itself.
@@ -51,25 +47,11 @@ const BIAS: f64 = 1.0 / 131_072.0;
 /// Whether the place lies in shadow, as the passes `receivers` and `occlude`, or `receivers`, `sample` and `shadow`, decide it.
 /// `None` if the decision is closer than `doubt`, a fraction of the lengths and of the triangles' sides.
 #[must_use]
-pub fn is_in_shadow(
-    triangles: &[[DVec3; 3]],
-    receiver: &Receiver,
-    light: &Shining,
-    doubt: f64,
-) -> Option<bool> {
-    let Receiver {
-        triangle,
-        position,
-        eye,
-        is_backlit,
-    } = *receiver;
+pub fn is_in_shadow(triangles: &[[DVec3; 3]], receiver: &Receiver, light: &Shining, doubt: f64) -> Option<bool> {
+    let Receiver { triangle, position, eye, is_backlit } = *receiver;
     let (to_light, length, least) = match *light {
         Shining::Distant { to_light, depth } => (to_light, f64::INFINITY, BIAS * depth),
-        Shining::Local {
-            position: from,
-            cone: (axis, cosine),
-            range,
-        } => {
+        Shining::Local { position: from, cone: (axis, cosine), range } => {
             let way = from - position;
             let length = way.length();
             let along = -way.dot(axis) / length;

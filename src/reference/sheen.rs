@@ -17,15 +17,10 @@ pub fn albedo(roughness: f64, n_v: f64) -> f64 {
         let n_l = root * root;
         let across = (1.0 - n_l * n_l).sqrt();
         for angle in (0..STEPS).map(|step| PI * middle(step)) {
-            let half = [
-                across * angle.cos() + eye_across,
-                across * angle.sin(),
-                n_l + n_v,
-            ];
+            let half = [across * angle.cos() + eye_across, across * angle.sin(), n_l + n_v];
             let length = half.iter().map(|x| x * x).sum::<f64>().sqrt();
             let n_h = half[2] / length;
-            let distribution =
-                (2.0 + sharpness) * (1.0 - n_h * n_h).max(0.0).powf(sharpness / 2.0) / TAU;
+            let distribution = (2.0 + sharpness) * (1.0 - n_h * n_h).max(0.0).powf(sharpness / 2.0) / TAU;
             let visibility = 0.25 / (n_l + n_v - n_l * n_v);
             sum += distribution * visibility * n_l * 2.0 * root;
         }

@@ -79,12 +79,7 @@ fn joint_at(from: Clip, at: Clip, to: Clip, width: f64) -> Option<Joint> {
 /// Polygon of a line `width` pixels wide between `from` and `to`; the line comes from `before` and continues to
 /// `after`, if they exist.
 #[must_use]
-pub fn segment(
-    before: Option<Clip>,
-    [from, to]: [Clip; 2],
-    after: Option<Clip>,
-    width: f64,
-) -> Vec<[f64; 2]> {
+pub fn segment(before: Option<Clip>, [from, to]: [Clip; 2], after: Option<Clip>, width: f64) -> Vec<[f64; 2]> {
     let (Some(seen), Some((direction, _))) = (clipped(from, to), way(from, to)) else {
         return Vec::new();
     };
@@ -96,12 +91,7 @@ pub fn segment(
     let end = left(after.and_then(|after| joint_at(from, to, after, width)));
     let [a, b] = seen.map(pixel);
     let half = 0.5 * width;
-    vec![
-        moved(a, start, -half),
-        moved(b, end, -half),
-        moved(b, end, half),
-        moved(a, start, half),
-    ]
+    vec![moved(a, start, -half), moved(b, end, -half), moved(b, end, half), moved(a, start, half)]
 }
 
 /// Polygon that fills the joint of two segments if a mitre would be too long.
@@ -111,11 +101,7 @@ pub fn joint(from: Clip, at: Clip, to: Clip, width: f64) -> Vec<[f64; 2]> {
         return Vec::new();
     };
     let middle = pixel(at);
-    let (ends, side) = if turns_right {
-        ([f, e], 0.5 * width)
-    } else {
-        ([e, f], -0.5 * width)
-    };
+    let (ends, side) = if turns_right { ([f, e], 0.5 * width) } else { ([e, f], -0.5 * width) };
     let [second, third] = ends.map(|direction| moved(middle, left_of(direction), side));
     vec![middle, second, third]
 }
@@ -147,12 +133,7 @@ pub fn edge(ends: [Clip; 2], is_smooth: bool, width: f64) -> Vec<[f64; 2]> {
     let [a, b] = seen.map(pixel);
     let (a, b) = (moved(a, direction, -beyond), moved(b, direction, beyond));
     let left = left_of(direction);
-    vec![
-        moved(a, left, -half),
-        moved(b, left, -half),
-        moved(b, left, half),
-        moved(a, left, half),
-    ]
+    vec![moved(a, left, -half), moved(b, left, -half), moved(b, left, half), moved(a, left, half)]
 }
 
 /// Origin of the lines of sight.
@@ -191,23 +172,12 @@ impl Edge {
         let [x, y, z] = minus(b, a);
         let [front, back] = self.faces.map(|third| {
             let third = minus(third?, a);
-            let normal = [
-                y * third[2] - z * third[1],
-                z * third[0] - x * third[2],
-                x * third[1] - y * third[0],
-            ];
+            let normal = [y * third[2] - z * third[1], z * third[0] - x * third[2], x * third[1] - y * third[0]];
             let facing: f64 = (0..3).map(|i| normal[i] * view[i]).sum();
             Some(facing)
         });
-        let (front, back) = (
-            front.is_some_and(|facing| facing > 0.0),
-            back.is_some_and(|facing| facing < 0.0),
-        );
-        if self.is_smooth {
-            front != back
-        } else {
-            self.is_double_sided || front || back
-        }
+        let (front, back) = (front.is_some_and(|facing| facing > 0.0), back.is_some_and(|facing| facing < 0.0));
+        if self.is_smooth { front != back } else { self.is_double_sided || front || back }
     }
 }
 
@@ -221,11 +191,7 @@ mod tests {
 
     fn area(polygon: &[[f64; 2]]) -> f64 {
         let next = polygon.iter().cycle().skip(1);
-        let twice: f64 = polygon
-            .iter()
-            .zip(next)
-            .map(|(p, q)| p[1] * q[0] - p[0] * q[1])
-            .sum();
+        let twice: f64 = polygon.iter().zip(next).map(|(p, q)| p[1] * q[0] - p[0] * q[1]).sum();
         0.5 * twice
     }
 
@@ -235,8 +201,7 @@ mod tests {
         assert!((area(&line) - 1.5).abs() < 1e-12);
         // A mitre adds as much area outside as it removes inside.
         let (a, b, c) = (at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0));
-        let both =
-            area(&segment(None, [a, b], Some(c), 2.0)) + area(&segment(Some(a), [b, c], None, 2.0));
+        let both = area(&segment(None, [a, b], Some(c), 2.0)) + area(&segment(Some(a), [b, c], None, 2.0));
         assert!((both - 40.0).abs() < 1e-12, "{both}");
         assert!(joint(a, b, c, 2.0).is_empty());
         let size = 5.0;
@@ -251,10 +216,7 @@ mod tests {
             let fill = joint(a, b, c, 2.0);
             assert!(area(&fill) > 0.0, "{fill:?}");
             let outside = if other { 1.0 } else { -1.0 };
-            assert!(
-                fill.iter()
-                    .all(|p| p[1] * outside >= -1.0 && p[0] >= 10.0 - 1e-12)
-            );
+            assert!(fill.iter().all(|p| p[1] * outside >= -1.0 && p[0] >= 10.0 - 1e-12));
         }
         // This joint is as sharp as a mitre may be: four widths long.
         let turn = 2.0 * (1.0_f64 / 4.0).acos();
@@ -278,20 +240,11 @@ mod tests {
         let places = [from(0.0, 5.0), from(5.0, 0.0), from(0.0, -5.0)];
         assert_eq!(places.map(|eye| edge.shows(eye)), [false, true, false]);
         assert!(edge.shows(Eye::Along([-1.0, 0.0, 0.0])));
-        let sharp = Edge {
-            is_smooth: false,
-            ..edge
-        };
+        let sharp = Edge { is_smooth: false, ..edge };
         assert_eq!(places.map(|eye| sharp.shows(eye)), [true, true, false]);
-        let border = Edge {
-            faces: [edge.faces[0], None],
-            ..sharp
-        };
+        let border = Edge { faces: [edge.faces[0], None], ..sharp };
         assert_eq!(places.map(|eye| border.shows(eye)), [true, false, false]);
-        let both = Edge {
-            is_double_sided: true,
-            ..border
-        };
+        let both = Edge { is_double_sided: true, ..border };
         assert_eq!(places.map(|eye| both.shows(eye)), [true; 3]);
     }
 

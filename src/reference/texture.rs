@@ -38,16 +38,9 @@ pub fn probes(size: [u32; 2], at: [f64; 2], sides: [[f64; 2]; 2]) -> Probes {
     let count = ((ratio - 0.25).ceil().max(1.0) as u32).min(MOST_PROBES);
     let exact = (across.max(longest / f64::from(count)) / 3f64.sqrt()).log2();
     let level = exact.round();
-    let boundary = (ratio - 0.25)
-        .round()
-        .clamp(1.0, f64::from(MOST_PROBES - 1))
-        + 0.25;
+    let boundary = (ratio - 0.25).round().clamp(1.0, f64::from(MOST_PROBES - 1)) + 0.25;
     let step = sides[longer].map(|change| change / f64::from(count));
-    let axes = if count > 1 {
-        lengths[1 - longer] / longest - 1.0
-    } else {
-        1.0
-    };
+    let axes = if count > 1 { lengths[1 - longer] / longest - 1.0 } else { 1.0 };
     let margins = [ratio / boundary - 1.0, 0.5 - (exact - level).abs(), axes];
     Probes {
         count,

@@ -4,9 +4,7 @@
 #[must_use]
 pub fn list<T: Copy>(corners: &[T]) -> Vec<[T; 3]> {
     let triangles = corners.chunks_exact(3);
-    triangles
-        .map(|corners| [corners[0], corners[1], corners[2]])
-        .collect()
+    triangles.map(|corners| [corners[0], corners[1], corners[2]]).collect()
 }
 
 /// Triangles of a strip: each corner from the third on forms a triangle with the two before it. In every other
@@ -40,10 +38,7 @@ mod tests {
     fn corners_have_vulkans_order() {
         let corners = [0, 1, 2, 3, 4, 5];
         assert_eq!(list(&corners), [[0, 1, 2], [3, 4, 5]]);
-        assert_eq!(
-            strip(&corners),
-            [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]
-        );
+        assert_eq!(strip(&corners), [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]);
         assert_eq!(fan(&corners), [[1, 2, 0], [2, 3, 0], [3, 4, 0], [4, 5, 0]]);
         assert!(list(&corners[..2]).is_empty() && strip(&corners[..2]).is_empty());
         assert!(fan(&corners[..2]).is_empty() && fan::<u32>(&[]).is_empty());

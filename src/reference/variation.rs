@@ -60,11 +60,7 @@ pub fn parts(
 ) -> ShadedParts {
     let alike = u32::from(alike);
     let own = around.ids[CENTRE];
-    let other = around
-        .ids
-        .into_iter()
-        .find(|id| *id != 0 && *id != own)
-        .unwrap_or(0);
+    let other = around.ids.into_iter().find(|id| *id != 0 && *id != own).unwrap_or(0);
     let material = |id: u32| (id != 0).then(|| material_of(id));
     let known = [own, other];
     let mut even = false;
@@ -86,9 +82,7 @@ pub fn parts(
         range if range <= if samples < MANY_SAMPLES { alike } else { 0 } => ShadedParts::One,
         range if range <= 4 * alike => ShadedParts::Fours,
         _ if even => ShadedParts::Pairs,
-        range if alike != 0 && (65..=256).contains(&samples) && range <= PAIRED_RANGE => {
-            ShadedParts::Pairs
-        }
+        range if alike != 0 && (65..=256).contains(&samples) && range <= PAIRED_RANGE => ShadedParts::Pairs,
         _ => ShadedParts::All,
     }
 }
@@ -102,9 +96,7 @@ fn range(around: &Neighbourhood, seen: impl Fn(u32) -> bool) -> u32 {
     let channel = |channel: usize| {
         let codes = around.ids.iter().zip(&around.colours);
         let codes = codes.filter(|(id, _)| seen(**id)).map(|(_, c)| c[channel]);
-        let (low, high) = codes.fold((u8::MAX, 0), |(low, high), code| {
-            (low.min(code), high.max(code))
-        });
+        let (low, high) = codes.fold((u8::MAX, 0), |(low, high), code| (low.min(code), high.max(code)));
         u32::from(high.saturating_sub(low))
     };
     (0..3).map(channel).max().unwrap_or(0)

@@ -60,12 +60,7 @@ impl Surface {
         }
         let mut indexed = [(vertices[0], 0), (vertices[1], 1), (vertices[2], 2)];
         indexed.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        Some(Self {
-            id,
-            edges,
-            z,
-            order: indexed.map(|(_, index)| index),
-        })
+        Some(Self { id, edges, z, order: indexed.map(|(_, index)| index) })
     }
 
     /// ID of the triangle.
@@ -88,10 +83,7 @@ impl Surface {
         let values = self.edges.values(sample);
         // The order depends on the vertices alone, so that coincident triangles agree to the bit.
         let terms = self.order.map(|vertex| values[vertex] * self.z[vertex]);
-        let sums: [f64; 2] = [
-            terms.iter().sum(),
-            terms.iter().map(|term| term.abs()).sum(),
-        ];
+        let sums: [f64; 2] = [terms.iter().sum(), terms.iter().map(|term| term.abs()).sum()];
         sums.map(|sum| sum / self.edges.determinant())
     }
 }
@@ -111,12 +103,7 @@ impl Visibility {
     /// Inserts a hit in order of depth.
     fn add(&mut self, hit: Hit) {
         let behind = match self.nearest {
-            Some(nearest)
-                if nearest.depth > hit.depth
-                    || (nearest.depth == hit.depth && nearest.id < hit.id) =>
-            {
-                hit
-            }
+            Some(nearest) if nearest.depth > hit.depth || (nearest.depth == hit.depth && nearest.id < hit.id) => hit,
             previous => {
                 self.nearest = Some(hit);
                 match previous {
@@ -125,25 +112,14 @@ impl Visibility {
                 }
             }
         };
-        self.second = Some(
-            self.second
-                .map_or(behind.depth, |second| second.max(behind.depth)),
-        );
+        self.second = Some(self.second.map_or(behind.depth, |second| second.max(behind.depth)));
     }
 }
 
 /// Visible surface at a sample, which is in pixels from the screen's centre. The order of the surfaces does not
 /// matter.
-pub fn nearest<'a>(
-    surfaces: impl IntoIterator<Item = &'a Surface>,
-    sample: [f64; 2],
-) -> Visibility {
-    let mut seen = Visibility {
-        nearest: None,
-        second: None,
-        edge_margin: f64::INFINITY,
-        clip_margin: f64::INFINITY,
-    };
+pub fn nearest<'a>(surfaces: impl IntoIterator<Item = &'a Surface>, sample: [f64; 2]) -> Visibility {
+    let mut seen = Visibility { nearest: None, second: None, edge_margin: f64::INFINITY, clip_margin: f64::INFINITY };
     for surface in surfaces {
         seen.edge_margin = seen.edge_margin.min(surface.edges.margin(sample).abs());
         if !surface.edges.covers(sample) {
@@ -153,10 +129,7 @@ pub fn nearest<'a>(
         let from_far = if size > 0.0 { depth.abs() / size } else { 0.0 };
         seen.clip_margin = seen.clip_margin.min((1.0 - depth).abs()).min(from_far);
         if (0.0..=1.0).contains(&depth) {
-            seen.add(Hit {
-                id: surface.id,
-                depth,
-            });
+            seen.add(Hit { id: surface.id, depth });
         }
     }
     seen

@@ -19,9 +19,7 @@ pub enum RenderError {
         method: MethodKind,
     },
     /// Region in a request for locations: only the pixels of an image have regions.
-    #[error(
-        "a region is a part of an image's pixels; of locations, hand over those that are wanted"
-    )]
+    #[error("a region is a part of an image's pixels; of locations, hand over those that are wanted")]
     LocationRegion,
     /// Width of lines, or size of points, that is not above 0 and at most the limit.
     #[error(

@@ -4,9 +4,7 @@ use super::renderer::{PreparedScene, Renderer, SceneRequest};
 use super::{EngineError, Frame, Pixel, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::render::data::GpuScene;
-use crate::vulkan::{
-    Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
-};
+use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -77,55 +75,31 @@ impl ReadBack {
 
     /// Bytes of the memory for an image of pixels of a type.
     fn bytes<P>(settings: &Settings) -> u64 {
-        let attributes = if settings.attributes {
-            Self::ATTRIBUTE_BYTES
-        } else {
-            0
-        };
+        let attributes = if settings.attributes { Self::ATTRIBUTE_BYTES } else { 0 };
         pixel_count(settings) * (size_of::<P>() as u64 + attributes)
     }
 
     /// Memory for a frame's image of pixels of a type: `known` if it is large enough, otherwise new.
-    fn for_frame<P>(
-        gpu: &Arc<Gpu>,
-        frame: &Frame,
-        known: Option<Self>,
-    ) -> Result<Self, RenderError> {
+    fn for_frame<P>(gpu: &Arc<Gpu>, frame: &Frame, known: Option<Self>) -> Result<Self, RenderError> {
         let settings = frame.settings();
         let pixels = pixel_count(settings);
-        let needs = [
-            pixels * size_of::<P>() as u64,
-            if settings.attributes {
-                pixels * Self::ATTRIBUTE_BYTES
-            } else {
-                0
-            },
-        ];
+        let needs =
+            [pixels * size_of::<P>() as u64, if settings.attributes { pixels * Self::ATTRIBUTE_BYTES } else { 0 }];
         let has_room = |known: &Self| {
             let attributes = known.attributes.as_ref().map_or(0, Buffer::size);
             let bounded = settings.scene.max_memory.is_some();
             known.colors.size() >= needs[0]
                 && attributes >= needs[1]
-                && !(bounded
-                    && known.colors.size() + attributes > Self::bytes::<P>(settings).max(32))
+                && !(bounded && known.colors.size() + attributes > Self::bytes::<P>(settings).max(32))
         };
         if let Some(known) = known.filter(has_room) {
             return Ok(known);
         }
         let memory = Memory::new(gpu.clone(), None);
-        let make = |name, bytes| {
-            memory.buffer(
-                name,
-                bytes,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )
-        };
+        let make = |name, bytes| memory.buffer(name, bytes, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback);
         Ok(Self {
             colors: make("colour read-back", needs[0])?,
-            attributes: (needs[1] > 0)
-                .then(|| make("attribute read-back", needs[1]))
-                .transpose()?,
+            attributes: (needs[1] > 0).then(|| make("attribute read-back", needs[1])).transpose()?,
             memory,
         })
     }
@@ -172,13 +146,8 @@ impl Headless {
     /// # Safety
     /// `lower` raises no limit and adds no feature.
     #[doc(hidden)]
-    pub unsafe fn within(
-        options: &HeadlessOptions,
-        lower: impl FnOnce(&mut Limits),
-    ) -> Result<Self, VulkanError> {
-        let instance = Instance::new(InstanceOptions {
-            validation: options.validation,
-        })?;
+    pub unsafe fn within(options: &HeadlessOptions, lower: impl FnOnce(&mut Limits)) -> Result<Self, VulkanError> {
+        let instance = Instance::new(InstanceOptions { validation: options.validation })?;
         // SAFETY: guaranteed by the caller.
         let gpu = unsafe { instance.create_gpu_within(options.device.as_deref(), lower) }?;
         let renderer = Renderer::in_gpu(gpu.clone())?;
@@ -200,17 +169,11 @@ impl Headless {
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(gpu.queue_family)
                 .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER);
-            headless.pool = gpu
-                .device
-                .create_command_pool(&info, None)
-                .map_err(VulkanError::of("vkCreateCommandPool"))?;
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(headless.pool)
-                .command_buffer_count(1);
-            let buffers = gpu
-                .device
-                .allocate_command_buffers(&info)
-                .map_err(VulkanError::of("vkAllocateCommandBuffers"))?;
+            headless.pool =
+                gpu.device.create_command_pool(&info, None).map_err(VulkanError::of("vkCreateCommandPool"))?;
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(headless.pool).command_buffer_count(1);
+            let buffers =
+                gpu.device.allocate_command_buffers(&info).map_err(VulkanError::of("vkAllocateCommandBuffers"))?;
             headless.commands = buffers.first().copied().unwrap_or_default();
             headless.fence = gpu
                 .device
@@ -241,10 +204,7 @@ impl Headless {
     /// Messages of the validation layer so far; empty without it.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
-        self.gpu
-            .instance()
-            .map(|instance| instance.validation_messages())
-            .unwrap_or_default()
+        self.gpu.instance().map(|instance| instance.validation_messages()).unwrap_or_default()
     }
 
     /// Uploads a scene, prepared as by [`Renderer::prepare_scene`].
@@ -275,11 +235,7 @@ impl Headless {
     /// # Errors
     /// [`RenderError::OtherDevice`] for a scene of another device, [`RenderError::NotUploaded`] for a scene that was
     /// not uploaded by [`Self::upload`]; otherwise if the settings are impossible or memory runs out.
-    pub fn prepare(
-        &self,
-        scene: &PreparedScene,
-        settings: &Settings,
-    ) -> Result<Frame, RenderError> {
+    pub fn prepare(&self, scene: &PreparedScene, settings: &Settings) -> Result<Frame, RenderError> {
         self.prepare_pixels::<[f32; 4]>(scene, settings)
     }
 
@@ -287,16 +243,11 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Self::prepare`].
-    pub fn prepare_pixels<P: Pixel>(
-        &self,
-        scene: &PreparedScene,
-        settings: &Settings,
-    ) -> Result<Frame, RenderError> {
+    pub fn prepare_pixels<P: Pixel>(&self, scene: &PreparedScene, settings: &Settings) -> Result<Frame, RenderError> {
         let reserved = ReadBack::bytes::<P>(settings);
         self.check(&scene.gpu_scene)?;
         let capacity = self.renderer.first_capacity().without_unlisted_tiles();
-        self.renderer
-            .prepare_with(scene, settings, P::ENCODING, capacity, reserved)
+        self.renderer.prepare_with(scene, settings, P::ENCODING, capacity, reserved)
     }
 
     /// Renders a frame and waits for it. If the frame's lists outgrow their memory, the frame is prepared again with
@@ -314,11 +265,7 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Self::render`].
-    pub fn render_pixels<P: Pixel>(
-        &mut self,
-        frame: &mut Frame,
-        camera: &Camera,
-    ) -> Result<Rendered<P>, RenderError> {
+    pub fn render_pixels<P: Pixel>(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered<P>, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
                 Err(RenderError::Engine(EngineError::Unfinished { .. })) => {
@@ -361,10 +308,7 @@ impl Headless {
     ) -> Result<Rendered<P>, RenderError> {
         self.check(frame.scene())?;
         if frame.encoding() != P::ENCODING {
-            return Err(RenderError::OtherPixels {
-                prepared: frame.encoding(),
-                read: P::ENCODING,
-            });
+            return Err(RenderError::OtherPixels { prepared: frame.encoding(), read: P::ENCODING });
         }
         let size = frame.settings().output_size();
         let output = ReadBack::for_frame::<P>(&self.gpu, frame, self.output.take())?;
@@ -400,10 +344,7 @@ impl Headless {
     }
 
     /// Records commands, submits them and waits for them.
-    pub(super) fn submit(
-        &mut self,
-        record: impl FnOnce(vk::CommandBuffer),
-    ) -> Result<(), RenderError> {
+    pub(super) fn submit(&mut self, record: impl FnOnce(vk::CommandBuffer)) -> Result<(), RenderError> {
         if self.is_unwanted.as_ref().is_some_and(|asked| asked()) {
             return Err(RenderError::Stopped);
         }
@@ -411,27 +352,16 @@ impl Headless {
         // SAFETY: this object owns command buffer and fence, which are idle between calls; this thread alone uses the
         // queue.
         unsafe {
-            let begin = vk::CommandBufferBeginInfo::default()
-                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-            device
-                .begin_command_buffer(self.commands, &begin)
-                .map_err(VulkanError::of("vkBeginCommandBuffer"))?;
+            let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            device.begin_command_buffer(self.commands, &begin).map_err(VulkanError::of("vkBeginCommandBuffer"))?;
             record(self.commands);
             make_visible_to_host(device, self.commands);
-            device
-                .end_command_buffer(self.commands)
-                .map_err(VulkanError::of("vkEndCommandBuffer"))?;
+            device.end_command_buffer(self.commands).map_err(VulkanError::of("vkEndCommandBuffer"))?;
             let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
             let submits = [vk::SubmitInfo2::default().command_buffer_infos(&commands)];
-            device
-                .queue_submit2(self.queue, &submits, self.fence)
-                .map_err(VulkanError::of("vkQueueSubmit2"))?;
-            device
-                .wait_for_fences(&[self.fence], true, u64::MAX)
-                .map_err(VulkanError::of("vkWaitForFences"))?;
-            device
-                .reset_fences(&[self.fence])
-                .map_err(VulkanError::of("vkResetFences"))?;
+            device.queue_submit2(self.queue, &submits, self.fence).map_err(VulkanError::of("vkQueueSubmit2"))?;
+            device.wait_for_fences(&[self.fence], true, u64::MAX).map_err(VulkanError::of("vkWaitForFences"))?;
+            device.reset_fences(&[self.fence]).map_err(VulkanError::of("vkResetFences"))?;
         }
         Ok(())
     }

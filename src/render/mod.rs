@@ -21,8 +21,8 @@ mod shadows;
 mod viewpoint;
 
 pub use crate::engine::sampler::{
-    CellOptions, Detection, EngineError, Footprint, ImageState, Method, MethodKind, PassTime,
-    PixelRect, Reference, Shading, Statistics, SuperpixelOptions, TriangleCounts,
+    CellOptions, Detection, EngineError, Footprint, ImageState, Method, MethodKind, PassTime, PixelRect, Reference,
+    Shading, Statistics, SuperpixelOptions, TriangleCounts,
 };
 pub use error::RenderError;
 pub use frame::{Frame, Target};

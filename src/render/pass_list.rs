@@ -75,13 +75,8 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Headless::render`].
-    pub fn passes(
-        &mut self,
-        frame: &mut Frame,
-        camera: &Camera,
-    ) -> Result<RecordedPasses, RenderError> {
-        let (rendered, passes) =
-            self.passes_of(|headless| headless.render_once::<[f32; 4]>(frame, camera));
+    pub fn passes(&mut self, frame: &mut Frame, camera: &Camera) -> Result<RecordedPasses, RenderError> {
+        let (rendered, passes) = self.passes_of(|headless| headless.render_once::<[f32; 4]>(frame, camera));
         rendered?;
         Ok(passes)
     }

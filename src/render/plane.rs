@@ -43,10 +43,7 @@ impl PlaneWindow {
 
     /// This window as the region of a list of `count` locations.
     pub fn region(&self, count: usize) -> ListRegion {
-        ListRegion {
-            tiles: self.tiles,
-            count: count as u32,
-        }
+        ListRegion { tiles: self.tiles, count: count as u32 }
     }
 
     /// Matrix from the scene's coordinates to clip space around the window's middle.

@@ -43,22 +43,13 @@ impl<'a> SceneRequest<'a> {
     /// Request for a scene that does not move and has no shadows, with unlimited memory.
     #[must_use]
     pub fn new(scene: &'a Scene, pose: &'a Pose) -> Self {
-        Self {
-            scene,
-            pose,
-            motion: None,
-            shadows: Shadows::None,
-            max_memory: None,
-        }
+        Self { scene, pose, motion: None, shadows: Shadows::None, max_memory: None }
     }
 
     /// This request with the motion that the pose was made with, if any.
     #[must_use]
     pub fn moving(self, motion: impl Into<Option<&'a Motion>>) -> Self {
-        Self {
-            motion: motion.into(),
-            ..self
-        }
+        Self { motion: motion.into(), ..self }
     }
 
     /// This request with shadows.
@@ -70,10 +61,7 @@ impl<'a> SceneRequest<'a> {
     /// This request with a limit for device memory in bytes, if any.
     #[must_use]
     pub fn within(self, max_memory: impl Into<Option<u64>>) -> Self {
-        Self {
-            max_memory: max_memory.into(),
-            ..self
-        }
+        Self { max_memory: max_memory.into(), ..self }
     }
 }
 
@@ -95,9 +83,7 @@ impl PreparedScene {
     }
 
     pub(super) fn casters_bytes(&self) -> u64 {
-        self.casters
-            .as_ref()
-            .map_or(0, |casters| casters.memory_bytes())
+        self.casters.as_ref().map_or(0, |casters| casters.memory_bytes())
     }
 
     /// Number of triangles.
@@ -152,10 +138,7 @@ impl Renderer {
     /// # Errors
     /// If the driver refuses the layouts.
     pub fn in_gpu(gpu: Arc<Gpu>) -> Result<Self, VulkanError> {
-        Ok(Self {
-            layout: FrameLayout::new(&gpu)?,
-            gpu,
-        })
+        Ok(Self { layout: FrameLayout::new(&gpu)?, gpu })
     }
 
     /// Device of the renderer.
@@ -178,17 +161,8 @@ impl Renderer {
     }
 
     /// Prepares a scene without its casters of shadows.
-    pub(super) fn prepare_shown(
-        &self,
-        request: SceneRequest<'_>,
-    ) -> Result<PreparedScene, RenderError> {
-        let SceneRequest {
-            scene,
-            pose,
-            motion,
-            max_memory,
-            ..
-        } = request;
+    pub(super) fn prepare_shown(&self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
+        let SceneRequest { scene, pose, motion, max_memory, .. } = request;
         if motion.is_some_and(|motion| !motion.is_of(pose)) {
             return Err(RenderError::OtherMotion);
         }
@@ -246,18 +220,10 @@ impl Renderer {
 
     /// Checks that a scene belongs to this renderer's device.
     pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
-        if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) {
-            Ok(())
-        } else {
-            Err(RenderError::OtherDevice)
-        }
+        if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) { Ok(()) } else { Err(RenderError::OtherDevice) }
     }
 
-    pub(super) fn prepare_like(
-        &self,
-        frame: &Frame,
-        capacity: Capacity,
-    ) -> Result<Frame, RenderError> {
+    pub(super) fn prepare_like(&self, frame: &Frame, capacity: Capacity) -> Result<Frame, RenderError> {
         self.check(frame.scene())?;
         let mut like = Frame::new(
             &self.layout,

@@ -1,8 +1,6 @@
 //! Settings of rendering scenes.
 
-use super::{
-    CellOptions, Footprint, Method, PixelRect, Reference, RenderError, Shading, SuperpixelOptions,
-};
+use super::{CellOptions, Footprint, Method, PixelRect, Reference, RenderError, Shading, SuperpixelOptions};
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{ImageRequest, SamplerSettings};
 use crate::vulkan::Limits;
@@ -100,10 +98,7 @@ impl SceneSettings {
     pub(super) fn shadowed(&self, cells: CellOptions) -> CellOptions {
         match self.shadows {
             Shadows::None => cells,
-            Shadows::Exact => CellOptions {
-                shading: Shading::Sample,
-                ..cells
-            },
+            Shadows::Exact => CellOptions { shading: Shading::Sample, ..cells },
         }
     }
 
@@ -135,23 +130,14 @@ impl Settings {
     /// Sets the method of antialiasing.
     #[must_use]
     pub fn method(self, method: impl Into<Method>) -> Self {
-        Self {
-            method: method.into(),
-            ..self
-        }
+        Self { method: method.into(), ..self }
     }
 
     /// Changes the options of superpixels, if the method has them.
     #[must_use]
-    pub fn map_superpixels(
-        self,
-        change: impl FnOnce(SuperpixelOptions) -> SuperpixelOptions,
-    ) -> Self {
+    pub fn map_superpixels(self, change: impl FnOnce(SuperpixelOptions) -> SuperpixelOptions) -> Self {
         match self.method {
-            Method::Superpixel(options) => Self {
-                method: change(options).into(),
-                ..self
-            },
+            Method::Superpixel(options) => Self { method: change(options).into(), ..self },
             _ => self,
         }
     }
@@ -165,10 +151,7 @@ impl Settings {
     /// These settings, with superpixels shaded at every sample if shadows are on.
     pub(super) fn with_shadowed_samples(self) -> Self {
         let scene = self.scene.clone();
-        self.map_superpixels(|options| SuperpixelOptions {
-            cells: scene.shadowed(options.cells),
-            ..options
-        })
+        self.map_superpixels(|options| SuperpixelOptions { cells: scene.shadowed(options.cells), ..options })
     }
 
     /// Options of superpixels. For other methods, the options of their cells.
@@ -177,10 +160,7 @@ impl Settings {
             Method::Superpixel(options) => options.clone(),
             method => {
                 let options = SuperpixelOptions::new(method.samples());
-                SuperpixelOptions {
-                    cells: self.scene.shadowed(options.cells),
-                    ..options
-                }
+                SuperpixelOptions { cells: self.scene.shadowed(options.cells), ..options }
             }
         }
     }
@@ -189,9 +169,7 @@ impl Settings {
     pub(super) fn filter(&self) -> TextureFilter {
         let footprint = self.scene.footprint;
         match &self.method {
-            Method::Superpixel(options) => {
-                TextureFilter::of_cells(footprint, options.cells.shading)
-            }
+            Method::Superpixel(options) => TextureFilter::of_cells(footprint, options.cells.shading),
             method => TextureFilter::of_pixels(footprint, method.side()),
         }
     }

@@ -15,11 +15,7 @@ pub(super) struct EyePoint {
 
 impl From<&Camera> for EyePoint {
     fn from(camera: &Camera) -> Self {
-        Self {
-            eye: camera.eye,
-            direction: camera.direction(),
-            is_parallel: camera.is_orthographic(),
-        }
+        Self { eye: camera.eye, direction: camera.direction(), is_parallel: camera.is_orthographic() }
     }
 }
 
@@ -40,10 +36,7 @@ impl SceneBlock {
     pub(super) fn of(scene: &GpuScene, viewpoint: &EyePoint) -> Self {
         let parallel = if viewpoint.is_parallel { 1.0 } else { 0.0 };
         Self {
-            eye: (viewpoint.eye - scene.origin())
-                .as_vec3()
-                .extend(1.0)
-                .to_array(),
+            eye: (viewpoint.eye - scene.origin()).as_vec3().extend(1.0).to_array(),
             view_direction: viewpoint.direction.as_vec3().extend(parallel).to_array(),
             irradiance: scene.environment().irradiance,
             environment: scene.environment().axes,

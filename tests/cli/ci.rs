@@ -20,9 +20,7 @@ fn job() -> Yaml {
 /// Runs the script of a step in a folder as the forge does, with the built command in PATH.
 fn run(job: &Yaml, step: &str, folder: &Path) -> Output {
     let steps = job["steps"].as_vec().unwrap();
-    let found = steps
-        .iter()
-        .find(|found| found["name"].as_str() == Some(step));
+    let found = steps.iter().find(|found| found["name"].as_str() == Some(step));
     let found = found.unwrap_or_else(|| panic!("no step \"{step}\""));
     let programs = Path::new(env!("CARGO_BIN_EXE_gpc")).parent().unwrap();
     let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
@@ -55,25 +53,11 @@ fn every_step_is_run_here_or_installs_packages() {
     let steps = job["steps"].as_vec().unwrap();
     let scripts = steps.iter().filter(|step| !step["run"].is_badvalue());
     let names: Vec<_> = scripts.map(|step| step["name"].as_str().unwrap()).collect();
-    assert_eq!(
-        names,
-        [
-            INSTALLS[0],
-            INSTALLS[1],
-            "Name the device",
-            "Render",
-            "Compare"
-        ]
-    );
+    assert_eq!(names, [INSTALLS[0], INSTALLS[1], "Name the device", "Render", "Compare"]);
     for step in INSTALLS {
-        let found = steps
-            .iter()
-            .find(|found| found["name"].as_str() == Some(step));
+        let found = steps.iter().find(|found| found["name"].as_str() == Some(step));
         let script = found.unwrap()["run"].as_str().unwrap();
-        assert!(
-            script.lines().all(|line| line.starts_with("apt-get ")),
-            "{script}"
-        );
+        assert!(script.lines().all(|line| line.starts_with("apt-get ")), "{script}");
     }
 }
 
@@ -93,17 +77,11 @@ fn the_steps_accept_golden_images_and_notice_changes() {
     // No golden image exists yet.
     exits(&run(&job, "Compare", folder), 5);
     // As the page says, copying an image accepts it.
-    std::fs::copy(
-        folder.join("images/letters.png"),
-        folder.join("golden/letters.png"),
-    )
-    .unwrap();
+    std::fs::copy(folder.join("images/letters.png"), folder.join("golden/letters.png")).unwrap();
     exits(&run(&job, "Compare", folder), 0);
 
     // One pixel is inverted.
-    let mut image = image::open(folder.join("images/letters.png"))
-        .unwrap()
-        .to_rgb8();
+    let mut image = image::open(folder.join("images/letters.png")).unwrap().to_rgb8();
     let pixel = image.get_pixel_mut(11, 7);
     pixel.0 = pixel.0.map(|code| if code > 127 { 0 } else { 255 });
     image.save(folder.join("images/letters.png")).unwrap();

@@ -10,13 +10,7 @@ const SIZE: (u32, u32) = (64, 32);
 
 /// A sky that is bright and red on the right half of the image, and dim on the left.
 fn sky() -> Rgb32FImage {
-    Rgb32FImage::from_fn(SIZE.0, SIZE.1, |x, _| {
-        Rgb(if x < SIZE.0 / 2 {
-            [0.25; 3]
-        } else {
-            [4.0, 2.0, 1.0]
-        })
-    })
+    Rgb32FImage::from_fn(SIZE.0, SIZE.1, |x, _| Rgb(if x < SIZE.0 / 2 { [0.25; 3] } else { [4.0, 2.0, 1.0] }))
 }
 
 fn write_exr(path: &Path) {
@@ -38,9 +32,7 @@ fn render(folder: &Path, output: &str, options: &[&str]) -> Run {
 fn skies_light_the_scene_from_their_side() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    sky()
-        .save_with_format(at("sky.hdr"), ImageFormat::Hdr)
-        .unwrap();
+    sky().save_with_format(at("sky.hdr"), ImageFormat::Hdr).unwrap();
     write_exr(&at("sky.exr"));
     let image = |name: &str, options: &[&str]| {
         render(folder.path(), name, options).ok();
@@ -52,10 +44,7 @@ fn skies_light_the_scene_from_their_side() {
     // A Radiance file has 8 bits for each colour.
     assert!(compare(&hdr, &exr).unwrap().rmse < 0.005);
     assert!(compare(&studio, &exr).unwrap().rmse > 0.05);
-    let back = image(
-        "back.png",
-        &["--environment", "sky.exr", "--environment-rotation", "180"],
-    );
+    let back = image("back.png", &["--environment", "sky.exr", "--environment-rotation", "180"]);
     // Green light on the left and right half of the sphere in the middle.
     let halves = |image: &gpc::output::DecodedImage| {
         let mut sums = [0.0; 2];
@@ -68,10 +57,7 @@ fn skies_light_the_scene_from_their_side() {
     };
     let ([left, right], [turned_left, turned_right]) = (halves(&exr), halves(&back));
     assert!(right > 1.3 * left, "{left}, {right}");
-    assert!(
-        turned_left > 1.3 * turned_right,
-        "{turned_left}, {turned_right}"
-    );
+    assert!(turned_left > 1.3 * turned_right, "{turned_left}, {turned_right}");
 }
 
 /// The sky is the background of scenes, and scenes are antialiased against it.
@@ -81,15 +67,7 @@ fn the_sky_is_seen_behind_the_scene() {
     let at = |name: &str| folder.path().join(name);
     write_exr(&at("sky.exr"));
     let sky = ["--environment", "sky.exr", "--background"];
-    let behind = [
-        "environment",
-        "--eye",
-        "0,40,0",
-        "--target",
-        "0,40,-9",
-        "--tonemap",
-        "none",
-    ];
+    let behind = ["environment", "--eye", "0,40,0", "--target", "0,40,-9", "--tonemap", "none"];
     render(folder.path(), "sky.png", &[&sky[..], &behind[..]].concat()).ok();
     let image = read(&at("sky.png")).unwrap();
     // Left and right of straight ahead, the sky has a quarter of the red and all of it.
@@ -99,24 +77,14 @@ fn the_sky_is_seen_behind_the_scene() {
     assert!(image.pixels.iter().all(|pixel| pixel[3] == 1.0));
     // Against a background colour that equals the sky, the scene looks the same.
     let uniform = Rgb32FImage::from_pixel(SIZE.0, SIZE.1, Rgb([0.5; 3]));
-    uniform
-        .save_with_format(at("grey.hdr"), ImageFormat::Hdr)
-        .unwrap();
-    let plain = [
-        "--environment",
-        "grey.hdr",
-        "--tonemap",
-        "none",
-        "--background",
-    ];
+    uniform.save_with_format(at("grey.hdr"), ImageFormat::Hdr).unwrap();
+    let plain = ["--environment", "grey.hdr", "--tonemap", "none", "--background"];
     for (name, background) in [("a.png", "environment"), ("b.png", "0.7354,0.7354,0.7354")] {
         render(folder.path(), name, &[&plain[..], &[background]].concat()).ok();
     }
     let [a, b] = ["a.png", "b.png"].map(|name| read(&at(name)).unwrap());
     assert!(compare(&a, &b).unwrap().rmse < 0.003);
-    render(folder.path(), "c.png", &["--background", "environment"])
-        .exits(2)
-        .says(&["--environment FILE"]);
+    render(folder.path(), "c.png", &["--background", "environment"]).exits(2).says(&["--environment FILE"]);
 }
 
 #[test]
@@ -139,10 +107,6 @@ fn what_is_no_environment_is_refused_by_name() {
     render(folder.path(), "a.png", &["--environment", "sky.hdr"])
         .exits(1)
         .says(&["sky.hdr", "it must be an EXR or Radiance (.hdr) image"]);
-    render(folder.path(), "a.png", &["--environment", "none.exr"])
-        .exits(1)
-        .says(&["none.exr can't be read"]);
-    render(folder.path(), "a.png", &["--environment-rotation", "90"])
-        .exits(2)
-        .says(&["--environment"]);
+    render(folder.path(), "a.png", &["--environment", "none.exr"]).exits(1).says(&["none.exr can't be read"]);
+    render(folder.path(), "a.png", &["--environment-rotation", "90"]).exits(2).says(&["--environment"]);
 }

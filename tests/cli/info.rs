@@ -7,23 +7,15 @@ use std::process::Stdio;
 #[test]
 fn info_counts_what_the_scene_holds() {
     let folder = tempfile::tempdir().unwrap();
-    let json = gpc(folder.path(), &["info", &asset("glass.glb"), "--json"])
-        .ok()
-        .json();
+    let json = gpc(folder.path(), &["info", &asset("glass.glb"), "--json"]).ok().json();
     assert_eq!(json["version"], "2.0");
     assert_eq!(json["materials"]["blend"], 5);
     assert_eq!(json["cameras"][0]["name"], "front");
     assert_eq!(json["cameras"][1]["kind"], "perspective");
     assert_eq!(json["warnings"], serde_json::json!([]));
     assert!(json["triangles"].as_u64().unwrap() > 4_000);
-    let text = gpc(folder.path(), &["info", &asset("glass.glb")])
-        .ok()
-        .stdout;
-    assert!(
-        String::from_utf8(text)
-            .unwrap()
-            .contains("0 front (perspective)")
-    );
+    let text = gpc(folder.path(), &["info", &asset("glass.glb")]).ok().stdout;
+    assert!(String::from_utf8(text).unwrap().contains("0 front (perspective)"));
     assert!(files(folder.path()).is_empty());
 }
 
@@ -47,16 +39,9 @@ fn devices_say_what_they_lack() {
     let folder = tempfile::tempdir().unwrap();
     let json = gpc(folder.path(), &["devices", "--json"]).ok().json();
     let devices = json["devices"].as_array().unwrap();
-    assert!(
-        devices
-            .iter()
-            .any(|device| device["missing"] == serde_json::json!([]))
-    );
+    assert!(devices.iter().any(|device| device["missing"] == serde_json::json!([])));
     for key in ["name", "kind", "driver", "api"] {
-        assert!(
-            devices.iter().all(|device| device[key].is_string()),
-            "{key}"
-        );
+        assert!(devices.iter().all(|device| device[key].is_string()), "{key}");
     }
 }
 
@@ -80,10 +65,7 @@ fn without_a_driver_the_exit_code_is_3_with_advice() {
 fn a_variant_that_is_not_there_is_wrong_usage() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("glass.glb");
-    let run = gpc(
-        folder.path(),
-        &["render", &scene, "-o", "a.png", "--variant", "night"],
-    );
+    let run = gpc(folder.path(), &["render", &scene, "-o", "a.png", "--variant", "night"]);
     assert_eq!(run.code, Some(2));
     let expected = "there is no variant \"night\"; the file has none";
     assert!(run.stderr.contains(expected), "{}", run.stderr);
@@ -99,11 +81,7 @@ fn other_formats_say_what_they_are() {
     assert_eq!(json["format"], "OBJ");
     assert_eq!(json["triangles"], 1);
     let said = gpc(folder.path(), &["info", "a.bin"]).ok().stdout;
-    assert!(
-        said.starts_with(b"OBJ\n"),
-        "{}",
-        String::from_utf8_lossy(&said)
-    );
+    assert!(said.starts_with(b"OBJ\n"), "{}", String::from_utf8_lossy(&said));
 }
 
 /// What a file has and is not drawn is named once, on standard error and in the JSON object.

@@ -24,17 +24,11 @@ fn every_malformed_file_ends_in_an_image_or_an_error() {
             Some(1) => {
                 errors += 1;
                 let said: Vec<_> = said.collect();
-                assert!(
-                    said.len() == 1 && said[0].contains(name),
-                    "{name}: {said:?}"
-                );
+                assert!(said.len() == 1 && said[0].contains(name), "{name}: {said:?}");
                 assert!(files(folder.path()).is_empty(), "{name}");
             }
             code => panic!("{name}: exit code {code:?}: {}", run.stderr),
         }
     }
-    assert!(
-        images > 30 && errors > 30,
-        "{images} images, {errors} errors"
-    );
+    assert!(images > 30 && errors > 30, "{images} images, {errors} errors");
 }

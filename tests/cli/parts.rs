@@ -15,36 +15,25 @@ fn a_region_is_cut_from_the_image() {
     let folder = tempfile::tempdir().unwrap();
     let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgba8();
     let aovs = ["--aov", "superpixels"];
-    render(
-        folder.path(),
-        "fence",
-        &[&["-o", "whole.png"], &aovs[..]].concat(),
-    );
+    render(folder.path(), "fence", &[&["-o", "whole.png"], &aovs[..]].concat());
     let options = ["-o", "part.png", "--region", "31,7,40x39", "--json"];
     let run = render(folder.path(), "fence", &[&options, &aovs[..]].concat());
-    for [whole, part] in [
-        ["whole.png", "part.png"],
-        ["whole.superpixels.png", "part.superpixels.png"],
-    ] {
+    for [whole, part] in [["whole.png", "part.png"], ["whole.superpixels.png", "part.superpixels.png"]] {
         let cut = image::imageops::crop_imm(&open(whole), 31, 7, 40, 39).to_image();
         assert!(cut == open(part), "{part}");
     }
     let json = run.json();
     assert_eq!(json["size"], serde_json::json!([40, 39]));
-    assert_eq!(
-        json["region"],
-        serde_json::json!({"corner": [31, 7], "image": [90, 60]})
-    );
+    assert_eq!(json["region"], serde_json::json!({"corner": [31, 7], "image": [90, 60]}));
 }
 
 #[test]
 fn shares_are_together_the_sequence() {
     let folder = tempfile::tempdir().unwrap();
     let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
-    for (name, scene, sequence) in [
-        ("turn", "environment", &["--turntable", "7"][..]),
-        ("move", "pointer", &["--frames", "3..9", "--fps", "12"]),
-    ] {
+    for (name, scene, sequence) in
+        [("turn", "environment", &["--turntable", "7"][..]), ("move", "pointer", &["--frames", "3..9", "--fps", "12"])]
+    {
         let whole = format!("whole-{name}-{{frame}}.png");
         render(folder.path(), scene, &[sequence, &["-o", &whole]].concat());
         let mut written = Vec::new();
@@ -57,15 +46,10 @@ fn shares_are_together_the_sequence() {
         }
         written.sort_by_key(ToString::to_string);
         let first = if name == "turn" { 0 } else { 3 };
-        let expected: Vec<_> = (first..first + 7)
-            .map(|frame| format!("part-{name}-{frame:04}.png"))
-            .collect();
+        let expected: Vec<_> = (first..first + 7).map(|frame| format!("part-{name}-{frame:04}.png")).collect();
         assert_eq!(written, expected, "each image once");
         for name in expected {
-            assert!(
-                read(&name) == read(&name.replace("part", "whole")),
-                "{name}"
-            );
+            assert!(read(&name) == read(&name.replace("part", "whole")), "{name}");
         }
     }
     // An image that the device moved to a time equals a still image of that time.
@@ -78,15 +62,7 @@ fn shares_are_together_the_sequence() {
 #[test]
 fn a_share_may_be_empty() {
     let folder = tempfile::tempdir().unwrap();
-    let options = [
-        "-o",
-        "{frame}.png",
-        "--turntable",
-        "2",
-        "--shard",
-        "3/3",
-        "--json",
-    ];
+    let options = ["-o", "{frame}.png", "--turntable", "2", "--shard", "3/3", "--json"];
     let run = render(folder.path(), "letters", &options).says(&["none are left"]);
     assert_eq!(run.json()["images"], serde_json::json!([]));
     assert!(files(folder.path()).is_empty());

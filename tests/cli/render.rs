@@ -22,22 +22,14 @@ fn superpixels_bring_every_scene_nearer_to_brute_force() {
     for scene in SCENES {
         let same = ["--size", "240x136", "--background", "0.8,0.9,1"];
         let with = |name: &str, aa: &[&str]| {
-            render(
-                folder.path(),
-                scene,
-                &[&same[..], &["-o", name], aa].concat(),
-            )
-            .ok();
+            render(folder.path(), scene, &[&same[..], &["-o", name], aa].concat()).ok();
             read(&at(name)).unwrap()
         };
         let reference = with("ssaa.png", &["--aa", "ssaa", "--samples", "64"]);
         let none = with("none.png", &["--aa", "none"]);
         let ours = with("ours.png", &["--samples", "64"]);
         let [none, ours] = [none, ours].map(|image| compare(&reference, &image).unwrap());
-        assert!(
-            ours.rmse < 0.6 * none.rmse,
-            "{scene}: {ours:?} against {none:?}"
-        );
+        assert!(ours.rmse < 0.6 * none.rmse, "{scene}: {ours:?} against {none:?}");
         assert!(none.rmse > 0.01, "{scene} shows nothing that aliases");
     }
 }
@@ -45,24 +37,9 @@ fn superpixels_bring_every_scene_nearer_to_brute_force() {
 #[test]
 fn json_holds_the_figures_of_the_image() {
     let folder = tempfile::tempdir().unwrap();
-    let options = [
-        "-o",
-        "{stem}.png",
-        "--size",
-        "96x54",
-        "--samples",
-        "16",
-        "--repeat",
-        "2",
-        "--json",
-    ];
+    let options = ["-o", "{stem}.png", "--size", "96x54", "--samples", "16", "--repeat", "2", "--json"];
     let json = render(folder.path(), "spheres", &options).ok().json();
-    let keys: Vec<_> = json
-        .as_object()
-        .unwrap()
-        .keys()
-        .map(String::as_str)
-        .collect();
+    let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
     let mut expected = [
         "output",
         "device",
@@ -85,10 +62,7 @@ fn json_holds_the_figures_of_the_image() {
     let number = |value: &Value| value.as_f64().unwrap();
     let count = number(&json["superpixels"]["count"]);
     assert!(count > 0.0);
-    assert_eq!(
-        number(&json["superpixels"]["fraction"]),
-        count / (96.0 * 54.0)
-    );
+    assert_eq!(number(&json["superpixels"]["fraction"]), count / (96.0 * 54.0));
     assert!(number(&json["triangles"]["total"]) > 90_000.0);
     let passes = json["gpu_ms"].as_object().unwrap();
     assert!(passes.len() > 3 && passes.values().all(|ms| number(ms) >= 0.0));
@@ -101,25 +75,12 @@ fn json_holds_the_figures_of_the_image() {
 fn json_says_where_the_time_to_the_first_image_went() {
     let folder = tempfile::tempdir().unwrap();
     let options = ["-o", "{frame}.png", "--size", "96x54", "--turntable", "2"];
-    let run = render(
-        folder.path(),
-        "glass",
-        &[&options[..], &["--json"]].concat(),
-    );
+    let run = render(folder.path(), "glass", &[&options[..], &["--json"]].concat());
     let images = run.ok().json()["images"].clone();
     let steps: std::collections::BTreeMap<String, f64> =
         serde_json::from_value(images[0]["startup_ms"].clone()).unwrap();
     let names: Vec<&str> = steps.keys().map(String::as_str).collect();
-    let expected = [
-        "device",
-        "frame",
-        "load",
-        "pipelines",
-        "pose",
-        "total",
-        "upload",
-        "write",
-    ];
+    let expected = ["device", "frame", "load", "pipelines", "pose", "total", "upload", "write"];
     assert_eq!(names, expected);
     let sum: f64 = steps.values().sum::<f64>() - steps["total"];
     assert!((sum - steps["total"]).abs() < 1.0, "{steps:?}");
@@ -130,9 +91,7 @@ fn json_says_where_the_time_to_the_first_image_went() {
 #[test]
 fn the_camera_in_json_is_the_one_that_was_used() {
     let folder = tempfile::tempdir().unwrap();
-    let view = [
-        "--eye", "-3,4,5", "--target", "-1,0.5,0", "--fov", "50", "--size", "96x48",
-    ];
+    let view = ["--eye", "-3,4,5", "--target", "-1,0.5,0", "--fov", "50", "--size", "96x48"];
     let options = [&["-o", "a.png", "--json"], &view[..]].concat();
     let camera = render(folder.path(), "spheres", &options).ok().json()["camera"].clone();
     let matrix = |name: &str| {
@@ -154,8 +113,7 @@ fn the_camera_in_json_is_the_one_that_was_used() {
     let clip = |p: glam::DVec3| matrix("projection") * p.extend(1.0);
     let edge = clip(glam::DVec3::new(0.0, 25_f64.to_radians().tan(), -1.0));
     assert!((edge.y / edge.w - 1.0).abs() < 1e-9);
-    let depth =
-        |z: f64| clip(glam::DVec3::new(0.0, 0.0, z)).z / clip(glam::DVec3::new(0.0, 0.0, z)).w;
+    let depth = |z: f64| clip(glam::DVec3::new(0.0, 0.0, z)).z / clip(glam::DVec3::new(0.0, 0.0, z)).w;
     assert!(depth(-1.0) > depth(-2.0) && depth(-1e9) > 0.0 && depth(-1.0) < 1.0);
 }
 
@@ -163,12 +121,7 @@ fn the_camera_in_json_is_the_one_that_was_used() {
 fn the_same_arguments_give_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["a.png", "b.png"] {
-        render(
-            folder.path(),
-            "glass",
-            &["-o", name, "--size", "160x90", "--samples", "16"],
-        )
-        .ok();
+        render(folder.path(), "glass", &["-o", name, "--size", "160x90", "--samples", "16"]).ok();
     }
     let [a, b] = ["a.png", "b.png"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
     assert!(a == b);
@@ -186,10 +139,7 @@ fn the_background_is_the_colour_asked_for_or_nothing() {
     assert_eq!(open("none.png").color(), image::ColorType::Rgba8);
     assert_eq!(open("none.png").to_rgba8().get_pixel(2, 2).0, [0; 4]);
     assert_eq!(open("blue.png").color(), image::ColorType::Rgb8);
-    assert_eq!(
-        open("blue.png").to_rgb8().get_pixel(2, 2).0,
-        [0x33, 0x66, 0xff]
-    );
+    assert_eq!(open("blue.png").to_rgb8().get_pixel(2, 2).0, [0x33, 0x66, 0xff]);
 }
 
 #[test]
@@ -203,18 +153,12 @@ fn alpha_is_coverage_without_fringes() {
     let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgba16();
     let linear = |code: u16| srgb::decode(f64::from(code) / 65_535.0);
     let mut edges = 0;
-    for (clear, white) in open("none.16.png")
-        .pixels()
-        .zip(open("white.16.png").pixels())
-    {
+    for (clear, white) in open("none.16.png").pixels().zip(open("white.16.png").pixels()) {
         let alpha = f64::from(clear[3]) / 65_535.0;
         edges += u32::from(alpha > 0.0 && alpha < 1.0);
         for i in 0..3 {
             let over_white = linear(clear[i]) * alpha + 1.0 - alpha;
-            assert!(
-                (over_white - linear(white[i])).abs() < 2e-3,
-                "{clear:?} {white:?}"
-            );
+            assert!((over_white - linear(white[i])).abs() < 2e-3, "{clear:?} {white:?}");
         }
     }
     assert!(edges > 50, "{edges} pixels are partly covered");
@@ -256,38 +200,12 @@ fn several_cameras_frames_and_angles_get_files_of_their_own() {
 #[test]
 fn aovs_are_layers_of_an_exr_and_files_beside_a_png() {
     let folder = tempfile::tempdir().unwrap();
-    let options = [
-        "--size",
-        "96x54",
-        "--samples",
-        "16",
-        "--aov",
-        "depth,id,normal,superpixels,samples",
-    ];
-    let json = render(
-        folder.path(),
-        "spheres",
-        &[&["-o", "a.exr", "--json"], &options[..]].concat(),
-    )
-    .ok()
-    .json();
-    render(
-        folder.path(),
-        "spheres",
-        &[&["-o", "b.png"], &options[..]].concat(),
-    )
-    .ok();
+    let options = ["--size", "96x54", "--samples", "16", "--aov", "depth,id,normal,superpixels,samples"];
+    let json = render(folder.path(), "spheres", &[&["-o", "a.exr", "--json"], &options[..]].concat()).ok().json();
+    render(folder.path(), "spheres", &[&["-o", "b.png"], &options[..]].concat()).ok();
     assert_eq!(
         files(folder.path()),
-        [
-            "a.exr",
-            "b.depth.png",
-            "b.id.png",
-            "b.normal.png",
-            "b.png",
-            "b.samples.png",
-            "b.superpixels.png"
-        ]
+        ["a.exr", "b.depth.png", "b.id.png", "b.normal.png", "b.png", "b.samples.png", "b.superpixels.png"]
     );
     use exr::prelude::{ReadChannels, ReadLayers};
     let image = exr::prelude::read()
@@ -300,17 +218,10 @@ fn aovs_are_layers_of_an_exr_and_files_beside_a_png() {
         .unwrap();
     let values = |name: &str| -> Vec<f64> {
         let channels = &image.layer_data.channel_data.list;
-        let channel = channels
-            .iter()
-            .find(|channel| channel.name.eq(name))
-            .unwrap();
+        let channel = channels.iter().find(|channel| channel.name.eq(name)).unwrap();
         match &channel.sample_data {
-            exr::prelude::FlatSamples::F32(values) => {
-                values.iter().copied().map(f64::from).collect()
-            }
-            exr::prelude::FlatSamples::U32(values) => {
-                values.iter().copied().map(f64::from).collect()
-            }
+            exr::prelude::FlatSamples::F32(values) => values.iter().copied().map(f64::from).collect(),
+            exr::prelude::FlatSamples::U32(values) => values.iter().copied().map(f64::from).collect(),
             exr::prelude::FlatSamples::F16(_) => panic!("{name} is half"),
         }
     };
@@ -322,10 +233,7 @@ fn aovs_are_layers_of_an_exr_and_files_beside_a_png() {
         assert!(*depth > 1.0 && (*id == 0.0 || *alpha > 0.0));
     }
     let superpixels = values("superpixels.Y");
-    assert_eq!(
-        Some(superpixels.iter().sum()),
-        json["superpixels"]["count"].as_f64()
-    );
+    assert_eq!(Some(superpixels.iter().sum()), json["superpixels"]["count"].as_f64());
     for (superpixel, samples) in superpixels.iter().zip(values("samples.Y")) {
         assert_eq!(samples, if *superpixel == 1.0 { 16.0 } else { 1.0 });
     }
@@ -350,31 +258,13 @@ fn an_image_may_go_to_standard_output() {
 #[test]
 fn quiet_is_quiet_and_progress_is_for_terminals() {
     let folder = tempfile::tempdir().unwrap();
-    let options = [
-        "-o",
-        "{frame}.png",
-        "--size",
-        "48x27",
-        "--samples",
-        "4",
-        "--turntable",
-        "2",
-    ];
+    let options = ["-o", "{frame}.png", "--size", "48x27", "--samples", "4", "--turntable", "2"];
     let run = render(folder.path(), "glass", &options).ok();
     assert!(run.stdout.is_empty());
     assert_eq!(run.stderr.lines().count(), 2, "{}", run.stderr);
     assert!(!run.stderr.contains('\u{1b}') && !run.stderr.contains('\r'));
-    let run = render(
-        folder.path(),
-        "glass",
-        &[&options[..], &["--quiet"]].concat(),
-    )
-    .ok();
-    assert!(
-        run.stdout.is_empty() && run.stderr.is_empty(),
-        "{}",
-        run.stderr
-    );
+    let run = render(folder.path(), "glass", &[&options[..], &["--quiet"]].concat()).ok();
+    assert!(run.stdout.is_empty() && run.stderr.is_empty(), "{}", run.stderr);
 }
 
 #[test]
@@ -382,27 +272,13 @@ fn failures_have_their_exit_codes_and_leave_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let small = ["--size", "48x27"];
     let run = |options: &[&str]| render(folder.path(), "glass", &[&small[..], options].concat());
-    run(&["-o", "a.png", "--aa", "ssaa", "--samples", "60"])
-        .exits(2)
-        .says(&["ssaa", "1, 4, 9, 16"]);
-    run(&["-o", "a.png", "--aa", "msaa", "--samples", "3"])
-        .exits(2)
-        .says(&["msaa", "4"]);
-    run(&["-o", "a.png", "--samples", "1025"])
-        .exits(2)
-        .says(&["1024"]);
-    run(&["-o", "a.png", "--pattern", "grid", "--samples", "60"])
-        .exits(2)
-        .says(&["49", "64"]);
-    run(&["-o", "a.png", "--device", "no such device"])
-        .exits(3)
-        .says(&["no such device"]);
-    run(&["-o", "a.png", "--max-memory", "1K"])
-        .exits(4)
-        .says(&["--max-memory"]);
-    run(&["-o", "no such folder/a.png"])
-        .exits(1)
-        .says(&["no such folder"]);
+    run(&["-o", "a.png", "--aa", "ssaa", "--samples", "60"]).exits(2).says(&["ssaa", "1, 4, 9, 16"]);
+    run(&["-o", "a.png", "--aa", "msaa", "--samples", "3"]).exits(2).says(&["msaa", "4"]);
+    run(&["-o", "a.png", "--samples", "1025"]).exits(2).says(&["1024"]);
+    run(&["-o", "a.png", "--pattern", "grid", "--samples", "60"]).exits(2).says(&["49", "64"]);
+    run(&["-o", "a.png", "--device", "no such device"]).exits(3).says(&["no such device"]);
+    run(&["-o", "a.png", "--max-memory", "1K"]).exits(4).says(&["--max-memory"]);
+    run(&["-o", "no such folder/a.png"]).exits(1).says(&["no such folder"]);
     assert!(files(folder.path()).is_empty());
 }
 
@@ -429,9 +305,7 @@ fn a_dozen_real_scenes_render() {
         let scene = &gltf_files(&scenes.join(name))[0];
         let arguments = ["render", scene.to_str().unwrap(), "-o", "a.png", "--json"];
         let options = ["--size", "160x90", "--samples", "16", "--time", "0.5"];
-        let json = gpc(folder.path(), &[&arguments[..], &options].concat())
-            .ok()
-            .json();
+        let json = gpc(folder.path(), &[&arguments[..], &options].concat()).ok().json();
         assert!(json["superpixels"]["count"].as_u64() > Some(0), "{name}");
         let image = image::open(folder.path().join("a.png")).unwrap().to_rgba8();
         let seen = image.pixels().filter(|pixel| pixel[3] > 0).count();
@@ -460,10 +334,7 @@ fn variants_choose_materials_and_hidden_nodes_stay_hidden() {
         (means[0], means[1])
     };
     let ((day_red, night_red), (day_blue, night_blue)) = (mean(0), mean(2));
-    assert!(
-        day_red > 2.0 * night_red && day_red > day_blue,
-        "{day_red}, {night_red}"
-    );
+    assert!(day_red > 2.0 * night_red && day_red > day_blue, "{day_red}, {night_red}");
     assert!(night_blue > 2.0 * night_red, "{night_blue}");
     // Only the hidden sphere is pure green.
     for [r, g, b, _] in day.pixels.iter().chain(&night.pixels) {

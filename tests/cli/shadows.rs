@@ -7,19 +7,12 @@ use serde_json::json;
 use std::path::Path;
 
 const SIZE: [usize; 2] = [96, 64];
-const VIEW: [&str; 8] = [
-    "--size", "96x64", "--eye", "0,3,5", "--target", "0,0,0", "--fov", "45",
-];
+const VIEW: [&str; 8] = ["--size", "96x64", "--eye", "0,3,5", "--target", "0,0,0", "--fov", "45"];
 
 /// A floor with a triangle above its middle, and light from straight above.
 fn scene(folder: &Path) -> String {
     let mut builder = Builder::new();
-    let floor = [
-        [-4.0, 0.0, 4.0],
-        [4.0, 0.0, 4.0],
-        [4.0, 0.0, -4.0],
-        [-4.0, 0.0, -4.0],
-    ];
+    let floor = [[-4.0, 0.0, 4.0], [4.0, 0.0, 4.0], [4.0, 0.0, -4.0], [-4.0, 0.0, -4.0]];
     let over = [[-1.0, 1.0, 0.5], [1.0, 1.0, 0.5], [0.0, 1.0, -1.5]];
     for (corners, indices) in [(&floor[..], &[0, 1, 2, 0, 2, 3][..]), (&over, &[0, 1, 2])] {
         let positions = builder.floats(corners);
@@ -28,8 +21,7 @@ fn scene(folder: &Path) -> String {
         builder.node_with(primitive, json!({}));
     }
     builder.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] =
-        json!([{"type": "directional", "intensity": 5}]);
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = json!([{"type": "directional", "intensity": 5}]);
     let half = std::f64::consts::FRAC_1_SQRT_2;
     builder.push(
         "nodes",
@@ -76,10 +68,7 @@ fn a_triangle_casts_its_shadow() {
             assert!(at(&shadowed, beside) > 0.1);
         }
         for under in [[0.0, 0.35], [-0.5, 0.35], [0.5, 0.3]] {
-            assert!(
-                at(&shadowed, under) < 0.3 * at(&open, under),
-                "{under:?} {method}"
-            );
+            assert!(at(&shadowed, under) < 0.3 * at(&open, under), "{under:?} {method}");
         }
     }
 }
@@ -90,13 +79,7 @@ fn a_region_has_the_shadows_of_the_whole() {
     let scene = scene(folder.path());
     let render = |name: &str, options: &[&str]| {
         let shadows = ["--shadows", "exact"];
-        let command = [
-            &["render", &scene, "-o", name],
-            &VIEW[..],
-            &shadows,
-            options,
-        ]
-        .concat();
+        let command = [&["render", &scene, "-o", name], &VIEW[..], &shadows, options].concat();
         gpc(folder.path(), &command).ok();
         let bytes = std::fs::read(folder.path().join(name)).unwrap();
         decode_linear(&bytes, name).unwrap().1
@@ -113,63 +96,24 @@ fn a_region_has_the_shadows_of_the_whole() {
 fn other_commands_cast_shadows_and_what_can_not_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path());
-    let options = [
-        "--shadows",
-        "exact",
-        "--eye",
-        "0,0.5,3",
-        "--target",
-        "0,0,0",
-    ];
+    let options = ["--shadows", "exact", "--eye", "0,0.5,3", "--target", "0,0,0"];
     let panorama = |name: &str, options: &[&str]| {
-        let command = [
-            "panorama",
-            &scene,
-            "-o",
-            name,
-            "--projection",
-            "fisheye",
-            "--size",
-            "64x64",
-        ];
+        let command = ["panorama", &scene, "-o", name, "--projection", "fisheye", "--size", "64x64"];
         gpc(folder.path(), &[&command, options].concat()).ok();
         let bytes = std::fs::read(folder.path().join(name)).unwrap();
         let (_, colors) = decode_linear(&bytes, name).unwrap();
         colors.iter().map(|color| f64::from(color[1])).sum::<f64>()
     };
-    let [open, shadowed] = [
-        panorama("a.exr", &options[2..]),
-        panorama("b.exr", &options),
-    ];
+    let [open, shadowed] = [panorama("a.exr", &options[2..]), panorama("b.exr", &options)];
     assert!(shadowed < open - 1.0, "{shadowed} of {open}");
 
-    let msaa = [
-        "panorama",
-        &scene,
-        "-o",
-        "c.png",
-        "--projection",
-        "fisheye",
-        "--shadows",
-        "exact",
-        "--aa",
-        "msaa",
-    ];
+    let msaa = ["panorama", &scene, "-o", "c.png", "--projection", "fisheye", "--shadows", "exact", "--aa", "msaa"];
     let run = gpc(folder.path(), &msaa);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("msaa"), "{}", run.stderr);
 
     let spheres = asset("spheres.glb");
-    let unlit = [
-        "render",
-        &spheres,
-        "-o",
-        "d.png",
-        "--shadows",
-        "exact",
-        "--size",
-        "32x32",
-    ];
+    let unlit = ["render", &spheres, "-o", "d.png", "--shadows", "exact", "--size", "32x32"];
     let run = gpc(folder.path(), &unlit);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(run.stderr.contains("no lights"), "{}", run.stderr);

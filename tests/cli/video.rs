@@ -15,10 +15,7 @@ fn render(folder: &Path, options: &[&str]) -> Run {
 fn images(folder: &Path, background: &[&str]) -> Vec<image::RgbaImage> {
     let options = ["-o", "{frame}.png", "--turntable", "3"];
     render(folder, &[&options, background].concat());
-    files(folder)
-        .iter()
-        .map(|name| image::open(folder.join(name)).unwrap().into_rgba8())
-        .collect()
+    files(folder).iter().map(|name| image::open(folder.join(name)).unwrap().into_rgba8()).collect()
 }
 
 #[test]
@@ -40,16 +37,7 @@ fn y4m_frames_are_the_images() {
     let folder = tempfile::tempdir().unwrap();
     let background = ["--background", "#336699"];
     let images = images(folder.path(), &background);
-    let film = [
-        "-o",
-        "-",
-        "--turntable",
-        "3",
-        "--format",
-        "y4m",
-        "--fps",
-        "29.97",
-    ];
+    let film = ["-o", "-", "--turntable", "3", "--format", "y4m", "--fps", "29.97"];
     let run = render(folder.path(), &[&film, &background[..]].concat());
     let header: &[u8] = b"YUV4MPEG2 W50 H27 F30000:1001 XCOLORRANGE=LIMITED C444\nFRAME\n";
     assert!(run.stdout.starts_with(header));
@@ -58,11 +46,7 @@ fn y4m_frames_are_the_images() {
     assert!(matches!(decoder.get_colorspace(), y4m::Colorspace::C444));
     for image in images {
         let frame = decoder.read_frame().unwrap();
-        let planes = [
-            frame.get_y_plane(),
-            frame.get_u_plane(),
-            frame.get_v_plane(),
-        ];
+        let planes = [frame.get_y_plane(), frame.get_u_plane(), frame.get_v_plane()];
         for (index, pixel) in image.pixels().enumerate() {
             let [y, cb, cr] = planes.map(|plane| f64::from(plane[index]));
             let luma = (y - 16.0) / 219.0;

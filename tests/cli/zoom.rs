@@ -18,14 +18,7 @@ const REGION: ZoomRegion = ZoomRegion {
     transition: Transition::Linear,
 };
 
-const OPTIONS: [&str; 6] = [
-    "--center",
-    "70,60",
-    "--radius",
-    "16",
-    "--multiplicity",
-    "0.5",
-];
+const OPTIONS: [&str; 6] = ["--center", "70,60", "--radius", "16", "--multiplicity", "0.5"];
 
 /// Writes a test card whose colour is the place: red is u / 512, and green is v / 512.
 fn write_card(path: &Path) {
@@ -46,35 +39,23 @@ fn sampled(image: &output::DecodedImage, x: u32, y: u32) -> Option<DVec2> {
 }
 
 fn pixels(size: [u32; 2]) -> impl Iterator<Item = (u32, u32, DVec2)> {
-    (0..size[1]).flat_map(move |y| {
-        (0..size[0]).map(move |x| (x, y, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)))
-    })
+    (0..size[1])
+        .flat_map(move |y| (0..size[0]).map(move |x| (x, y, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5))))
 }
 
 #[test]
 fn every_step_of_a_test_card_shows_the_locations_of_the_formulas() {
     let folder = tempfile::tempdir().unwrap();
     write_card(&folder.path().join("card.16.png"));
-    let arguments = [
-        &["zoom", "card.16.png", "-o", "a.16.png", "--steps"],
-        &OPTIONS[..],
-    ];
+    let arguments = [&["zoom", "card.16.png", "-o", "a.16.png", "--steps"], &OPTIONS[..]];
     gpc(folder.path(), &arguments.concat()).ok();
     assert_eq!(
         files(folder.path()),
-        [
-            "a.16.png",
-            "a.locations.png",
-            "a.original.png",
-            "a.resampled.png",
-            "a.transition.png",
-            "card.16.png"
-        ]
+        ["a.16.png", "a.locations.png", "a.original.png", "a.resampled.png", "a.transition.png", "card.16.png"]
     );
     let read = |name: &str| output::read(&folder.path().join(name)).unwrap();
     let map = ZoomMap::new(vec![REGION]).unwrap();
-    let [result, resampled, transition] =
-        ["a.16.png", "a.resampled.png", "a.transition.png"].map(read);
+    let [result, resampled, transition] = ["a.16.png", "a.resampled.png", "a.transition.png"].map(read);
     let original = read("a.original.png");
     for (x, y, place) in pixels(SIZE) {
         let expected = map.location(place);
@@ -88,12 +69,7 @@ fn every_step_of_a_test_card_shows_the_locations_of_the_formulas() {
             assert_eq!(found.is_some(), shown, "{place}");
             assert!(found.is_none_or(|found| error(found) < 4.0));
         }
-        assert!(
-            (sampled(&original, x, y).unwrap() - place)
-                .abs()
-                .max_element()
-                < 2.0
-        );
+        assert!((sampled(&original, x, y).unwrap() - place).abs().max_element() < 2.0);
     }
     // Dots mark the locations; there are most in the middle of the region, where locations are dense.
     let dots = read("a.locations.png");
@@ -113,17 +89,7 @@ fn unzooming_gives_ordinary_views_back() {
     let folder = tempfile::tempdir().unwrap();
     write_card(&folder.path().join("card.16.png"));
     for transition in ["linear", "smooth"] {
-        let arguments = [
-            &[
-                "zoom",
-                "card.16.png",
-                "-o",
-                "a.16.png",
-                "--transition",
-                transition,
-            ],
-            &OPTIONS[..],
-        ];
+        let arguments = [&["zoom", "card.16.png", "-o", "a.16.png", "--transition", transition], &OPTIONS[..]];
         gpc(folder.path(), &arguments.concat()).ok();
         let unzoom = ["unzoom", "a.16.png", "-o"];
         gpc(folder.path(), &[&unzoom[..], &["r.16.png"]].concat()).ok();
@@ -147,14 +113,7 @@ fn a_multiplicity_of_one_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     write_card(&folder.path().join("card.16.png"));
     let zoom = ["zoom", "card.16.png", "-o", "a.16.png", "--center", "3,4"];
-    let options = [
-        "--radius",
-        "9,5",
-        "--shape",
-        "rectangle",
-        "--multiplicity",
-        "1",
-    ];
+    let options = ["--radius", "9,5", "--shape", "rectangle", "--multiplicity", "1"];
     gpc(folder.path(), &[&zoom[..], &options].concat()).ok();
     let compare = ["compare", "card.16.png", "a.16.png", "--max-rmse", "0"];
     gpc(folder.path(), &compare).ok();
@@ -165,36 +124,12 @@ fn a_photograph_may_be_a_jpeg_with_several_regions() {
     let folder = tempfile::tempdir().unwrap();
     let card = folder.path().join("card.16.png");
     write_card(&card);
-    image::open(&card)
-        .unwrap()
-        .to_rgb8()
-        .save(folder.path().join("card.jpg"))
-        .unwrap();
-    let zoom = [
-        "zoom", "card.jpg", "-o", "a.png", "--center", "70,60", "--center", "230,170",
-    ];
-    let regions = [
-        "--radius",
-        "16",
-        "--radius",
-        "12,20",
-        "--multiplicity",
-        "0.5",
-    ];
-    let rest = [
-        "--multiplicity",
-        "0.8",
-        "--shape",
-        "circle",
-        "--shape",
-        "rectangle",
-    ];
+    image::open(&card).unwrap().to_rgb8().save(folder.path().join("card.jpg")).unwrap();
+    let zoom = ["zoom", "card.jpg", "-o", "a.png", "--center", "70,60", "--center", "230,170"];
+    let regions = ["--radius", "16", "--radius", "12,20", "--multiplicity", "0.5"];
+    let rest = ["--multiplicity", "0.8", "--shape", "circle", "--shape", "rectangle"];
     gpc(folder.path(), &[&zoom[..], &regions, &rest].concat()).ok();
-    gpc(
-        folder.path(),
-        &["unzoom", "a.png", "-o", "r.png", "--region", "1"],
-    )
-    .ok();
+    gpc(folder.path(), &["unzoom", "a.png", "-o", "r.png", "--region", "1"]).ok();
     let region = output::read(&folder.path().join("r.png")).unwrap();
     assert_eq!(region.size, [24, 40]);
     let found = sampled(&region, 12, 20).unwrap();
@@ -217,25 +152,9 @@ fn wrong_usage_exits_with_2() {
         (&["--multiplicity", "nan"], &["number"]),
         (&["--radius", "0", "--multiplicity", "0.5"], &["above 0"]),
         (&["--center", "1", "--multiplicity", "0.5"], &["X,Y"]),
-        (
-            &["--multiplicity", "0.5", "--center", "9,9"],
-            &["2 --center", "1 --radius"],
-        ),
-        (
-            &[
-                "--multiplicity",
-                "0.5",
-                "--shape",
-                "circle",
-                "--shape",
-                "rectangle",
-            ],
-            &["1 --center", "2 --shape"],
-        ),
-        (
-            &["--multiplicity", "0.5", "--shape", "star"],
-            &["rectangle"],
-        ),
+        (&["--multiplicity", "0.5", "--center", "9,9"], &["2 --center", "1 --radius"]),
+        (&["--multiplicity", "0.5", "--shape", "circle", "--shape", "rectangle"], &["1 --center", "2 --shape"]),
+        (&["--multiplicity", "0.5", "--shape", "star"], &["rectangle"]),
     ];
     for (options, expected) in cases {
         let place: &[&str] = match options {
@@ -247,21 +166,10 @@ fn wrong_usage_exits_with_2() {
         let arguments = [&zoom[..], place, options].concat();
         gpc(folder.path(), &arguments).exits(2).says(expected);
     }
-    let aside = [
-        "--center",
-        "900,9",
-        "--radius",
-        "3",
-        "--multiplicity",
-        "0.5",
-    ];
-    gpc(folder.path(), &[&zoom[..], &aside].concat())
-        .exits(2)
-        .says(&["900,9", "outside of the image"]);
+    let aside = ["--center", "900,9", "--radius", "3", "--multiplicity", "0.5"];
+    gpc(folder.path(), &[&zoom[..], &aside].concat()).exits(2).says(&["900,9", "outside of the image"]);
     let to_nowhere = ["zoom", "card.png", "-o", "-", "--steps"];
-    gpc(folder.path(), &[&to_nowhere[..], &OPTIONS].concat())
-        .exits(2)
-        .says(&["--steps"]);
+    gpc(folder.path(), &[&to_nowhere[..], &OPTIONS].concat()).exits(2).says(&["--steps"]);
     assert_eq!(files(folder.path()), ["card.png"]);
 }
 
@@ -271,21 +179,12 @@ fn images_without_a_zoom_can_not_be_unzoomed() {
     let card = folder.path().join("card.png");
     write_card(&card);
     let unzoom = |name| gpc(folder.path(), &["unzoom", name, "-o", "b.png"]);
-    unzoom("card.png")
-        .exits(1)
-        .says(&["card.png", "gpc zoom wrote"]);
+    unzoom("card.png").exits(1).says(&["card.png", "gpc zoom wrote"]);
     unzoom("missing.png").exits(1).says(&["missing.png"]);
-    gpc(
-        folder.path(),
-        &[&["zoom", "card.png", "-o", "a.png"], &OPTIONS[..]].concat(),
-    )
-    .ok();
-    gpc(
-        folder.path(),
-        &["unzoom", "a.png", "-o", "b.png", "--region", "1"],
-    )
-    .exits(2)
-    .says(&["--region 1", "image has 1"]);
+    gpc(folder.path(), &[&["zoom", "card.png", "-o", "a.png"], &OPTIONS[..]].concat()).ok();
+    gpc(folder.path(), &["unzoom", "a.png", "-o", "b.png", "--region", "1"])
+        .exits(2)
+        .says(&["--region 1", "image has 1"]);
     // The first text is no zoom, the second a zoom with an invalid region.
     let bytes = std::fs::read(&card).unwrap();
     for (text, expected) in [

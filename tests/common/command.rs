@@ -28,11 +28,7 @@ impl Run {
     #[track_caller]
     pub fn says(self, texts: &[&str]) -> Self {
         for text in texts {
-            assert!(
-                self.stderr.contains(text),
-                "no \"{text}\" in: {}",
-                self.stderr
-            );
+            assert!(self.stderr.contains(text), "no \"{text}\" in: {}", self.stderr);
         }
         self
     }
@@ -63,27 +59,19 @@ pub fn gpc(folder: &Path, arguments: &[&str]) -> Run {
 }
 
 pub fn finish(output: Output) -> Run {
-    Run {
-        code: output.status.code(),
-        stdout: output.stdout,
-        stderr: String::from_utf8(output.stderr).unwrap(),
-    }
+    Run { code: output.status.code(), stdout: output.stdout, stderr: String::from_utf8(output.stderr).unwrap() }
 }
 
 /// Path of a scene in `assets/`.
 pub fn asset(name: &str) -> String {
-    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "assets", name]
-        .iter()
-        .collect();
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "assets", name].iter().collect();
     path.to_str().unwrap().to_owned()
 }
 
 /// Sorted names of the files in a folder.
 pub fn files(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }

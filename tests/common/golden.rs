@@ -26,33 +26,18 @@ pub fn compare(folder: &Path, name: &str, found: &RgbaImage) -> Result<(), Strin
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GPC_BLESS").is_some() {
         found.save(&path).map_err(|error| error.to_string())?;
-        return Err(format!(
-            "{} written; look at it, then unset GPC_BLESS",
-            path.display()
-        ));
+        return Err(format!("{} written; look at it, then unset GPC_BLESS", path.display()));
     }
-    let golden = image::open(&path)
-        .map_err(|error| format!("{}: {error}; GPC_BLESS=1 makes it", path.display()))?
-        .to_rgba8();
+    let golden =
+        image::open(&path).map_err(|error| format!("{}: {error}; GPC_BLESS=1 makes it", path.display()))?.to_rgba8();
     if golden.dimensions() != found.dimensions() {
-        return Err(format!(
-            "{name} has {:?} pixels and the golden {:?}",
-            found.dimensions(),
-            golden.dimensions()
-        ));
+        return Err(format!("{name} has {:?} pixels and the golden {:?}", found.dimensions(), golden.dimensions()));
     }
-    let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
-        a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > TOLERANCE)
-    };
-    let outliers = golden
-        .pixels()
-        .zip(found.pixels())
-        .filter(|&pair| differs(pair))
-        .count();
+    let differs =
+        |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > TOLERANCE);
+    let outliers = golden.pixels().zip(found.pixels()).filter(|&pair| differs(pair)).count();
     if outliers > OUTLIERS {
-        return Err(format!(
-            "{name}: {outliers} pixels differ by more than {TOLERANCE} code values; {OUTLIERS} may"
-        ));
+        return Err(format!("{name}: {outliers} pixels differ by more than {TOLERANCE} code values; {OUTLIERS} may"));
     }
     Ok(())
 }

@@ -96,10 +96,7 @@ impl Builder {
     /// Adds a texture: a 1 x 1 PNG of one colour.
     pub fn texture(&mut self, rgb: [u8; 3]) -> usize {
         let view = self.view(&png(rgb), json!({}));
-        let image = self.push(
-            "images",
-            json!({"bufferView": view, "mimeType": "image/png"}),
-        );
+        let image = self.push("images", json!({"bufferView": view, "mimeType": "image/png"}));
         self.push("textures", json!({"source": image}))
     }
 
@@ -114,10 +111,7 @@ impl Builder {
     /// Adds a texture: a checker of black and white texels.
     pub fn checker(&mut self, [width, height]: [u32; 2]) -> usize {
         let texel = |x: u32, y: u32| image::Luma([if (x + y).is_multiple_of(2) { 255 } else { 0 }]);
-        let view = self.view(
-            &png_of(&image::GrayImage::from_fn(width, height, texel)),
-            json!({}),
-        );
+        let view = self.view(&png_of(&image::GrayImage::from_fn(width, height, texel)), json!({}));
         let image = json!({"bufferView": view, "mimeType": "image/png"});
         let image = self.push("images", image);
         self.push("textures", json!({"source": image}))
@@ -214,12 +208,7 @@ pub fn assert_near(found: impl AsRef<[[f64; 3]]>, expected: impl AsRef<[[f64; 3]
     let (found, expected) = (found.as_ref(), expected.as_ref());
     let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6;
     assert!(
-        found.len() == expected.len()
-            && found
-                .as_flattened()
-                .iter()
-                .zip(expected.as_flattened())
-                .all(near),
+        found.len() == expected.len() && found.as_flattened().iter().zip(expected.as_flattened()).all(near),
         "found {found:?}, expected {expected:?}"
     );
 }

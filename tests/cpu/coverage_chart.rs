@@ -32,18 +32,11 @@ struct Errors {
 fn mean_square(samples: &[[f32; 2]], angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let reach = (sin.abs() + cos.abs()) / 2.0;
-    let mut ends: Vec<f64> = samples
-        .iter()
-        .map(|&[x, y]| f64::from(x) * cos + f64::from(y) * sin)
-        .collect();
+    let mut ends: Vec<f64> = samples.iter().map(|&[x, y]| f64::from(x) * cos + f64::from(y) * sin).collect();
     ends.sort_unstable_by(f64::total_cmp);
     ends.insert(0, -reach);
     ends.push(reach);
-    let nodes = [
-        (-0.6_f64.sqrt(), 5.0 / 18.0),
-        (0.0, 8.0 / 18.0),
-        (0.6_f64.sqrt(), 5.0 / 18.0),
-    ];
+    let nodes = [(-0.6_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.6_f64.sqrt(), 5.0 / 18.0)];
     let mut integral = 0.0;
     for (below, gap) in ends.windows(2).enumerate() {
         let reported = below as f64 / samples.len() as f64;
@@ -72,11 +65,7 @@ fn errors(samples: &[[f32; 2]], orientations: usize) -> Errors {
         })
         .map(|&(_, square)| square)
         .collect();
-    Errors {
-        mean: root(&all),
-        near_axis: root(&near),
-        worst: all.iter().copied().fold(0.0, f64::max).sqrt(),
-    }
+    Errors { mean: root(&all), near_axis: root(&near), worst: all.iter().copied().fold(0.0, f64::max).sqrt() }
 }
 
 /// Errors of a pattern at each of [`COUNTS`], which are also printed.
@@ -96,16 +85,9 @@ fn chart(pattern: &Pattern) -> [Errors; 5] {
 
 /// Slope of log RMSE over log N, by least squares.
 fn slope(chart: &[Errors; 5]) -> f64 {
-    let points = COUNTS
-        .map(f64::from)
-        .map(f64::ln)
-        .into_iter()
-        .zip(chart.iter().map(|e| e.mean.ln()));
+    let points = COUNTS.map(f64::from).map(f64::ln).into_iter().zip(chart.iter().map(|e| e.mean.ln()));
     let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / COUNTS.len() as f64;
-    let centre = [
-        mean(&mut points.clone().map(|p| p.0)),
-        mean(&mut points.clone().map(|p| p.1)),
-    ];
+    let centre = [mean(&mut points.clone().map(|p| p.0)), mean(&mut points.clone().map(|p| p.1))];
     let (mut products, mut squares) = (0.0, 0.0);
     for (x, y) in points {
         products += (x - centre[0]) * (y - centre[1]);
@@ -122,11 +104,7 @@ fn assert_chart(pattern: &Pattern, bound: impl Fn(f64) -> f64) -> [Errors; 5] {
     assert!((slope + 0.75).abs() < 0.1, "{pattern}: N^{slope}");
     for (count, errors) in COUNTS.into_iter().zip(&chart) {
         let bound = bound(f64::from(count));
-        assert!(
-            errors.worst <= bound,
-            "{pattern} {count}: worst {}, bound {bound}",
-            errors.worst
-        );
+        assert!(errors.worst <= bound, "{pattern} {count}: worst {}, bound {bound}", errors.worst);
     }
     chart
 }
@@ -137,11 +115,7 @@ fn sobol() {
     let chart = assert_chart(&Pattern::Sobol, |n| 0.4 * n.powf(-0.75));
     // These are the expected errors of random scramblings; the chosen one must not be worse.
     for (errors, expected) in chart.iter().skip(1).zip([0.0379, 0.0133, 0.0047, 0.0017]) {
-        assert!(
-            errors.mean < expected * 1.02,
-            "{} where {expected} is usual",
-            errors.mean
-        );
+        assert!(errors.mean < expected * 1.02, "{} where {expected} is usual", errors.mean);
     }
 }
 
@@ -167,11 +141,7 @@ fn grid() {
     let chart = assert_chart(&Pattern::Grid, |n| 1.001 / (12.0 * n).sqrt());
     for (count, errors) in COUNTS.into_iter().zip(&chart) {
         let along_axis = 1.0 / (12.0 * f64::from(count)).sqrt();
-        assert!(
-            (errors.worst / along_axis - 1.0).abs() < 1e-3,
-            "{count}: {}",
-            errors.worst
-        );
+        assert!((errors.worst / along_axis - 1.0).abs() < 1e-3, "{count}: {}", errors.worst);
     }
 }
 
@@ -231,8 +201,5 @@ fn scrambling_is_the_best_of_4096() {
     };
     let chosen = Pattern::Sobol.offsets(MAX_SAMPLES).unwrap();
     // `assert_eq` would print all samples.
-    assert!(
-        sorted(chosen) == sorted(owen_sobol(MAX_SAMPLES, best)),
-        "seed {best} is better"
-    );
+    assert!(sorted(chosen) == sorted(owen_sobol(MAX_SAMPLES, best)), "seed {best} is better");
 }

@@ -4,23 +4,14 @@ use std::collections::HashSet;
 
 use gpc::sampling::{MAX_SAMPLES, Pattern, PatternError, owen_sobol};
 
-const NAMED: [Pattern; 6] = [
-    Pattern::Lines,
-    Pattern::Sobol,
-    Pattern::Lattice,
-    Pattern::Korobov,
-    Pattern::Grid,
-    Pattern::Rotated,
-];
+const NAMED: [Pattern; 6] =
+    [Pattern::Lines, Pattern::Sobol, Pattern::Lattice, Pattern::Korobov, Pattern::Grid, Pattern::Rotated];
 
 /// Offsets in whole units of 2^-16 pixel from the pixel's top left corner.
 fn units(offsets: &[[f32; 2]]) -> Vec<[u32; 2]> {
     let unit = |v: f32| {
         let units = (f64::from(v) + 0.5) * 65536.0;
-        assert!(
-            units.fract() == 0.0 && (0.0..65536.0).contains(&units),
-            "{v} is no location in a pixel"
-        );
+        assert!(units.fract() == 0.0 && (0.0..65536.0).contains(&units), "{v} is no location in a pixel");
         units as u32
     };
     offsets.iter().map(|offset| offset.map(unit)).collect()
@@ -28,9 +19,7 @@ fn units(offsets: &[[f32; 2]]) -> Vec<[u32; 2]> {
 
 /// Numbers of samples that a pattern supports.
 fn counts(pattern: &Pattern) -> Vec<u32> {
-    (1..=MAX_SAMPLES)
-        .filter(|&count| pattern.offsets(count).is_ok())
-        .collect()
+    (1..=MAX_SAMPLES).filter(|&count| pattern.offsets(count).is_ok()).collect()
 }
 
 #[test]
@@ -66,11 +55,7 @@ fn one_sample_is_the_centre() {
 #[test]
 fn offsets_are_the_same_each_time() {
     for pattern in NAMED {
-        assert_eq!(
-            pattern.offsets(16).unwrap(),
-            pattern.offsets(16).unwrap(),
-            "{pattern}"
-        );
+        assert_eq!(pattern.offsets(16).unwrap(), pattern.offsets(16).unwrap(), "{pattern}");
     }
 }
 
@@ -78,10 +63,8 @@ fn offsets_are_the_same_each_time() {
 fn assert_net(samples: &[[u32; 2]], what: &str) {
     let digits = samples.len().ilog2();
     for across in 0..=digits {
-        let boxes: HashSet<_> = samples
-            .iter()
-            .map(|&[x, y]| (x >> (16 - across), y >> (16 - (digits - across))))
-            .collect();
+        let boxes: HashSet<_> =
+            samples.iter().map(|&[x, y]| (x >> (16 - across), y >> (16 - (digits - across)))).collect();
         assert_eq!(boxes.len(), samples.len(), "{what}: boxes 2^-{across} wide");
     }
 }
@@ -90,10 +73,7 @@ fn assert_net(samples: &[[u32; 2]], what: &str) {
 fn sobol_points_are_nets() {
     for digits in 1..=10 {
         let count = 1 << digits;
-        assert_net(
-            &units(&Pattern::Sobol.offsets(count).unwrap()),
-            &format!("{count} samples"),
-        );
+        assert_net(&units(&Pattern::Sobol.offsets(count).unwrap()), &format!("{count} samples"));
     }
 }
 
@@ -135,29 +115,16 @@ fn lattices_project_evenly() {
 #[test]
 fn square_lattices_have_straight_rows() {
     for side in [2_u32, 4, 8, 16, 32] {
-        let samples: HashSet<[u32; 2]> = units(&Pattern::Lattice.offsets(side * side).unwrap())
-            .into_iter()
-            .collect();
+        let samples: HashSet<[u32; 2]> = units(&Pattern::Lattice.offsets(side * side).unwrap()).into_iter().collect();
         let step = 65536.0 / f64::from(side);
         let tilt = step / f64::from(side);
         // A power of two divides all vectors of the lattice, so that nothing is rounded.
-        let first = samples
-            .iter()
-            .copied()
-            .min_by_key(|&[x, _]| x)
-            .unwrap()
-            .map(f64::from);
+        let first = samples.iter().copied().min_by_key(|&[x, _]| x).unwrap().map(f64::from);
         for row in 0..side {
             for column in 0..side {
                 let (i, j) = (f64::from(column), f64::from(row));
-                let expected = [
-                    first[0] + i * step + j * tilt,
-                    first[1] + j * step - i * tilt,
-                ];
-                assert!(
-                    samples.contains(&expected.map(|v| v as u32)),
-                    "side {side}, row {row}, column {column}"
-                );
+                let expected = [first[0] + i * step + j * tilt, first[1] + j * step - i * tilt];
+                assert!(samples.contains(&expected.map(|v| v as u32)), "side {side}, row {row}, column {column}");
             }
         }
     }
@@ -170,16 +137,7 @@ fn rotated_patterns_are_the_standard_ones() {
     let standard: [&[[i8; 2]]; 4] = [
         &[[4, 4], [-4, -4]],
         &[[-2, -6], [6, -2], [-6, 2], [2, 6]],
-        &[
-            [1, -3],
-            [-1, 3],
-            [5, 1],
-            [-3, -5],
-            [-5, 5],
-            [-7, -1],
-            [3, 7],
-            [7, -7],
-        ],
+        &[[1, -3], [-1, 3], [5, 1], [-3, -5], [-5, 5], [-7, -1], [3, 7], [7, -7]],
         &[
             [1, 1],
             [-1, -3],
@@ -201,10 +159,7 @@ fn rotated_patterns_are_the_standard_ones() {
     ];
     for set in standard {
         let offsets = Pattern::Rotated.offsets(set.len() as u32).unwrap();
-        let found: HashSet<[i8; 2]> = offsets
-            .iter()
-            .map(|offset| offset.map(|v| (v * 16.0) as i8))
-            .collect();
+        let found: HashSet<[i8; 2]> = offsets.iter().map(|offset| offset.map(|v| (v * 16.0) as i8)).collect();
         assert_eq!(found, set.iter().copied().collect());
     }
 }
@@ -221,21 +176,12 @@ fn extent(run: &[[f32; 2]]) -> f32 {
 
 #[test]
 fn runs_of_64_and_256_samples_are_compact() {
-    for pattern in [
-        Pattern::Sobol,
-        Pattern::Lattice,
-        Pattern::Korobov,
-        Pattern::Grid,
-    ] {
+    for pattern in [Pattern::Sobol, Pattern::Lattice, Pattern::Korobov, Pattern::Grid] {
         let offsets = pattern.offsets(1024).unwrap();
         // The boxes have sides of 1/4 and 1/2; a turned lattice extends beyond them by its tilt.
         for (length, side) in [(64, 0.25), (256, 0.5)] {
             for run in offsets.chunks(length) {
-                assert!(
-                    extent(run) < side * 1.15,
-                    "{pattern}: a run of {length} is {} wide",
-                    extent(run)
-                );
+                assert!(extent(run) < side * 1.15, "{pattern}: a run of {length} is {} wide", extent(run));
             }
         }
     }
@@ -244,11 +190,7 @@ fn runs_of_64_and_256_samples_are_compact() {
         let offsets = Pattern::Sobol.offsets(count).unwrap();
         for run in offsets.chunks_exact(64) {
             let side = (64.0 / count as f32).sqrt();
-            assert!(
-                extent(run) < 2.5 * side,
-                "{count}: a run of 64 is {} wide",
-                extent(run)
-            );
+            assert!(extent(run) < 2.5 * side, "{count}: a run of 64 is {} wide", extent(run));
         }
     }
 }
@@ -269,10 +211,7 @@ fn names_go_both_ways() {
 fn impossible_counts_are_refused_with_a_way_out() {
     for pattern in NAMED {
         for count in [0, 1025, u32::MAX] {
-            assert_eq!(
-                pattern.offsets(count),
-                Err(PatternError::CountOutOfRange(count))
-            );
+            assert_eq!(pattern.offsets(count), Err(PatternError::CountOutOfRange(count)));
         }
     }
     let grid = Pattern::Grid.offsets(50).unwrap_err().to_string();
@@ -288,40 +227,24 @@ fn lists_are_rounded_and_ordered() {
     let list = Pattern::List(vec![[0.25, 0.3], [-0.5, -0.5], [0.499_999_97, -0.25]]);
     let offsets = list.offsets(3).unwrap();
     let found: HashSet<_> = units(&offsets).into_iter().collect();
-    assert_eq!(
-        found,
-        HashSet::from([[49152, 52429], [0, 0], [65535, 16384]])
-    );
+    assert_eq!(found, HashSet::from([[49152, 52429], [0, 0], [65535, 16384]]));
     let turned = Pattern::List(vec![[0.499_999_97, -0.25], [0.25, 0.3], [-0.5, -0.5]]);
     assert_eq!(turned.offsets(3).unwrap(), offsets);
-    assert_eq!(
-        Pattern::List(vec![[0.125, 0.25]]).offsets(1).unwrap(),
-        [[0.125, 0.25]]
-    );
+    assert_eq!(Pattern::List(vec![[0.125, 0.25]]).offsets(1).unwrap(), [[0.125, 0.25]]);
 }
 
 #[test]
 fn invalid_lists_are_refused() {
-    let refusal =
-        |list: &[[f32; 2]], count| Pattern::List(list.to_vec()).offsets(count).unwrap_err();
-    assert_eq!(
-        refusal(&[[0.0, 0.0]], 2),
-        PatternError::ListLength { count: 2, found: 1 }
-    );
+    let refusal = |list: &[[f32; 2]], count| Pattern::List(list.to_vec()).offsets(count).unwrap_err();
+    assert_eq!(refusal(&[[0.0, 0.0]], 2), PatternError::ListLength { count: 2, found: 1 });
     for bad in [f32::NAN, f32::INFINITY, 0.5, -0.500_001] {
         for offset in [[bad, 0.0], [0.0, bad]] {
             let error = refusal(&[[0.1, 0.1], offset], 2);
-            assert!(
-                matches!(error, PatternError::ListOutside { index: 1, .. }),
-                "{error}"
-            );
+            assert!(matches!(error, PatternError::ListOutside { index: 1, .. }), "{error}");
         }
     }
     assert_eq!(
         refusal(&[[0.1, 0.1], [0.2, 0.2], [0.1, 0.100_000_01]], 3),
-        PatternError::ListDuplicate {
-            first: 0,
-            second: 2
-        }
+        PatternError::ListDuplicate { first: 0, second: 2 }
     );
 }

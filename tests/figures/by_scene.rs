@@ -18,12 +18,7 @@ pub fn tables(further: &[Column], value: Value, write: fn(f64) -> String) -> Str
 }
 
 /// Median and worst of the values of some scenes; `None` if no value was measured.
-pub fn spread_of<'a>(
-    value: Value,
-    of: &Measurement,
-    scenes: &[&'a str],
-    samples: u32,
-) -> Option<Spread<'a>> {
+pub fn spread_of<'a>(value: Value, of: &Measurement, scenes: &[&'a str], samples: u32) -> Option<Spread<'a>> {
     let measured = |scene: &&'a str| Some((value(of, scene, samples)?, *scene));
     spread(scenes.iter().filter_map(measured).collect())
 }
@@ -43,15 +38,11 @@ fn table(of: &Measurement, further: &[Column], value: Value, write: fn(f64) -> S
         table.row(&row);
     }
     scenes.retain(|scene| of.textured(scene));
-    let mut row = vec![format!(
-        "**{} textured scenes, median (worst)**",
-        scenes.len()
-    )];
+    let mut row = vec![format!("**{} textured scenes, median (worst)**", scenes.len())];
     row.extend(further.iter().map(|_| String::new()));
     row.extend(samples.iter().map(|n| {
-        spread_of(value, of, &scenes, *n).map_or_else(String::new, |s| {
-            format!("{} ({})", write(s.median), write(s.worst.0))
-        })
+        spread_of(value, of, &scenes, *n)
+            .map_or_else(String::new, |s| format!("{} ({})", write(s.median), write(s.worst.0)))
     }));
     table.row(&row);
     format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish())

@@ -24,17 +24,13 @@ fn prose(text: &str) -> String {
 }
 
 /// Units in which results are measured. Bounds of memory have binary units: these are no results.
-const UNITS: [&str; 14] = [
-    "%", "dB", "fps", "h", "hours", "kB", "KB", "MB", "GB", "min", "minutes", "ms", "s", "µs",
-];
+const UNITS: [&str; 14] = ["%", "dB", "fps", "h", "hours", "kB", "KB", "MB", "GB", "min", "minutes", "ms", "s", "µs"];
 
 /// Whether a text has a number with a unit of measurement.
 fn measured(paragraph: &str) -> bool {
     let words: Vec<&str> = paragraph.split_whitespace().collect();
     words.windows(2).any(|pair| {
-        let number = pair[0]
-            .trim_start_matches(['(', '|'])
-            .ends_with(|c: char| c.is_ascii_digit());
+        let number = pair[0].trim_start_matches(['(', '|']).ends_with(|c: char| c.is_ascii_digit());
         let unit = pair[1].trim_end_matches(['.', ',', ';', ':', ')', '|']);
         number && UNITS.contains(&unit)
     })
@@ -43,10 +39,7 @@ fn measured(paragraph: &str) -> bool {
 #[test]
 fn the_readme_is_short() {
     let words = read(root().join("README.md")).split_whitespace().count();
-    assert!(
-        words <= 1000,
-        "README.md has {words} words; 1,000 are the limit"
-    );
+    assert!(words <= 1000, "README.md has {words} words; 1,000 are the limit");
 }
 
 /// Whether a text names where its figures come from: by a link, a command or a file.
@@ -97,19 +90,11 @@ fn links_lead_somewhere() {
     for path in markdown() {
         let text = prose(&read(&path));
         let folder = path.parent().unwrap();
-        let links = text
-            .split("](")
-            .skip(1)
-            .filter_map(|rest| rest.split_once(')'));
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
         for (link, _) in links.filter(|(link, _)| !link.contains("://")) {
             let (file, heading) = link.split_once('#').unwrap_or((link, ""));
-            let target = if file.is_empty() {
-                path.clone()
-            } else {
-                folder.join(file)
-            };
-            let found = target.exists()
-                && (heading.is_empty() || headings(&target).contains(&heading.to_owned()));
+            let target = if file.is_empty() { path.clone() } else { folder.join(file) };
+            let found = target.exists() && (heading.is_empty() || headings(&target).contains(&heading.to_owned()));
             if !found {
                 broken.push(format!("{}: {link}", path.display()));
             }
@@ -125,9 +110,7 @@ fn headings(path: &Path) -> Vec<String> {
     lines
         .map(|line| {
             let title = line.trim_start_matches('#').trim().to_lowercase();
-            let kept = title
-                .chars()
-                .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+            let kept = title.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
             kept.collect::<String>().replace(' ', "-")
         })
         .collect()
@@ -143,10 +126,7 @@ fn versions_agree() {
         ("CHANGELOG.md", format!("## {version}")),
         ("README.md", format!("Version {major_minor}")),
     ] {
-        assert!(
-            read(root().join(file)).contains(&text),
-            "{file} lacks \"{text}\""
-        );
+        assert!(read(root().join(file)).contains(&text), "{file} lacks \"{text}\"");
     }
 }
 
@@ -165,9 +145,7 @@ fn options_exist() {
         let text = handwritten(&read(&path));
         let spans = text.split('`').skip(1).step_by(2);
         let spans = spans.filter(|span| span.starts_with("--") || span.starts_with("gpc "));
-        let lines = text
-            .lines()
-            .filter(|line| line.trim_start().starts_with("gpc "));
+        let lines = text.lines().filter(|line| line.trim_start().starts_with("gpc "));
         for option in spans.chain(lines).flat_map(options) {
             if !known.contains(&option) && !["--help", "--version"].contains(&option) {
                 unknown.push(format!("{name}: {option}"));

@@ -5,9 +5,7 @@ use crate::text::{Table, cells, error};
 
 /// Row of a scene with a value of an option.
 fn find<'a>(of: &'a Measurement, scene: &str, option: &str, value: &str) -> Option<&'a Row> {
-    of.rows.iter().find(|row| {
-        row.scene() == scene && row.text("option") == option && row.text("value") == value
-    })
+    of.rows.iter().find(|row| row.scene() == scene && row.text("option") == option && row.text("value") == value)
 }
 
 /// Table of the values of an option: medians over textured scenes. Times are those of the fastest frames, which other programs
@@ -37,22 +35,11 @@ fn table(option: &str, default: &str) -> String {
                 spread.median
             };
             let share = over(&|row, _| row.number("superpixel_fraction"));
-            let time =
-                over(&|row, default| row.number("gpu_ms_min") / default.number("gpu_ms_min"));
+            let time = over(&|row, default| row.number("gpu_ms_min") / default.number("gpu_ms_min"));
             let rmse = over(&|row, _| row.number("rmse"));
             let flip = over(&|row, _| row.number("flip"));
-            let name = if value == default {
-                format!("**{value}**")
-            } else {
-                value.to_owned()
-            };
-            table.row(&[
-                name,
-                format!("{:.1} %", 100.0 * share),
-                format!("{time:.2}"),
-                error(rmse),
-                error(flip),
-            ]);
+            let name = if value == default { format!("**{value}**") } else { value.to_owned() };
+            table.row(&[name, format!("{:.1} %", 100.0 * share), format!("{time:.2}"), error(rmse), error(flip)]);
         }
         text += &format!("{}:\n\n{}\n", of.source(), table.finish());
     }

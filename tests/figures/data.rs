@@ -44,15 +44,9 @@ impl Measurement {
             .map(|(key, value)| (key.to_owned(), value.to_owned()))
             .collect();
         for key in HEAD {
-            assert!(
-                head.contains_key(key),
-                "{}: no line \"# {key}: ...\"",
-                path.display()
-            );
+            assert!(head.contains_key(key), "{}: no line \"# {key}: ...\"", path.display());
         }
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let rows = reader.deserialize().map(|row| Row(row.unwrap())).collect();
         Self { head, rows }
     }
@@ -110,9 +104,7 @@ impl Measurement {
 
     /// Row of a scene, a method and a number of samples.
     pub fn find(&self, scene: &str, method: &str, samples: u32) -> Option<&Row> {
-        self.rows.iter().find(|row| {
-            row.scene() == scene && row.text("method") == method && row.samples() == samples
-        })
+        self.rows.iter().find(|row| row.scene() == scene && row.text("method") == method && row.samples() == samples)
     }
 
     /// Whether a scene has textures.
@@ -130,8 +122,7 @@ impl Row {
 
     pub fn number(&self, column: &str) -> f64 {
         let text = self.text(column);
-        text.parse()
-            .unwrap_or_else(|_| panic!("{column}: \"{text}\" is not a number"))
+        text.parse().unwrap_or_else(|_| panic!("{column}: \"{text}\" is not a number"))
     }
 
     pub fn samples(&self) -> u32 {
@@ -170,8 +161,5 @@ pub fn spread<'a>(mut values: Vec<(f64, &'a str)>) -> Option<Spread<'a>> {
         odd if odd % 2 == 1 => values[middle].0,
         _ => 0.5 * (values[middle - 1].0 + values[middle].0),
     };
-    Some(Spread {
-        median,
-        worst: *values.last()?,
-    })
+    Some(Spread { median, worst: *values.last()? })
 }

@@ -32,12 +32,8 @@ const PARTS: [(&str, Make); 21] = [
     ("image-passes", passes::image),
 ];
 
-const PLOTS: [(&str, Make); 4] = [
-    ("error-time", plot::error_time),
-    ("growth", plot::growth),
-    ("pipeline", pipeline::draw),
-    ("sets", sets::draw),
-];
+const PLOTS: [(&str, Make); 4] =
+    [("error-time", plot::error_time), ("growth", plot::growth), ("pipeline", pipeline::draw), ("sets", sets::draw)];
 
 const BEGIN: &str = "<!-- figures: ";
 const END: &str = "<!-- end -->";
@@ -56,10 +52,7 @@ pub fn generate() -> Vec<(PathBuf, String)> {
         })
         .collect();
     for (name, _) in PARTS {
-        assert!(
-            used.iter().any(|other| other == name),
-            "no document has the part \"{name}\""
-        );
+        assert!(used.iter().any(|other| other == name), "no document has the part \"{name}\"");
     }
     for (name, make) in PLOTS {
         files.push((root().join(format!("docs/figures/{name}.svg")), make()));
@@ -88,9 +81,7 @@ fn fill(text: &str, margin: &str, used: &mut Vec<String>) -> String {
         let (name, after) = after.split_once(" -->").unwrap();
         let part = PARTS.iter().find(|(other, _)| *other == name);
         let (_, make) = part.unwrap_or_else(|| panic!("no part is called \"{name}\""));
-        let end = after
-            .find(END)
-            .unwrap_or_else(|| panic!("the part \"{name}\" has no end"));
+        let end = after.find(END).unwrap_or_else(|| panic!("the part \"{name}\" has no end"));
         let part = format!("{BEGIN}{name} -->\n\n{}\n\n{END}", make().trim());
         let lines: Vec<_> = part.split('\n').collect();
         let part = lines.join(&format!("\n{margin}"));

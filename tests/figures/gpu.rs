@@ -37,9 +37,7 @@ pub fn table() -> String {
             row.extend([0, 1, 2].map(|column| {
                 let values = all.iter().map(|(values, scene)| (values[column], *scene));
                 let of_column = spread(values.collect());
-                of_column.map_or_else(String::new, |s| {
-                    format!("{} ({})", short(s.median), short(s.worst.0))
-                })
+                of_column.map_or_else(String::new, |s| format!("{} ({})", short(s.median), short(s.worst.0)))
             }));
         }
         table.row(&row);
@@ -51,23 +49,13 @@ pub fn table() -> String {
 /// Milliseconds that the library adds to a scene, those of the passes that sample, and nanoseconds of these for each superpixel.
 /// `None` if the scene was not measured.
 fn added(of: &Measurement, scene: &str, samples: u32) -> Option<[f64; 3]> {
-    let is_shown = |row: &&Row| {
-        row.scene() == scene && row.text("method") == "superpixel" && row.samples() == samples
-    };
-    let passes: Vec<&Row> = of
-        .rows
-        .iter()
-        .filter(is_shown)
-        .filter(|row| !NOT_ADDED.contains(&row.text("pass")))
-        .collect();
-    let pixels: f64 = (of.head("size").split('x'))
-        .map(|side| side.parse::<f64>().unwrap())
-        .product();
+    let is_shown = |row: &&Row| row.scene() == scene && row.text("method") == "superpixel" && row.samples() == samples;
+    let passes: Vec<&Row> =
+        of.rows.iter().filter(is_shown).filter(|row| !NOT_ADDED.contains(&row.text("pass"))).collect();
+    let pixels: f64 = (of.head("size").split('x')).map(|side| side.parse::<f64>().unwrap()).product();
     let superpixels = passes.first()?.number("superpixel_fraction") * pixels;
     let all = passes.iter().map(|row| row.ms()).sum();
-    let sampling = passes
-        .iter()
-        .filter(|row| row.text("pass").starts_with("sample"));
+    let sampling = passes.iter().filter(|row| row.text("pass").starts_with("sample"));
     let sampling: f64 = sampling.map(|row| row.ms()).sum();
     Some([all, sampling, 1e6 * sampling / superpixels.max(1.0)])
 }

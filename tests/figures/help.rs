@@ -18,21 +18,14 @@ fn subcommands() -> Vec<String> {
 pub fn every() -> String {
     let mut text = String::new();
     for name in subcommands() {
-        text += &format!(
-            "## gpc {name}\n\n```text\n{}\n```\n\n",
-            help(&[&name, "--help"]).trim_end()
-        );
+        text += &format!("## gpc {name}\n\n```text\n{}\n```\n\n", help(&[&name, "--help"]).trim_end());
     }
     text
 }
 
 /// Output of the command.
 pub fn help(arguments: &[&str]) -> String {
-    let run = Command::new(env!("CARGO_BIN_EXE_gpc"))
-        .args(arguments)
-        .env_remove("COLUMNS")
-        .output()
-        .unwrap();
+    let run = Command::new(env!("CARGO_BIN_EXE_gpc")).args(arguments).env_remove("COLUMNS").output().unwrap();
     assert!(run.status.success(), "gpc {arguments:?}");
     let text = String::from_utf8(run.stdout).unwrap();
     let lines: Vec<_> = text.lines().map(str::trim_end).collect();

@@ -25,10 +25,8 @@ pub fn table() -> String {
         for at in sizes {
             let rows = METHODS.map(|(method, samples, _)| {
                 let mut rows = of.rows.iter();
-                rows.find(|row| {
-                    size(row) == at && row.text("method") == method && row.samples() == samples
-                })
-                .unwrap_or_else(|| panic!("no {method} with {samples} samples at {at:?}"))
+                rows.find(|row| size(row) == at && row.text("method") == method && row.samples() == samples)
+                    .unwrap_or_else(|| panic!("no {method} with {samples} samples at {at:?}"))
             });
             let aliased = 100.0 * rows[2].number("superpixel_fraction");
             let mut times = vec![format!("{} x {}", at[0], at[1]), format!("{aliased:.0} %")];

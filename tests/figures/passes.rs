@@ -4,8 +4,8 @@ use crate::data::root;
 use gpc::camera::set::SamplingSet;
 use gpc::camera::{Camera, Orbit, Pinhole};
 use gpc::render::{
-    CellOptions, FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, SceneSettings,
-    Settings, Shadows, SuperpixelOptions,
+    CellOptions, FramePass, Headless, HeadlessOptions, PreparedScene, SceneRequest, SceneSettings, Settings, Shadows,
+    SuperpixelOptions,
 };
 use gpc::scene::{PoseRequest, Scene};
 use std::collections::BTreeSet;
@@ -37,9 +37,8 @@ pub fn list() -> String {
     let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
     let locations = SamplingSet::planar(SIZE).unwrap().locations();
     let (cells, settings) = (CellOptions::new(64), SceneSettings::default());
-    let (sampled, recorded) = headless.passes_of(|headless| {
-        headless.sample_superpixels(&scene, &pinhole, &locations, &cells, &settings)
-    });
+    let (sampled, recorded) =
+        headless.passes_of(|headless| headless.sample_superpixels(&scene, &pinhole, &locations, &cells, &settings));
     sampled.unwrap();
     draw(&recorded.passes)
 }
@@ -50,15 +49,12 @@ pub fn image() -> String {
     let pinhole = Pinhole::from_camera(&camera, SIZE).unwrap();
     let rig = [(pinhole, SamplingSet::planar(SIZE).unwrap().locations())];
     let settings = Settings::new(SIZE[0], SIZE[1]);
-    let (rendered, recorded) =
-        headless.passes_of(|headless| headless.render_locations(&scene, &rig, &settings));
+    let (rendered, recorded) = headless.passes_of(|headless| headless.render_locations(&scene, &rig, &settings));
     rendered.unwrap();
     let passes = recorded.passes;
     let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();
     let found = place("crossings");
-    let before = passes[..found]
-        .iter()
-        .rposition(|pass| pass.name == "distribute");
+    let before = passes[..found].iter().rposition(|pass| pass.name == "distribute");
     let looks = &passes[before.unwrap()..=place("detect")];
     let grows = &passes[place("neighbours")..=place("grow")];
     draw(&[looks, grows].concat())
@@ -79,9 +75,7 @@ pub fn shadows() -> String {
 }
 
 fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {
-    let scene = Scene::load(&root().join(format!("assets/{asset}.glb")))
-        .unwrap()
-        .scene;
+    let scene = Scene::load(&root().join(format!("assets/{asset}.glb"))).unwrap().scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();
     let camera = match &pose.cameras[..] {
         [camera, ..] => Camera::from_scene(camera),
@@ -103,19 +97,14 @@ fn draw(passes: &[FramePass]) -> String {
         let known: BTreeSet<_> = passes[..from].iter().map(|pass| pass.name).collect();
         passes[from..].iter().all(|pass| known.contains(pass.name))
     };
-    let end = (1..passes.len())
-        .find(|from| is_again(*from))
-        .unwrap_or(passes.len());
+    let end = (1..passes.len()).find(|from| is_again(*from)).unwrap_or(passes.len());
     let mut text = "```text\n".to_owned();
     let mut written = BTreeSet::new();
     let mut last: Option<&str> = None;
     for pass in &passes[..end] {
         let shown = |data: &&&str| !SHARED.contains(*data);
         let reads = pass.reads.iter().filter(shown);
-        let reads: Vec<&str> = reads
-            .filter(|data| written.contains(**data))
-            .copied()
-            .collect();
+        let reads: Vec<&str> = reads.filter(|data| written.contains(**data)).copied().collect();
         let writes: Vec<&str> = pass.writes.iter().filter(shown).copied().collect();
         written.extend(writes.iter().copied());
         // A pass that runs twice in a row counts once. `arguments`, which only computes sizes of dispatches, is left out.
@@ -125,11 +114,7 @@ fn draw(passes: &[FramePass]) -> String {
             text += &format!("{}\n", line.trim_end());
         }
     }
-    let again: Vec<_> = passes[end..]
-        .iter()
-        .map(|pass| pass.name)
-        .filter(|name| *name != "arguments")
-        .collect();
+    let again: Vec<_> = passes[end..].iter().map(|pass| pass.name).filter(|name| *name != "arguments").collect();
     if let [first, .., last] = again[..] {
         text += &format!("again        {first} to {last}\n");
     }

@@ -73,11 +73,7 @@ pub fn draw() -> String {
          <path d=\"M0 0 8 4 0 8z\" fill=\"#444\"/></marker></defs>\n\
          <rect width=\"960\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
-    svg += &panel(
-        "Every pixel, one sample",
-        "#e8f0f8",
-        [10, STEP[1] * above + 38],
-    );
+    svg += &panel("Every pixel, one sample", "#e8f0f8", [10, STEP[1] * above + 38]);
     let title = "Superpixels alone, up to 1,024 samples";
     svg += &panel(title, "#f8efe4", [second - 42, STEP[1] * below + 86]);
     let place = |top: i32, index: usize| {
@@ -90,9 +86,7 @@ pub fn draw() -> String {
                 ("shade", true) => SHADE_AGAIN,
                 _ => {
                     let known = PURPOSES.iter().find(|(known, _)| known == name);
-                    known
-                        .unwrap_or_else(|| panic!("say what {name} does in PURPOSES"))
-                        .1
+                    known.unwrap_or_else(|| panic!("say what {name} does in PURPOSES")).1
                 }
             };
             let [x, y] = place(top, index);
@@ -107,18 +101,13 @@ pub fn draw() -> String {
     let [to_x, to_y] = place(second, 0);
     let middle = second - 54;
     let (from, to) = (x + BOX[0] / 2, to_x + BOX[0] / 2);
-    svg += &arrow(
-        &format!("M{from} {}V{middle}H{to}V{}", y + 76, to_y - 2),
-        false,
-    );
+    svg += &arrow(&format!("M{from} {}V{middle}H{to}V{}", y + 76, to_y - 2), false);
     svg += &label("mask of superpixels", [480, middle - 6]);
     // Rounds, and the passes that run again after a growth.
     let find = |wanted: &str| superpixels.iter().position(|name| *name == wanted);
     let bottom = second + STEP[1] * below;
-    let turns = [
-        ("resolve", "schedule", "next round, if not all tiles fit", 0),
-        ("grow", "cull", "the added superpixels", 1),
-    ];
+    let turns =
+        [("resolve", "schedule", "next round, if not all tiles fit", 0), ("grow", "cull", "the added superpixels", 1)];
     for (last, first, why, number) in turns {
         let [x, y] = place(second, find(last).unwrap());
         let [to_x, to_y] = place(second, find(first).unwrap());
@@ -177,18 +166,12 @@ fn between([x, y]: [i32; 2], [to_x, to_y]: [i32; 2]) -> String {
 }
 
 fn arrow(path: &str, dashed: bool) -> String {
-    let dashes = if dashed {
-        " stroke-dasharray=\"5 4\""
-    } else {
-        ""
-    };
+    let dashes = if dashed { " stroke-dasharray=\"5 4\"" } else { "" };
     format!(
         "<path d=\"{path}\" fill=\"none\" stroke=\"#444\" stroke-width=\"1.5\" marker-end=\"url(#tip)\"{dashes}/>\n"
     )
 }
 
 fn label(text: &str, [x, y]: [i32; 2]) -> String {
-    format!(
-        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"12\" fill=\"#333\">{text}</text>\n"
-    )
+    format!("<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"12\" fill=\"#333\">{text}</text>\n")
 }

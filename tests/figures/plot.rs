@@ -55,10 +55,7 @@ pub fn error_time() -> String {
     let curves: Vec<(&str, Vec<_>)> = ["none", "msaa", "ssaa", "superpixel"]
         .into_iter()
         .filter_map(|method| {
-            let points = all
-                .iter()
-                .map(|of| curve(of, method))
-                .find(|points| !points.is_empty())?;
+            let points = all.iter().map(|of| curve(of, method)).find(|points| !points.is_empty())?;
             Some((method, points))
         })
         .collect();
@@ -88,18 +85,12 @@ pub fn error_time() -> String {
         for (method, points) in &curves {
             let colour = colour(method);
             let line = points.iter().map(|(time, error, _)| (*time, *error));
-            chart
-                .draw_series(LineSeries::new(line, colour.stroke_width(2)))
-                .unwrap();
+            chart.draw_series(LineSeries::new(line, colour.stroke_width(2))).unwrap();
             chart
                 .draw_series(points.iter().map(|(time, error, n)| {
                     EmptyElement::at((*time, *error))
                         + Circle::new((0, 0), 4, colour.filled())
-                        + Text::new(
-                            label(method, *n),
-                            beside(method),
-                            FONT.into_font().color(&colour),
-                        )
+                        + Text::new(label(method, *n), beside(method), FONT.into_font().color(&colour))
                 }))
                 .unwrap();
         }
@@ -127,10 +118,7 @@ pub fn growth() -> String {
     let all = data::load("growth");
     let of = &all[0];
     let curve = |method: &str| -> Vec<(f64, f64)> {
-        let rows = of
-            .rows
-            .iter()
-            .filter(|row| row.text("quantity") == "triangles" && row.text("method") == method);
+        let rows = of.rows.iter().filter(|row| row.text("quantity") == "triangles" && row.text("method") == method);
         rows.map(|row| (row.number("value"), row.ms())).collect()
     };
     let methods = ["none", "superpixel", "ssaa"];
@@ -143,19 +131,13 @@ pub fn growth() -> String {
             .margin(12)
             .x_label_area_size(46)
             .y_label_area_size(64)
-            .build_cartesian_2d(
-                (700.0..3.0 * largest).log_scale(),
-                (0.7 * least..1.6 * most).log_scale(),
-            )
+            .build_cartesian_2d((700.0..3.0 * largest).log_scale(), (0.7 * least..1.6 * most).log_scale())
             .unwrap();
         chart
             .configure_mesh()
             .light_line_style(WHITE)
             .label_style(FONT)
-            .x_desc(format!(
-                "triangles in view, {} pixels, 64 samples",
-                of.size()
-            ))
+            .x_desc(format!("triangles in view, {} pixels, 64 samples", of.size()))
             .y_desc("milliseconds a frame")
             .x_label_formatter(&|x| crate::text::short(*x))
             .y_label_formatter(&|y| crate::text::short(*y))
@@ -164,12 +146,7 @@ pub fn growth() -> String {
         for method in methods {
             let colour = colour(method);
             let points = curve(method);
-            chart
-                .draw_series(LineSeries::new(
-                    points.iter().copied(),
-                    colour.stroke_width(2),
-                ))
-                .unwrap();
+            chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2))).unwrap();
             if let Some(last) = points.first() {
                 let name = label(method, 64);
                 let text = Text::new(name, (-4, -24), FONT.into_font().color(&colour));

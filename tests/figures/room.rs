@@ -4,10 +4,7 @@ use crate::data::{self, Row};
 use crate::text::{Table, cells, grouped};
 
 /// Devices, with the heads of their columns.
-const DEVICES: [(&str, [&str; 2]); 2] = [
-    ("gpu", ["GPU: bytes", "rounds"]),
-    ("cpu", ["CPU: bytes", "rounds"]),
-];
+const DEVICES: [(&str, [&str; 2]); 2] = [("gpu", ["GPU: bytes", "rounds"]), ("cpu", ["CPU: bytes", "rounds"])];
 
 /// Table of sizes and numbers of samples.
 pub fn table() -> String {

@@ -16,10 +16,7 @@ type Place = (f64, f64);
 fn scattered(count: u32) -> impl Iterator<Item = Place> {
     (0..count).map(|index| {
         let index = f64::from(index) + 0.5;
-        (
-            (index * 0.754_877_666).fract(),
-            (index * 0.569_840_291).fract(),
-        )
+        ((index * 0.754_877_666).fract(), (index * 0.569_840_291).fract())
     })
 }
 
@@ -40,20 +37,8 @@ fn planar() -> Vec<Place> {
 /// Superpixel set: several locations in the pixels that an edge crosses.
 fn superpixel() -> Vec<Place> {
     let crossed = |(x, y): (i32, i32)| (x + 2 * y - 10).abs() <= 1;
-    let many = |pixel| {
-        scattered(9)
-            .map(move |place| in_pixel(pixel, place))
-            .collect::<Vec<_>>()
-    };
-    centres()
-        .flat_map(|pixel| {
-            if crossed(pixel) {
-                many(pixel)
-            } else {
-                vec![in_pixel(pixel, (0.5, 0.5))]
-            }
-        })
-        .collect()
+    let many = |pixel| scattered(9).map(move |place| in_pixel(pixel, place)).collect::<Vec<_>>();
+    centres().flat_map(|pixel| if crossed(pixel) { many(pixel) } else { vec![in_pixel(pixel, (0.5, 0.5))] }).collect()
 }
 
 /// Offset set: a grid that is contracted around a focus.
@@ -83,10 +68,7 @@ fn rig() -> Vec<Place> {
         .flat_map(|(x, y)| {
             (0..16).map(move |index| {
                 let (u, v) = (f64::from(index % 4) + 0.5, f64::from(index / 4) + 0.5);
-                (
-                    third * (f64::from(*x) + u / 4.0),
-                    third * (f64::from(*y) + v / 4.0),
-                )
+                (third * (f64::from(*x) + u / 4.0), third * (f64::from(*y) + v / 4.0))
             })
         })
         .collect()
@@ -105,8 +87,7 @@ pub fn draw() -> String {
     let height = SIDE + NAME + 2 * GAP;
     let mut text = String::new();
     {
-        let area =
-            SVGBackend::with_string(&mut text, (width as u32, height as u32)).into_drawing_area();
+        let area = SVGBackend::with_string(&mut text, (width as u32, height as u32)).into_drawing_area();
         area.fill(&WHITE).unwrap();
         for (index, (name, places)) in panels.iter().enumerate() {
             let left = GAP + index as i32 * (SIDE + GAP);
@@ -115,36 +96,19 @@ pub fn draw() -> String {
             if *name != "no pattern" {
                 for line in 0..=cells {
                     let at = SIDE * line / cells;
-                    area.draw(&PathElement::new(
-                        [(left + at, GAP), (left + at, GAP + SIDE)],
-                        lines,
-                    ))
-                    .unwrap();
-                    area.draw(&PathElement::new(
-                        [(left, GAP + at), (left + SIDE, GAP + at)],
-                        lines,
-                    ))
-                    .unwrap();
+                    area.draw(&PathElement::new([(left + at, GAP), (left + at, GAP + SIDE)], lines)).unwrap();
+                    area.draw(&PathElement::new([(left, GAP + at), (left + SIDE, GAP + at)], lines)).unwrap();
                 }
             } else {
-                area.draw(&Rectangle::new(
-                    [(left, GAP), (left + SIDE, GAP + SIDE)],
-                    lines,
-                ))
-                .unwrap();
+                area.draw(&Rectangle::new([(left, GAP), (left + SIDE, GAP + SIDE)], lines)).unwrap();
             }
             for (u, v) in places {
                 let pixel = |t: f64| (t * f64::from(SIDE)).round() as i32;
-                let dot = Circle::new(
-                    (left + pixel(*u), GAP + pixel(*v)),
-                    2,
-                    RGBColor(200, 70, 30).filled(),
-                );
+                let dot = Circle::new((left + pixel(*u), GAP + pixel(*v)), 2, RGBColor(200, 70, 30).filled());
                 area.draw(&dot).unwrap();
             }
             let font = ("sans-serif", 16).into_font();
-            area.draw(&Text::new(*name, (left, GAP + SIDE + 8), font))
-                .unwrap();
+            area.draw(&Text::new(*name, (left, GAP + SIDE + 8), font)).unwrap();
         }
         area.present().unwrap();
     }

@@ -17,9 +17,7 @@ fn price(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
 
 /// Share of the pixels that hold a surface.
 fn surfaces(of: &Measurement, scene: &str) -> String {
-    of.find(scene, "none", 1).map_or_else(String::new, |row| {
-        format!("{:.0} %", 100.0 * row.number("surface_fraction"))
-    })
+    of.find(scene, "none", 1).map_or_else(String::new, |row| format!("{:.0} %", 100.0 * row.number("surface_fraction")))
 }
 
 /// Table of the prices, scene by scene and in the median.

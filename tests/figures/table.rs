@@ -28,13 +28,7 @@ fn ratios<'a>(
 }
 
 /// Median of a column over scenes.
-fn median(
-    of: &Measurement,
-    scenes: &[&str],
-    column: Column,
-    method: &str,
-    samples: u32,
-) -> Option<f64> {
+fn median(of: &Measurement, scenes: &[&str], column: Column, method: &str, samples: u32) -> Option<f64> {
     let value = |scene: &&str| Some((column(of.find(scene, method, samples)?), ""));
     Some(spread(scenes.iter().filter_map(value).collect())?.median)
 }
@@ -46,9 +40,7 @@ fn textured(of: &Measurement) -> Vec<&str> {
 }
 
 fn with_worst(spread: Option<Spread<'_>>) -> String {
-    spread.map_or_else(String::new, |s| {
-        format!("{} ({})", short(s.median), short(s.worst.0))
-    })
+    spread.map_or_else(String::new, |s| format!("{} ({})", short(s.median), short(s.worst.0)))
 }
 
 fn or_none(value: Option<f64>, write: fn(f64) -> String) -> String {
@@ -66,11 +58,7 @@ pub fn readme() -> String {
     let all = data::load("quality");
     let of = quality(&all);
     let scenes = textured(of);
-    let samples: Vec<u32> = of
-        .compared_samples()
-        .into_iter()
-        .filter(|n| *n >= 16)
-        .collect();
+    let samples: Vec<u32> = of.compared_samples().into_iter().filter(|n| *n >= 16).collect();
     let mut head = cells(&["samples in a superpixel"]);
     head.extend(samples.iter().map(|n| grouped(u64::from(*n))));
     let mut table = Table::new(&head);
@@ -82,19 +70,10 @@ pub fn readme() -> String {
     line("superpixel time / time of one sample", &|n| {
         with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("none", 1)))
     });
-    line("superpixel time / `ssaa` time", &|n| {
-        with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n)))
-    });
-    line(
-        "superpixel time at the RMSE of `ssaa` / `ssaa` time",
-        &|n| with_worst(time_to_error::shares(of, &scenes, n)),
-    );
-    line("superpixel RMSE / `ssaa` RMSE", &|n| {
-        with_worst(ratios(of, &scenes, RMSE, ("superpixel", n), ("ssaa", n)))
-    });
-    line("superpixel FLIP / `ssaa` FLIP", &|n| {
-        with_worst(ratios(of, &scenes, FLIP, ("superpixel", n), ("ssaa", n)))
-    });
+    line("superpixel time / `ssaa` time", &|n| with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n))));
+    line("superpixel time at the RMSE of `ssaa` / `ssaa` time", &|n| with_worst(time_to_error::shares(of, &scenes, n)));
+    line("superpixel RMSE / `ssaa` RMSE", &|n| with_worst(ratios(of, &scenes, RMSE, ("superpixel", n), ("ssaa", n))));
+    line("superpixel FLIP / `ssaa` FLIP", &|n| with_worst(ratios(of, &scenes, FLIP, ("superpixel", n), ("ssaa", n))));
     format!(
         "Medians (worst) of {} textured scenes at {}. Below 1, superpixels win, except in the first row. Row 3: 1.0 if they never reach the error. \
          {}.\n\n{}",
@@ -122,9 +101,7 @@ pub fn choosing() -> String {
         for method in ["none", "msaa", "ssaa", "superpixel"] {
             for n in of.samples(method) {
                 let over = |column| match method {
-                    "superpixel" => {
-                        with_worst(ratios(of, &scenes, column, (method, n), ("ssaa", n)))
-                    }
+                    "superpixel" => with_worst(ratios(of, &scenes, column, (method, n), ("ssaa", n))),
                     _ => String::new(),
                 };
                 table.row(&[
@@ -171,19 +148,9 @@ pub fn exceptions() -> String {
             };
             format!("{} of {}{names}", better.len(), scenes.len())
         };
-        table.row(&[
-            grouped(u64::from(n)),
-            better(MS),
-            better(RMSE),
-            better(FLIP),
-        ]);
+        table.row(&[grouped(u64::from(n)), better(MS), better(RMSE), better(FLIP)]);
     }
-    format!(
-        "All {} scenes; {}:\n\n{}",
-        scenes.len(),
-        of.source(),
-        table.finish()
-    )
+    format!("All {} scenes; {}:\n\n{}", scenes.len(), of.source(), table.finish())
 }
 
 /// Table of error and time, scene by scene.
@@ -204,10 +171,7 @@ pub fn quality_by_scene() -> String {
                 "`ssaa`",
             ]));
             for scene in of.scenes() {
-                let Some((fine, brute)) = of
-                    .find(scene, "superpixel", n)
-                    .zip(of.find(scene, "ssaa", n))
-                else {
+                let Some((fine, brute)) = of.find(scene, "superpixel", n).zip(of.find(scene, "ssaa", n)) else {
                     continue;
                 };
                 let plain = of.find(scene, "none", 1).map(MS);
@@ -223,11 +187,7 @@ pub fn quality_by_scene() -> String {
                     error(FLIP(brute)),
                 ]);
             }
-            text += &format!(
-                "**{} samples**\n\n{}\n",
-                grouped(u64::from(n)),
-                table.finish()
-            );
+            text += &format!("**{} samples**\n\n{}\n", grouped(u64::from(n)), table.finish());
         }
         for n in of.samples("msaa") {
             let mut table = Table::new(&cells(&[
@@ -240,9 +200,7 @@ pub fn quality_by_scene() -> String {
                 "`msaa`",
             ]));
             for scene in of.scenes() {
-                if let Some((plain, multi)) =
-                    of.find(scene, "none", 1).zip(of.find(scene, "msaa", n))
-                {
+                if let Some((plain, multi)) = of.find(scene, "none", 1).zip(of.find(scene, "msaa", n)) {
                     table.row(&[
                         scene.to_owned(),
                         short(plain.ms()),
@@ -268,11 +226,7 @@ pub fn speed() -> String {
         let mut head = cells(&["scene", "one sample, ms"]);
         for n in &samples {
             let n = grouped(u64::from(*n));
-            head.extend([
-                format!("{n} samples, ms"),
-                "/ one sample".to_owned(),
-                "`ssaa` / it".to_owned(),
-            ]);
+            head.extend([format!("{n} samples, ms"), "/ one sample".to_owned(), "`ssaa` / it".to_owned()]);
         }
         let mut table = Table::new(&head);
         for scene in of.scenes() {
@@ -285,18 +239,14 @@ pub fn speed() -> String {
                 let brute = of.find(scene, "ssaa", *n).map(MS);
                 row.push(or_none(fine, short));
                 row.push(or_none(fine.map(|ms| ms / plain.ms()), short));
-                row.push(or_none(
-                    fine.zip(brute).map(|(fine, brute)| brute / fine),
-                    short,
-                ));
+                row.push(or_none(fine.zip(brute).map(|(fine, brute)| brute / fine), short));
             }
             table.row(&row);
         }
         let scenes = of.scenes();
         let mut row = cells(&["**median**", ""]);
         for n in &samples {
-            let over =
-                |above, below| ratios(of, &scenes, MS, above, below).map(|spread| spread.median);
+            let over = |above, below| ratios(of, &scenes, MS, above, below).map(|spread| spread.median);
             row.push(String::new());
             row.push(or_none(over(("superpixel", *n), ("none", 1)), short));
             row.push(or_none(over(("ssaa", *n), ("superpixel", *n)), short));
@@ -331,8 +281,7 @@ pub fn motion() -> String {
                 for n in &samples {
                     for column in ["rmse", "flicker"] {
                         let pair = find("superpixel", *n).zip(find("ssaa", *n));
-                        let ratio =
-                            pair.map(|(fine, brute)| fine.number(column) / brute.number(column));
+                        let ratio = pair.map(|(fine, brute)| fine.number(column) / brute.number(column));
                         row.push(or_none(ratio, |ratio| format!("{ratio:.2}")));
                     }
                 }
@@ -348,14 +297,8 @@ pub fn motion() -> String {
 pub fn variants() -> String {
     let mut text = String::new();
     for of in &data::load("variants") {
-        let mut table = Table::new(&cells(&[
-            "scene",
-            "variant",
-            "device, ns",
-            "/ raster",
-            "by the clock, ns",
-            "/ raster",
-        ]));
+        let mut table =
+            Table::new(&cells(&["scene", "variant", "device, ns", "/ raster", "by the clock, ns", "/ raster"]));
         for row in &of.rows {
             table.row(&[
                 row.scene().to_owned(),
@@ -375,13 +318,7 @@ pub fn variants() -> String {
 pub fn growth() -> String {
     let mut text = String::new();
     for of in &data::load("growth") {
-        let mut table = Table::new(&cells(&[
-            "quantity",
-            "value",
-            "one sample, ms",
-            "superpixel, ms",
-            "`ssaa`, ms",
-        ]));
+        let mut table = Table::new(&cells(&["quantity", "value", "one sample, ms", "superpixel, ms", "`ssaa`, ms"]));
         let mut seen = Vec::new();
         for row in &of.rows {
             let key = (row.text("quantity"), row.text("value"));
@@ -391,26 +328,14 @@ pub fn growth() -> String {
             seen.push(key);
             let ms = |method: &str| {
                 let same = |other: &&Row| {
-                    (other.text("quantity"), other.text("value")) == key
-                        && other.text("method") == method
+                    (other.text("quantity"), other.text("value")) == key && other.text("method") == method
                 };
                 or_none(of.rows.iter().find(same).map(MS), short)
             };
             let (quantity, value) = (key.0, row.number("value"));
-            table.row(&[
-                quantity.to_owned(),
-                short(value),
-                ms("none"),
-                ms("superpixel"),
-                ms("ssaa"),
-            ]);
+            table.row(&[quantity.to_owned(), short(value), ms("none"), ms("superpixel"), ms("ssaa")]);
         }
-        text += &format!(
-            "{}, {} where pixels do not grow:\n\n{}\n",
-            of.source(),
-            of.size(),
-            table.finish()
-        );
+        text += &format!("{}, {} where pixels do not grow:\n\n{}\n", of.source(), of.size(), table.finish());
     }
     text
 }

@@ -59,13 +59,9 @@ pub fn cells(texts: &[&str]) -> Vec<String> {
 
 #[test]
 fn numbers_are_short() {
-    for (value, expected) in [
-        (0.123, "0.12"),
-        (1.26, "1.3"),
-        (12.6, "13"),
-        (999.7, "1,000"),
-        (1_234_567.0, "1,234,567"),
-    ] {
+    for (value, expected) in
+        [(0.123, "0.12"), (1.26, "1.3"), (12.6, "13"), (999.7, "1,000"), (1_234_567.0, "1,234,567")]
+    {
         assert_eq!(short(value), expected);
     }
 }

@@ -9,9 +9,7 @@ use crate::text::short;
 fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
     let target = of.find(scene, "ssaa", samples)?;
     let tried = of.samples("superpixel");
-    let rows = tried
-        .iter()
-        .filter_map(|n| of.find(scene, "superpixel", *n));
+    let rows = tried.iter().filter_map(|n| of.find(scene, "superpixel", *n));
     let reached = rows.filter(|row| row.number("rmse") <= target.number("rmse"));
     let fastest = reached.map(Row::ms).fold(f64::INFINITY, f64::min);
     Some((fastest / target.ms()).min(1.0))

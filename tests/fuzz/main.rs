@@ -33,8 +33,7 @@ pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
         let decoded = decode_light(bytes, "fuzz");
         return decoded.is_ok_and(|([width, height], colors)| {
             // Large images are skipped, because averaging depends on the size alone and takes long.
-            colors.len() > 1 << 10
-                || Environment::from_equirectangular(width, height, colors).is_ok()
+            colors.len() > 1 << 10 || Environment::from_equirectangular(width, height, colors).is_ok()
         });
     }
     let Ok(loaded) = Scene::from_slice(bytes, "fuzz", base) else {
@@ -42,10 +41,7 @@ pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
     };
     let mut scene = loaded.scene;
     scene.add_edges(&Edges::default());
-    let request = PoseRequest {
-        time: 0.5,
-        ..PoseRequest::default()
-    };
+    let request = PoseRequest { time: 0.5, ..PoseRequest::default() };
     match scene.pose_in_motion(&request) {
         Ok((_, motion)) => motion.at(&scene, 0.25).is_ok(),
         Err(_) => false,
@@ -101,11 +97,7 @@ fn run() {
             if result.is_err() || took > slowest {
                 let path = std::env::temp_dir().join(format!("fuzz-{executions}-{}", seed.name));
                 std::fs::write(&path, &bytes).unwrap();
-                panic!(
-                    "{}: panics or takes {took:?}: {}",
-                    seed.name,
-                    path.display()
-                );
+                panic!("{}: panics or takes {took:?}: {}", seed.name, path.display());
             }
             executions += 1;
             drawn += u64::from(result.unwrap());
@@ -121,8 +113,7 @@ fn run() {
     let is_tolerant = seeds.iter().all(|seed| seed.name.ends_with(".mtl"));
     // A mutator that breaks every file, or none, would test nothing.
     assert!(
-        executions == 0
-            || (drawn > executions / 50 && (drawn < executions * 49 / 50 || is_tolerant)),
+        executions == 0 || (drawn > executions / 50 && (drawn < executions * 49 / 50 || is_tolerant)),
         "{drawn} of {executions} are drawable"
     );
 }

@@ -27,9 +27,7 @@ const NUMBERS: [&str; 14] = [
 
 impl Mutator {
     pub fn new(seed: u64) -> Self {
-        Self {
-            state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1,
-        }
+        Self { state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1 }
     }
 
     /// A random number below `bound` (xorshift).
@@ -42,11 +40,7 @@ impl Mutator {
 
     /// A position in a file, often near its start, where headers are.
     fn place(&mut self, length: usize) -> usize {
-        let reach = if self.below(2) == 0 {
-            length.min(256)
-        } else {
-            length
-        };
+        let reach = if self.below(2) == 0 { length.min(256) } else { length };
         self.below(reach)
     }
 
@@ -126,10 +120,7 @@ impl Mutator {
         let number = NUMBERS[self.below(NUMBERS.len())].as_bytes().to_vec();
         if self.below(2) == 0 {
             // The length stays the same, so that the chunk of a GLB stays valid.
-            let padded = number
-                .into_iter()
-                .chain(std::iter::repeat(b' '))
-                .take(length);
+            let padded = number.into_iter().chain(std::iter::repeat(b' ')).take(length);
             bytes.splice(start..start + length, padded.collect::<Vec<_>>());
         } else {
             bytes.splice(start..start + length, number);
@@ -153,11 +144,7 @@ fn chunks(bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
 pub fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
     let mut glb = b"glTF".to_vec();
     let length = 12 + 8 + json.len() + 8 + binary.len();
-    glb.extend(
-        [2, length as u32]
-            .iter()
-            .flat_map(|word| word.to_le_bytes()),
-    );
+    glb.extend([2, length as u32].iter().flat_map(|word| word.to_le_bytes()));
     for (chunk, kind) in [(json, b"JSON"), (binary, b"BIN\0")] {
         glb.extend((chunk.len() as u32).to_le_bytes());
         glb.extend(kind);

@@ -73,10 +73,7 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("sky.hdr", hdr()),
         made("sky.exr", exr(folder)),
         made("edges.ply", EDGES.into()),
-        Seed {
-            base: Some(folder.to_owned()),
-            ..made("faces.ply", FACES.into())
-        },
+        Seed { base: Some(folder.to_owned()), ..made("faces.ply", FACES.into()) },
     ];
     let image = image::RgbaImage::from_fn(4, 4, |x, y| image::Rgba([9, 8, 7, (50 * x + y) as u8]));
     for name in ["a.bmp", "a.tga", "a.png"] {
@@ -98,12 +95,7 @@ pub fn all(folder: &Path) -> Vec<Seed> {
 }
 
 fn made(name: &str, bytes: Vec<u8>) -> Seed {
-    Seed {
-        name: name.to_owned(),
-        bytes,
-        base: None,
-        beside: None,
-    }
+    Seed { name: name.to_owned(), bytes, base: None, beside: None }
 }
 
 /// A scene whose MTL file is mutated, but not the scene itself.
@@ -130,12 +122,7 @@ fn from_scene(name: &str) -> Seed {
             bytes = glb(json.to_string().as_bytes(), &binary);
         }
     }
-    Seed {
-        name: name.replace('/', "-"),
-        bytes,
-        base: Some(base),
-        beside: None,
-    }
+    Seed { name: name.replace('/', "-"), bytes, base: Some(base), beside: None }
 }
 
 /// A scene with all parts that need no compression.
@@ -172,24 +159,18 @@ fn rich() -> Builder {
         json!({"weights": [0.5], "camera": 0}),
     );
     for mode in [0, 1, 2, 3] {
-        builder.json["meshes"][0]["primitives"]
-            .as_array_mut()
-            .into_iter()
-            .for_each(|primitives| {
-                primitives.push(json!({
-                    "attributes": {"POSITION": positions, "NORMAL": positions}, "indices": indices,
-                    "mode": mode, "targets": [{"POSITION": positions}],
-                }));
-            });
+        builder.json["meshes"][0]["primitives"].as_array_mut().into_iter().for_each(|primitives| {
+            primitives.push(json!({
+                "attributes": {"POSITION": positions, "NORMAL": positions}, "indices": indices,
+                "mode": mode, "targets": [{"POSITION": positions}],
+            }));
+        });
     }
     builder.json["extensions"] = json!({
         "KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"innerConeAngle": 0.1}}]},
         "KHR_materials_variants": {"variants": [{"name": "day"}]},
     });
-    builder.push(
-        "cameras",
-        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
-    );
+    builder.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}));
     builder.push("skins", json!({"joints": [1]}));
     builder.json["nodes"][node]["skin"] = 0.into();
     builder.push(
@@ -204,20 +185,11 @@ fn rich() -> Builder {
     builder.json["extensions"]["EXT_lights_image_based"] = json!({"lights": [{
         "irradianceCoefficients": vec![[1, 1, 1]; 9], "specularImageSize": 1, "specularImages": [faces],
     }]});
-    builder.push(
-        "scenes",
-        json!({"nodes": [0, 1], "extensions": {"EXT_lights_image_based": {"light": 0}}}),
-    );
+    builder.push("scenes", json!({"nodes": [0, 1], "extensions": {"EXT_lights_image_based": {"light": 0}}}));
     builder.pointers(&[
         ("/materials/0/normalTexture/scale", vec![1.0, 2.0]),
-        (
-            "/materials/0/extensions/KHR_materials_volume/attenuationDistance",
-            vec![1.0, 0.0],
-        ),
-        (
-            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
-            vec![0.2, 1.0],
-        ),
+        ("/materials/0/extensions/KHR_materials_volume/attenuationDistance", vec![1.0, 0.0]),
+        ("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", vec![0.2, 1.0]),
         ("/cameras/0/perspective/yfov", vec![0.5, 1.0]),
         ("/meshes/0/weights", vec![0.0, 1.0]),
     ]);

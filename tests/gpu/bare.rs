@@ -3,8 +3,8 @@
 use ash::vk;
 use gpc::render::Headless;
 use gpc::testing::{
-    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes,
-    Resources, frame_layout, memory,
+    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes, Resources, frame_layout,
+    memory,
 };
 use std::sync::Arc;
 
@@ -53,10 +53,8 @@ pub struct Bare {
 impl Bare {
     pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
         // SAFETY: passes are run with the sizes of these resources, and tests wait for their commands.
-        let (layout, memory) =
-            unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
-        let targets =
-            RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
+        let (layout, memory) = unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
+        let targets = RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
         let offsets = vec![[0.0; 2]; samples as usize];
         let resources = Resources::new(
             &layout,
@@ -65,26 +63,16 @@ impl Bare {
             &[],
             &targets.views(),
             sizes,
-            &[Offsets {
-                all: &offsets,
-                count: samples,
-            }],
+            &[Offsets { all: &offsets, count: samples }],
         )
         .unwrap();
-        Self {
-            memory,
-            layout,
-            resources,
-            _targets: targets,
-        }
+        Self { memory, layout, resources, _targets: targets }
     }
 
     /// A buffer in host memory to which another one may be copied.
     pub fn like(&self, buffer: &Buffer) -> Buffer {
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
-        self.memory
-            .buffer("kept", buffer.size(), usage, MemoryUse::Readback)
-            .unwrap()
+        self.memory.buffer("kept", buffer.size(), usage, MemoryUse::Readback).unwrap()
     }
 }
 
@@ -93,8 +81,6 @@ pub fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buf
     let all = [vk::BufferCopy::default().size(size)];
     // SAFETY: the commands are being recorded; both buffers were created for copies and outlive them.
     unsafe {
-        gpu.gpu()
-            .device()
-            .cmd_copy_buffer(commands, from.handle(), to.handle(), &all);
+        gpu.gpu().device().cmd_copy_buffer(commands, from.handle(), to.handle(), &all);
     }
 }

@@ -24,12 +24,7 @@ pub fn panes() -> Stage {
         stage.add_quad(material, corners.map(|(at, far)| seen_at(at, far, SIZE[1])));
     };
     let upright = |near, far, left, right| {
-        [
-            ([left, -18.0], near),
-            ([left, 17.0], near),
-            ([right, 17.0], far),
-            ([right, -18.0], far),
-        ]
+        [([left, -18.0], near), ([left, 17.0], near), ([right, 17.0], far), ([right, -18.0], far)]
     };
     quad(0, upright(4.0, 4.0, -22.0, -3.3));
     // Two panes intersect; one of them also intersects the wall.
@@ -66,11 +61,7 @@ fn deep(lit: bool) -> Stage {
     let mut random = Random::new(4);
     for material in 0..=PANES {
         let mut corner = |x: f64, y: f64| {
-            let far = if material == 0 {
-                6.0
-            } else {
-                random.range(2.0, 7.0)
-            };
+            let far = if material == 0 { 6.0 } else { random.range(2.0, 7.0) };
             let place = [x * random.range(18.0, 26.0), y * random.range(15.0, 22.0)];
             seen_at(place, far, SIZE[1])
         };
@@ -83,16 +74,11 @@ fn deep(lit: bool) -> Stage {
 /// Many small panes in each pixel over an empty background.
 fn confetti() -> Stage {
     let mut random = Random::new(5);
-    let mut stage = Stage::new(
-        (0..4)
-            .map(|i| flat([1.0, 0.25 * i as f32, 0.5, 0.25], AlphaMode::Blend))
-            .collect(),
-    );
+    let mut stage = Stage::new((0..4).map(|i| flat([1.0, 0.25 * i as f32, 0.5, 0.25], AlphaMode::Blend)).collect());
     for index in 0..600 {
         let middle = SIZE.map(|side| random.range(-0.5, 0.5) * f64::from(side));
         let far = random.range(1.0, 9.0);
-        let corners =
-            [0; 3].map(|_| seen_at(middle.map(|at| at + random.range(-3.0, 3.0)), far, SIZE[1]));
+        let corners = [0; 3].map(|_| seen_at(middle.map(|at| at + random.range(-3.0, 3.0)), far, SIZE[1]));
         stage.add(index % 4, corners);
     }
     stage
@@ -100,13 +86,7 @@ fn confetti() -> Stage {
 
 /// Premultiplied colour of a sample over a background, and whether rounding may change it. BLEND surfaces are searched
 /// first, starting from the nearest.
-fn composite(
-    stage: &Stage,
-    twin: &Twin,
-    pixel: usize,
-    sample: [f64; 2],
-    back: [f64; 4],
-) -> ([f64; 4], bool) {
+fn composite(stage: &Stage, twin: &Twin, pixel: usize, sample: [f64; 2], back: [f64; 4]) -> ([f64; 4], bool) {
     let mut layers = Vec::new();
     let mut hidden = Vec::new();
     let mut contested = false;
@@ -164,10 +144,7 @@ fn shared_layers_are_those_of_each_sample() {
                 for shading in [Shading::Triangle, Shading::Part] {
                     let shared = shaded(gpu, shading);
                     let apart = distance(&each, &shared);
-                    assert!(
-                        apart < tolerance,
-                        "{name}, {samples} samples, {shading:?}: {apart}"
-                    );
+                    assert!(apart < tolerance, "{name}, {samples} samples, {shading:?}: {apart}");
                     let [fewer, all] = [&shared, &each].map(|image| image.statistics.records);
                     assert!(fewer < all, "{name}, {shading:?}: {fewer} of {all} records");
                 }
@@ -195,11 +172,8 @@ fn assert_is_the_twins(stage: &Stage) {
             (none.clone(), clear),
             (none, grey),
         ] {
-            let settings = settings.background((back[3] > 0.0).then_some([
-                back[0] as f32,
-                back[1] as f32,
-                back[2] as f32,
-            ]));
+            let settings =
+                settings.background((back[3] > 0.0).then_some([back[0] as f32, back[1] as f32, back[2] as f32]));
             let rendered = stage.render(gpu, &settings);
             let offsets = match &settings.method {
                 Method::Superpixel(options) => {
@@ -231,10 +205,7 @@ fn assert_is_the_twins(stage: &Stage) {
                 layered += u32::from(sum[3] > 0.0);
             }
             let pixels = SIZE[0] * SIZE[1];
-            assert!(
-                checked * 10 > pixels * 8 && layered * 2 > pixels,
-                "{checked}, {layered}"
-            );
+            assert!(checked * 10 > pixels * 8 && layered * 2 > pixels, "{checked}, {layered}");
         }
     });
 }

@@ -23,20 +23,13 @@ fn squares() -> Vec<[[f64; 2]; 4]> {
             (f64::from(at[axis]) + 0.5) * PITCH - f64::from(SIZE[axis]) / 2.0 + jitter
         });
         let half = 0.125 * 20.0_f64.powf(fraction(0.371));
-        (
-            middle,
-            half,
-            fraction(0.618_034) * std::f64::consts::FRAC_PI_2,
-        )
+        (middle, half, fraction(0.618_034) * std::f64::consts::FRAC_PI_2)
     });
     places
         .map(|(middle, half, angle)| {
             let (sin, cos) = angle.sin_cos();
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]: [f64; 2]| {
-                [
-                    middle[0] + half * (x * cos - y * sin),
-                    middle[1] + half * (x * sin + y * cos),
-                ]
+                [middle[0] + half * (x * cos - y * sin), middle[1] + half * (x * sin + y * cos)]
             })
         })
         .collect()
@@ -50,10 +43,7 @@ fn error(gpu: &mut Headless, stage: &Stage, areas: &[f64], pattern: Pattern, sam
     for (color, &area) in rendered.colors.iter().zip(areas) {
         let covered = f64::from(color[3]);
         let empty_or_full = area == 0.0 || area > 1.0 - 1e-9;
-        assert!(
-            !empty_or_full || (covered - area).abs() < 1e-6,
-            "{covered} of a pixel whose area is {area}"
-        );
+        assert!(!empty_or_full || (covered - area).abs() < 1e-6, "{covered} of a pixel whose area is {area}");
         // The square is white on black, so that colour equals coverage.
         assert_eq!(color[0], color[3]);
         if !empty_or_full {
@@ -64,10 +54,7 @@ fn error(gpu: &mut Headless, stage: &Stage, areas: &[f64], pattern: Pattern, sam
         exact += area;
     }
     assert!(count > 1000.0);
-    assert!(
-        (measured / exact - 1.0).abs() < 0.02,
-        "{measured} of {exact} pixels"
-    );
+    assert!((measured / exact - 1.0).abs() < 0.02, "{measured} of {exact} pixels");
     f64::sqrt(squares / count)
 }
 
@@ -93,10 +80,7 @@ fn coverage_converges_to_the_area() {
             // The bound is a third above that of straight edges, because many of these pixels contain corners.
             for (samples, error) in counts.into_iter().zip(errors) {
                 let bound = 0.4 * f64::from(samples).powf(-0.75);
-                assert!(
-                    error < bound,
-                    "{pattern}, {samples}: {error}, bound {bound}"
-                );
+                assert!(error < bound, "{pattern}, {samples}: {error}, bound {bound}");
             }
             slopes.push((errors[4] / errors[0]).ln() / 256.0_f64.ln());
         }

@@ -36,11 +36,7 @@ fn with_specks(mut stage: Stage) -> Stage {
 }
 
 fn stages() -> [(&'static str, Stage); 3] {
-    [
-        ("opaque", soup(7, 300, true, [-1.0, 5.0])),
-        ("mask", checker()),
-        ("blend", panes()),
-    ]
+    [("opaque", soup(7, 300, true, [-1.0, 5.0])), ("mask", checker()), ("blend", panes())]
 }
 
 fn assert_same(found: &[[f32; 4]], expected: &[[f32; 4]], what: &str) {
@@ -56,13 +52,9 @@ fn tiles_see_the_same_without_a_list() {
     let test = |gpu: &mut Headless, small: &mut Headless| {
         for (name, stage) in stages() {
             let dense = with_specks(stage.clone());
-            for (shading, samples) in [
-                (Shading::Triangle, 16),
-                (Shading::Sample, 64),
-                (Shading::Part, 100),
-            ] {
-                let settings = everywhere(SIZE, Pattern::Sobol, samples)
-                    .map_superpixels(|options| options.shading(shading));
+            for (shading, samples) in [(Shading::Triangle, 16), (Shading::Sample, 64), (Shading::Part, 100)] {
+                let settings =
+                    everywhere(SIZE, Pattern::Sobol, samples).map_superpixels(|options| options.shading(shading));
                 let what = format!("{name}, {samples} samples");
                 let listed = dense.render(gpu, &settings);
                 let found = dense.render(small, &settings);
@@ -85,21 +77,14 @@ fn locations_see_the_same_in_dense_tiles() {
             let settings = everywhere(SIZE, Pattern::Sobol, 80);
             let [listed, found] = [&mut *gpu, &mut *small].map(|gpu| {
                 let prepared = dense.upload(gpu);
-                let cells = gpu.sample_superpixels(
-                    &prepared,
-                    &pinhole,
-                    &locations,
-                    &cells(&settings),
-                    &settings.scene,
-                );
+                let cells = gpu.sample_superpixels(&prepared, &pinhole, &locations, &cells(&settings), &settings.scene);
                 let points = gpu.sample_points(&prepared, &pinhole, &locations, &once_each());
                 (cells.unwrap(), points.unwrap().values)
             });
             let unlisted = [&listed, &found].map(|seen| seen.0.statistics.unlisted_tiles);
             assert_eq!(unlisted, [0, 1], "{name}");
             assert_same(&found.0.values, &listed.0.values, name);
-            let colors = [&found.1, &listed.1]
-                .map(|points| points.iter().map(|point| point.color).collect::<Vec<_>>());
+            let colors = [&found.1, &listed.1].map(|points| points.iter().map(|point| point.color).collect::<Vec<_>>());
             assert_same(&colors[0], &colors[1], name);
         }
     };
@@ -143,10 +128,7 @@ fn layers_may_be_any_number() {
             for (pixel, color) in image.colors.iter().enumerate() {
                 let apart = (0..4).map(|i| (f64::from(color[i]) - expected[i]).abs());
                 let most = apart.fold(0.0, f64::max);
-                assert!(
-                    most < 1e-4,
-                    "{samples} samples, pixel {pixel}: {color:?}, not {expected:?}"
-                );
+                assert!(most < 1e-4, "{samples} samples, pixel {pixel}: {color:?}, not {expected:?}");
             }
         }
     });

@@ -5,8 +5,7 @@ use gpc::color::srgb::{decode_u8, encode};
 use gpc::reference::detect::{DetectionImage, Mode, superpixels};
 use gpc::reference::thin::{FOLD, cosine};
 use gpc::render::{
-    CellOptions, Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings,
-    Shading, SuperpixelOptions,
+    CellOptions, Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings, Shading, SuperpixelOptions,
 };
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -34,24 +33,11 @@ pub fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
 }
 
 /// Superpixels that the device finds, including those that grow.
-fn found(
-    gpu: &mut Headless,
-    stage: &Stage,
-    settings: &Settings,
-    detection: Detection,
-) -> Vec<bool> {
-    let settings = settings.clone().method(
-        SuperpixelOptions::new(4)
-            .thin(false)
-            .contrast(Some(CONTRAST))
-            .detection(detection),
-    );
+fn found(gpu: &mut Headless, stage: &Stage, settings: &Settings, detection: Detection) -> Vec<bool> {
+    let settings =
+        settings.clone().method(SuperpixelOptions::new(4).thin(false).contrast(Some(CONTRAST)).detection(detection));
     let rendered = stage.render(gpu, &settings);
-    let marked: Vec<bool> = rendered
-        .attributes
-        .iter()
-        .map(|p| p.superpixel == 1)
-        .collect();
+    let marked: Vec<bool> = rendered.attributes.iter().map(|p| p.superpixel == 1).collect();
     let count = marked.iter().filter(|&&m| m).count() as u64;
     assert_eq!(rendered.statistics.superpixels, count);
     for (pixel, &marked) in rendered.attributes.iter().zip(&marked) {
@@ -135,10 +121,7 @@ fn masks_of_whole_codes_are_the_twins() {
             }
             if size == SIZES[0] {
                 let all = base.colors.len();
-                assert!(
-                    0 < sums[0] && sums[0] < sums[1] && sums[1] < all,
-                    "{sums:?}"
-                );
+                assert!(0 < sums[0] && sums[0] < sums[1] && sums[1] < all, "{sums:?}");
             }
         }
     });
@@ -152,9 +135,7 @@ fn masks_of_blended_scenes_are_the_twins() {
         let size = [64, 64];
         let mut random = Random::new(5);
         let mut stage = mosaic(9, size);
-        stage
-            .materials
-            .push(flat([0.9, 0.5, 0.4, 0.25], AlphaMode::Blend));
+        stage.materials.push(flat([0.9, 0.5, 0.4, 0.25], AlphaMode::Blend));
         let opaque = stage.triangles.len() as u32;
         for _ in 0..12 {
             let mut corner = || {
@@ -178,14 +159,9 @@ fn masks_of_blended_scenes_are_the_twins() {
             let expected = expected(size, &ids(&base), &blend, &codes, mode);
             let mut excused = 0;
             for pixel in 0..found.len() {
-                let same = found[pixel] == expected[pixel]
-                    || may_grow(found[pixel], &expected, size, pixel, mode);
+                let same = found[pixel] == expected[pixel] || may_grow(found[pixel], &expected, size, pixel, mode);
                 let excuse = detection != Detection::Exact && near(&doubtful, size, pixel);
-                assert!(
-                    same || excuse,
-                    "{detection:?}, pixel {pixel}: {}",
-                    found[pixel]
-                );
+                assert!(same || excuse, "{detection:?}, pixel {pixel}: {}", found[pixel]);
                 excused += u32::from(!same);
             }
             assert!(excused <= 4, "{detection:?}: {excused} pixels differ");
@@ -239,17 +215,10 @@ fn masks_of_second_differences_are_the_twins() {
                     stage.render(gpu, &once(size).method(options))
                 };
                 let mut sums = Vec::new();
-                for (samples, mode) in [(127, Mode::Contrast(6)), (128, Mode::SecondDifferences(6))]
-                {
+                for (samples, mode) in [(127, Mode::Contrast(6)), (128, Mode::SecondDifferences(6))] {
                     let rendered = render(samples, Detection::Contrast);
-                    let found = rendered
-                        .attributes
-                        .iter()
-                        .map(|pixel| pixel.superpixel == 1);
-                    assert!(
-                        found.eq(expected(size, &ids, &blend, &codes, mode)),
-                        "{size:?}, {alpha_mode:?}, {mode:?}"
-                    );
+                    let found = rendered.attributes.iter().map(|pixel| pixel.superpixel == 1);
+                    assert!(found.eq(expected(size, &ids, &blend, &codes, mode)), "{size:?}, {alpha_mode:?}, {mode:?}");
                     sums.push(rendered.statistics.superpixels);
                 }
                 let edges = render(128, Detection::Edges).statistics.superpixels;
@@ -281,21 +250,13 @@ fn black_contrasts_with_a_transparent_background() {
 
 /// Twelve wires a tenth of a pixel wide at `distance`, in front of a black wall.
 pub fn wires(size: [u32; 2], distance: f64) -> Stage {
-    let mut stage = Stage::new(vec![
-        flat([1.0; 4], AlphaMode::Opaque),
-        flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-    ]);
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque), flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque)]);
     let wall = [[-90.0, -90.0], [-90.0, 90.0], [90.0, 90.0], [90.0, -90.0]];
     stage.add_quad(1, wall.map(|place| seen_at(place, 5.0, size[1])));
     for wire in 0..12 {
         let y = f64::from(wire) * 5.0 - 28.0;
         let [rise, left, right] = [f64::from(wire) * 0.61 - 3.0, -43.7, 41.9];
-        let corners = [
-            [left, y],
-            [left, y + 0.1],
-            [right, y + rise + 0.1],
-            [right, y + rise],
-        ];
+        let corners = [[left, y], [left, y + 0.1], [right, y + rise + 0.1], [right, y + rise]];
         stage.add_quad(0, corners.map(|place| seen_at(place, distance, size[1])));
     }
     stage
@@ -308,11 +269,8 @@ fn unseen_wires_make_superpixels() {
         let size = [96, 64];
         let stage = wires(size, 2.0);
         let mut energy = |detection, thin| {
-            let settings = once(size).method(
-                SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES)
-                    .thin(thin)
-                    .detection(detection),
-            );
+            let settings =
+                once(size).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(thin).detection(detection));
             let rendered = stage.render(gpu, &settings);
             rendered.colors.iter().map(|c| f64::from(c[0])).sum::<f64>()
         };
@@ -329,10 +287,7 @@ fn unseen_wires_make_superpixels() {
 /// consists of triangles as small as pixels. For each pixel there is the cosine of the angle between speck and wall; 1
 /// without a speck.
 pub fn specks(side: u32) -> (Stage, Vec<f64>) {
-    let mut stage = Stage::new(vec![
-        flat([1.0; 4], AlphaMode::Opaque),
-        flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-    ]);
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque), flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque)]);
     let mut random = Random::new(5);
     let half = f64::from(side) / 2.0;
     let place = |x: u32, y: u32| [x, y].map(|v| f64::from(v) - half);
@@ -347,10 +302,7 @@ pub fn specks(side: u32) -> (Stage, Vec<f64>) {
         stage.add_quad(1, wall(x, y));
     }
     let mut cosines = vec![1.0; (side * side) as usize];
-    for (x, y) in (2..side)
-        .step_by(3)
-        .flat_map(|y| (2..side).step_by(3).map(move |x| (x, y)))
-    {
+    for (x, y) in (2..side).step_by(3).flat_map(|y| (2..side).step_by(3).map(move |x| (x, y))) {
         let [left, top] = place(x, y);
         let lifts = [0, 1, 2].map(|_| random.below(1000) as f64 * 3e-4);
         let least = lifts.into_iter().fold(f64::INFINITY, f64::min);
@@ -383,10 +335,7 @@ pub fn check_folds(side: u32, cosines: &[f64], mut render: impl FnMut(&Settings)
             );
         }
         let expected = if samples >= 128 { 100..350 } else { 0..1 };
-        assert!(
-            expected.contains(&folds),
-            "{samples} samples: {folds} folds"
-        );
+        assert!(expected.contains(&folds), "{samples} samples: {folds} folds");
     }
 }
 
@@ -404,9 +353,7 @@ fn an_image_without_edges_has_no_superpixels() {
     on_gpu(|gpu| {
         let size = [64, 64];
         let mut stage = mosaic(1, size);
-        stage
-            .materials
-            .push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
+        stage.materials.push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
         // A triangle covers everything.
         let wall = [[0.0, -200.0], [-200.0, 200.0], [200.0, 200.0]];
         stage.add(1, wall.map(|place| seen_at(place, 0.05, size[1])));
@@ -414,13 +361,9 @@ fn an_image_without_edges_has_no_superpixels() {
             let marked = found(gpu, &stage, &once(size), detection);
             assert!(!marked.contains(&true), "{detection:?}");
         }
-        let settings =
-            once(size).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(false));
+        let settings = once(size).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(false));
         let statistics = stage.render(gpu, &settings).statistics;
-        assert!(
-            statistics.skipped_passes.contains(&"sample"),
-            "{statistics:?}"
-        );
+        assert!(statistics.skipped_passes.contains(&"sample"), "{statistics:?}");
         assert_eq!((statistics.busy_tiles, statistics.records), (0, 0));
     });
 }
@@ -429,17 +372,8 @@ fn an_image_without_edges_has_no_superpixels() {
 fn stripes(size: [u32; 2], filter: Filter, alpha: AlphaMode) -> Stage {
     let mut stage = Stage::new(vec![textured(alpha)]);
     stage.texture = Some((
-        Image {
-            width: 2,
-            height: 1,
-            pixels: vec![0, 0, 0, 255, 255, 255, 255, 255],
-        },
-        Sampler {
-            mag: filter,
-            min: filter,
-            mip: Some(Filter::Linear),
-            ..Sampler::default()
-        },
+        Image { width: 2, height: 1, pixels: vec![0, 0, 0, 255, 255, 255, 255, 255] },
+        Sampler { mag: filter, min: filter, mip: Some(Filter::Linear), ..Sampler::default() },
     ));
     let corners = [[-90.0, -80.0], [95.0, -85.0], [5.0, 120.0]];
     stage.add(0, corners.map(|place| seen_at(place, 1.0, size[1])));
@@ -455,9 +389,7 @@ fn paint_makes_superpixels() {
         let size = [64, 48];
         let error = |rendered: &Rendered, truth: &Rendered| {
             let pairs = rendered.colors.iter().zip(&truth.colors);
-            pairs
-                .map(|(a, b)| f64::from(a[0] - b[0]).powi(2))
-                .sum::<f64>()
+            pairs.map(|(a, b)| f64::from(a[0] - b[0]).powi(2)).sum::<f64>()
         };
         let with = |method: MethodKind, samples| {
             once(size)
@@ -473,11 +405,8 @@ fn paint_makes_superpixels() {
             let stage = stripes(size, filter, alpha);
             let truth = stage.render(gpu, &with(MethodKind::Ssaa, 1024));
             let aliased = stage.render(gpu, &with(MethodKind::None, 1));
-            let settings = with(MethodKind::Superpixel, 64).map_superpixels(|options| {
-                options
-                    .detection(Detection::Contrast)
-                    .shading(Shading::Part)
-            });
+            let settings = with(MethodKind::Superpixel, 64)
+                .map_superpixels(|options| options.detection(Detection::Contrast).shading(Shading::Part));
             let smooth = stage.render(gpu, &settings);
             let marked = smooth.statistics.superpixels;
             assert!(marked > 300, "{filter:?}: {marked}");
@@ -492,17 +421,11 @@ fn paint_makes_superpixels() {
             let blend = vec![0; ids.len()];
             let settings = with(MethodKind::Superpixel, 4);
             for mode in [Mode::Contrast(CONTRAST), Mode::Edges(CONTRAST)] {
-                let detection = if mode == Mode::Contrast(CONTRAST) {
-                    Detection::Contrast
-                } else {
-                    Detection::Edges
-                };
+                let detection = if mode == Mode::Contrast(CONTRAST) { Detection::Contrast } else { Detection::Edges };
                 let expected = expected(size, &ids, &blend, &codes, mode);
                 let found = found(gpu, &stage, &settings, detection);
-                let excuse = |pixel: usize| {
-                    near(&doubtful, size, pixel)
-                        || may_grow(found[pixel], &expected, size, pixel, mode)
-                };
+                let excuse =
+                    |pixel: usize| near(&doubtful, size, pixel) || may_grow(found[pixel], &expected, size, pixel, mode);
                 assert!(
                     (0..found.len()).all(|pixel| found[pixel] == expected[pixel] || excuse(pixel)),
                     "{filter:?}, {mode:?}"

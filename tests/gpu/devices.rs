@@ -34,8 +34,7 @@ fn in_teams_of_four(teams: &mut Teams) {
 fn several_teams_in_a_subgroup_make_the_same_image() {
     const SIZE: [u32; 2] = [64, 48];
     let settings = |pattern: &Pattern, samples, shading| {
-        everywhere(SIZE, pattern.clone(), samples)
-            .map_superpixels(|options| options.shading(shading))
+        everywhere(SIZE, pattern.clone(), samples).map_superpixels(|options| options.shading(shading))
     };
     let cases = [
         settings(&Pattern::Lines, 64, Shading::Part),
@@ -48,17 +47,10 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
     let mut images = Vec::new();
     on_gpu(|gpu| {
         for stage in &stages {
-            images.extend(
-                cases
-                    .iter()
-                    .map(|settings| stage.render(gpu, settings).colors),
-            );
+            images.extend(cases.iter().map(|settings| stage.render(gpu, settings).colors));
         }
     });
-    for (kind, policy) in [
-        ("CPU", as_cpu as fn(&mut Limits)),
-        ("GPU", as_gpu as fn(&mut Limits)),
-    ] {
+    for (kind, policy) in [("CPU", as_cpu as fn(&mut Limits)), ("GPU", as_gpu as fn(&mut Limits))] {
         let lower = |limits: &mut Limits| {
             policy(limits);
             in_teams_of_four(&mut limits.teams);
@@ -68,11 +60,7 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
             for (number, stage) in stages.iter().enumerate() {
                 for settings in &cases {
                     let found = stage.render(gpu, settings);
-                    assert!(
-                        Some(&found.colors) == expected.next(),
-                        "{kind}, stage {number}, {:?}",
-                        settings.method
-                    );
+                    assert!(Some(&found.colors) == expected.next(), "{kind}, stage {number}, {:?}", settings.method);
                 }
             }
         });
@@ -95,16 +83,11 @@ fn single_cells_make_the_same_image() {
                 let settings = everywhere([64, 48], pattern.clone(), samples);
                 let expected = stage.render(several, &settings);
                 let found = stage.render(single, &settings);
-                assert!(
-                    found.colors == expected.colors,
-                    "{pattern:?}, {samples} samples"
-                );
+                assert!(found.colors == expected.colors, "{pattern:?}, {samples} samples");
             }
         }
     };
-    within(as_cpu, |several| {
-        within(as_gpu, |single| test(several, single))
-    });
+    within(as_cpu, |several| within(as_gpu, |single| test(several, single)));
 }
 
 /// On a device that may be reset, an image is submitted in parts, which are smaller for more samples a pixel; the
@@ -161,9 +144,7 @@ fn scenes_beyond_texel_buffers_are_refused() {
         assert!(
             matches!(
                 refused,
-                Some(RenderError::Engine(EngineError::Vulkan(
-                    VulkanError::TooLarge { limit: 65_536, .. }
-                )))
+                Some(RenderError::Engine(EngineError::Vulkan(VulkanError::TooLarge { limit: 65_536, .. })))
             ),
             "{refused:?}"
         );

@@ -5,8 +5,8 @@ use gpc::reference::distribute::{ListBounds, PlacedLocation};
 use gpc::render::Headless;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
-    CellSizes, Cells, Counter, Distribute, FrameUniform, ListLength, ListRegion, ListedLocation,
-    LocationSizes, ResourceSizes,
+    CellSizes, Cells, Counter, Distribute, FrameUniform, ListLength, ListRegion, ListedLocation, LocationSizes,
+    ResourceSizes,
 };
 
 use crate::bare::{Bare, copy};
@@ -46,24 +46,13 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
         encoded: 0,
     };
     let mut bare = Bare::new(gpu, sizes, 1);
-    for (to, location) in bare
-        .resources
-        .listed_mut(list.len())
-        .unwrap()
-        .iter_mut()
-        .zip(list)
-    {
-        *to = ListedLocation {
-            pixel: location.pixel,
-            within: location.within,
-            jacobian: location.jacobian,
-        };
+    for (to, location) in bare.resources.listed_mut(list.len()).unwrap().iter_mut().zip(list) {
+        *to = ListedLocation { pixel: location.pixel, within: location.within, jacobian: location.jacobian };
     }
     let resources = &bare.resources;
     let listed = resources.listed().unwrap();
     // SAFETY: the list lives as long as the resources, which outlive this.
-    let distribute =
-        unsafe { Distribute::new(&bare.layout, cells, cell_sizes, resources, listed) }.unwrap();
+    let distribute = unsafe { Distribute::new(&bare.layout, cells, cell_sizes, resources, listed) }.unwrap();
     let own = &resources.locations;
     let kept = [
         &resources.counters,
@@ -80,10 +69,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
         let set = resources.set(0).unwrap();
         resources.record_upload(&recorder);
         resources.record_begin(&recorder, set, &FrameUniform::default());
-        let region = ListRegion {
-            tiles: TILES,
-            count: list.len() as u32,
-        };
+        let region = ListRegion { tiles: TILES, count: list.len() as u32 };
         distribute.record(&recorder, (resources, set), &region, ListLength::Known);
         drop(recorder);
         for (from, to) in &kept {
@@ -91,19 +77,14 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
         }
     });
     let [counters, masks, loads, order, cells, groups] = &kept;
-    let words =
-        |(_, kept): &(&Buffer, Buffer)| kept.read(kept.size() as usize / 4).unwrap().to_vec();
+    let words = |(_, kept): &(&Buffer, Buffer)| kept.read(kept.size() as usize / 4).unwrap().to_vec();
     let found = Found {
         counters: words(counters),
         masks: words(masks),
         loads: loads.1.read(tiles as usize).unwrap().to_vec(),
         order: words(order),
         cells: cells.1.read(cells.1.size() as usize / 32).unwrap().to_vec(),
-        groups: groups
-            .1
-            .read(groups.1.size() as usize / 16)
-            .unwrap()
-            .to_vec(),
+        groups: groups.1.read(groups.1.size() as usize / 16).unwrap().to_vec(),
     };
     (found, cell_sizes)
 }
@@ -122,10 +103,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &List
     let placed: usize = members.iter().map(Vec::len).sum();
     let cells = |members: &Vec<u32>| (members.len() as u32).div_ceil(sizes.in_cell);
     let all_cells: u32 = members.iter().map(cells).sum();
-    let all_groups: u32 = members
-        .iter()
-        .map(|m| cells(m).div_ceil(sizes.in_group))
-        .sum();
+    let all_groups: u32 = members.iter().map(|m| cells(m).div_ceil(sizes.in_group)).sum();
     assert_eq!(counted(Counter::Placed), placed as u32);
     assert_eq!(counted(Counter::LeftOut) as usize, list.len() - placed);
     assert_eq!(counted(Counter::Cells), all_cells);
@@ -135,10 +113,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &List
     let superpixels = if region.points { 0 } else { all_cells };
     assert_eq!(counted(Counter::Superpixels), superpixels);
     let found_reach = f32::from_bits(counted(Counter::Reach));
-    assert!(
-        (reach..=reach * 1.00001).contains(&found_reach),
-        "{found_reach} for {reach}"
-    );
+    assert!((reach..=reach * 1.00001).contains(&found_reach), "{found_reach} for {reach}");
 
     let mut seen = vec![0_u32; list.len()];
     let mut groups: Vec<[u32; 4]> = found.groups[..all_groups as usize].to_vec();
@@ -150,11 +125,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &List
         };
         let mask = members.iter().fold(0, |mask, index| mask | bit(index));
         assert_eq!(found.masks[tile as usize], mask);
-        let samples = if region.points {
-            members.len() as u32
-        } else {
-            cells(members) * SAMPLES
-        };
+        let samples = if region.points { members.len() as u32 } else { cells(members) * SAMPLES };
         let [load_cells, load_samples, first_cell, _] = found.loads[tile as usize];
         assert_eq!([load_cells, load_samples], [cells(members), samples]);
         let mut next = 0;
@@ -203,10 +174,7 @@ fn check(found: &Found, sizes: CellSizes, list: &[PlacedLocation], region: &List
 /// Locations all over and around the region, crowds in one pixel, cells of all sizes, and invalid locations.
 fn list(random: &mut Random, count: usize) -> Vec<PlacedLocation> {
     let side = [0, 1].map(|axis| f64::from(TILES[axis] * [8, 4][axis]));
-    let crowd = [
-        random.below(side[0] as u64) as i32,
-        random.below(side[1] as u64) as i32,
-    ];
+    let crowd = [random.below(side[0] as u64) as i32, random.below(side[1] as u64) as i32];
     let location = |_| {
         let mut number = |low: f64, high: f64| random.range(low, high) as f32;
         let wide = f64::from(number(-6.0, 5.0).exp2());
@@ -237,10 +205,7 @@ fn lists_come_to_the_tiles_and_cells_that_they_lie_in() {
     on_gpu(|gpu| {
         let mut random = Random::new(11);
         for (cells, points) in [(Cells::Points, true), (Cells::Superpixels, false)] {
-            let region = ListBounds {
-                tiles: TILES,
-                points,
-            };
+            let region = ListBounds { tiles: TILES, points };
             // The last list is so long that a crowd makes more cells in its tile than CPU drivers allow iterations of
             // a loop.
             for count in [1, 63, 64, 65, 3_000, 400_000] {

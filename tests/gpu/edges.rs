@@ -25,20 +25,10 @@ struct Mesh {
 impl Mesh {
     fn cube() -> Self {
         let corner = |v: usize| [0, 1, 2].map(|axis| if v >> axis & 1 == 1 { 0.8 } else { -0.8 });
-        let sides = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         Self {
             vertices: (0..8).map(|v| DVec3::from_array(corner(v))).collect(),
-            faces: sides
-                .iter()
-                .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
-                .collect(),
+            faces: sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
         }
     }
 
@@ -71,10 +61,7 @@ impl Mesh {
     fn sheet() -> Self {
         let corners = [[-1.0, -0.8], [1.0, -0.9], [0.9, 1.0], [-0.7, 0.8]];
         Self {
-            vertices: corners
-                .iter()
-                .map(|[x, y]| DVec3::new(*x, *y, 0.0))
-                .collect(),
+            vertices: corners.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect(),
             faces: vec![[0, 1, 2], [0, 2, 3]],
         }
     }
@@ -82,9 +69,7 @@ impl Mesh {
     fn placed(mut self, turn: [f64; 3], distance: f64) -> Self {
         let turn = DQuat::from_euler(EulerRot::XYZ, turn[0], turn[1], turn[2]);
         for vertex in &mut self.vertices {
-            *vertex = (turn * *vertex + DVec3::new(0.1, -0.05, -distance))
-                .as_vec3()
-                .as_dvec3();
+            *vertex = (turn * *vertex + DVec3::new(0.1, -0.05, -distance)).as_vec3().as_dvec3();
         }
         self
     }
@@ -136,16 +121,16 @@ impl Mesh {
         let within = |at: [f64; 2]| {
             polygons.iter().any(|polygon| {
                 let next = polygon.iter().cycle().skip(1);
-                polygon.iter().zip(next).all(|(p, q)| {
-                    (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]) <= 0.0
-                })
+                polygon
+                    .iter()
+                    .zip(next)
+                    .all(|(p, q)| (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]) <= 0.0)
             })
         };
         let share = |pixel: usize| {
             let [x, y] = centre(pixel, SIZE);
             let offset = |i: usize| (i as f64 + 0.5) / SAMPLES as f64 - 0.5;
-            let samples =
-                (0..SAMPLES * SAMPLES).map(|i| [x + offset(i % SAMPLES), y + offset(i / SAMPLES)]);
+            let samples = (0..SAMPLES * SAMPLES).map(|i| [x + offset(i % SAMPLES), y + offset(i / SAMPLES)]);
             samples.filter(|at| within(*at)).count() as f64 / (SAMPLES * SAMPLES) as f64
         };
         let count = (SIZE[0] * SIZE[1]) as usize;
@@ -162,11 +147,7 @@ impl Mesh {
         };
         // Faces have their own vertices, as in meshes with flat shading.
         let wound = |[a, b, c]: &[usize; 3]| {
-            if look.is_mirrored {
-                [*a, *c, *b]
-            } else {
-                [*a, *b, *c]
-            }
+            if look.is_mirrored { [*a, *c, *b] } else { [*a, *b, *c] }
         };
         let corners: Vec<_> = self.faces.iter().flat_map(wound).map(|v| at(&v)).collect();
         let positions = builder.floats(&corners);
@@ -183,10 +164,7 @@ impl Mesh {
             json!({"scale": [sign, 1.0, 1.0]}),
         );
         let mut scene = builder.load().unwrap().scene;
-        scene.add_edges(&Edges {
-            color: [0.0, 1.0, 0.0],
-            ..Edges::default()
-        });
+        scene.add_edges(&Edges { color: [0.0, 1.0, 0.0], ..Edges::default() });
         let pose = scene.pose(&PoseRequest::default()).unwrap();
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, settings).unwrap();
@@ -218,11 +196,7 @@ struct Look {
 
 impl Look {
     fn new() -> Self {
-        Self {
-            camera: camera(),
-            is_double_sided: false,
-            is_mirrored: false,
-        }
+        Self { camera: camera(), is_double_sided: false, is_mirrored: false }
     }
 }
 
@@ -236,15 +210,10 @@ fn edges_are_not_hidden_by_their_faces() {
     on_gpu(|gpu| {
         for width in [1.0, 4.0] {
             for turn in [[0.5, 0.7, 0.1], [2.4, -0.3, 1.2], [0.05, 0.02, 0.3]] {
-                let shown =
-                    Mesh::cube()
-                        .placed(turn, 2.2)
-                        .check(gpu, &settings(width), &Look::new());
+                let shown = Mesh::cube().placed(turn, 2.2).check(gpu, &settings(width), &Look::new());
                 // A cube has twelve edges; those of a face that is almost edge-on may be visible or not.
                 assert!((4..=9).contains(&shown), "{shown} of a cube's");
-                Mesh::sphere()
-                    .placed(turn, 2.0)
-                    .check(gpu, &settings(width), &Look::new());
+                Mesh::sphere().placed(turn, 2.0).check(gpu, &settings(width), &Look::new());
             }
         }
     });
@@ -254,14 +223,9 @@ fn edges_are_not_hidden_by_their_faces() {
 fn a_parallel_projection_has_silhouettes_of_its_own() {
     on_gpu(|gpu| {
         let mut look = Look::new();
-        look.camera.projection = Projection::Orthographic {
-            half_height: 1.5,
-            near: 0.1,
-            far: 10.0,
-        };
+        look.camera.projection = Projection::Orthographic { half_height: 1.5, near: 0.1, far: 10.0 };
         for mesh in [Mesh::cube(), Mesh::sphere()] {
-            mesh.placed([0.5, 0.7, 0.1], 3.0)
-                .check(gpu, &settings(2.0), &look);
+            mesh.placed([0.5, 0.7, 0.1], 3.0).check(gpu, &settings(2.0), &look);
         }
     });
 }
@@ -271,10 +235,7 @@ fn a_mirrored_mesh_has_the_same_edges() {
     on_gpu(|gpu| {
         let mesh = Mesh::sphere().placed([0.5, 0.7, 0.1], 2.0);
         let plain = mesh.drawn(gpu, &settings(2.0), &Look::new());
-        let look = Look {
-            is_mirrored: true,
-            ..Look::new()
-        };
+        let look = Look { is_mirrored: true, ..Look::new() };
         let mirrored = mesh.drawn(gpu, &settings(2.0), &look);
         let pairs = plain.iter().zip(&mirrored);
         let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
@@ -287,15 +248,10 @@ fn a_mirrored_mesh_has_the_same_edges() {
 fn boundaries_show_with_their_surface() {
     on_gpu(|gpu| {
         // The sheet is seen from the front and from behind.
-        for (turn, is_double_sided, expected) in [
-            ([0.2, 0.3, 0.1], false, 4),
-            ([0.2, 3.4, 0.1], false, 0),
-            ([0.2, 3.4, 0.1], true, 4),
-        ] {
-            let look = Look {
-                is_double_sided,
-                ..Look::new()
-            };
+        for (turn, is_double_sided, expected) in
+            [([0.2, 0.3, 0.1], false, 4), ([0.2, 3.4, 0.1], false, 0), ([0.2, 3.4, 0.1], true, 4)]
+        {
+            let look = Look { is_double_sided, ..Look::new() };
             let sheet = Mesh::sheet().placed(turn, 2.0);
             let shown = sheet.check(gpu, &settings(2.0), &look);
             assert_eq!(shown, expected);
@@ -310,13 +266,9 @@ fn thin_edges_are_found() {
         let mesh = Mesh::cube().placed([0.5, 0.7, 0.1], 2.2);
         for width in [0.5, 1.0] {
             let all = mesh.drawn(gpu, &settings(width), &Look::new());
-            let found =
-                settings(width).map_superpixels(|options| options.detection(Detection::Contrast));
+            let found = settings(width).map_superpixels(|options| options.detection(Detection::Contrast));
             let found = mesh.drawn(gpu, &found, &Look::new());
-            let unlike = all
-                .iter()
-                .zip(&found)
-                .filter(|(a, b)| (**a - **b).abs() > 0.05);
+            let unlike = all.iter().zip(&found).filter(|(a, b)| (**a - **b).abs() > 0.05);
             assert_eq!(unlike.count(), 0, "width {width}");
         }
     });

@@ -29,10 +29,7 @@ fn both(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> (Rendered, Re
 #[test]
 fn images_have_the_codes_of_image_files() {
     let settings = Settings::new(150, 70);
-    let region = PixelRect {
-        corner: [33, 17],
-        size: [61, 40],
-    };
+    let region = PixelRect { corner: [33, 17], size: [61, 40] };
     on_gpu(|gpu| {
         for stage in [layered(), ball_over_checker()] {
             for settings in [
@@ -59,9 +56,6 @@ fn pixels_of_another_type_are_refused() {
         let settings = Settings::new(32, 32);
         let mut frame = gpu.prepare_pixels::<[u8; 4]>(&prepared, &settings).unwrap();
         let refused = gpu.render(&mut frame, &camera()).err();
-        assert!(
-            matches!(refused, Some(RenderError::OtherPixels { .. })),
-            "{refused:?}"
-        );
+        assert!(matches!(refused, Some(RenderError::OtherPixels { .. })), "{refused:?}");
     });
 }

@@ -9,8 +9,8 @@ use gpc::reference::prefilter::density;
 use gpc::render::{Headless, SceneRequest};
 use gpc::sampling::Pattern;
 use gpc::scene::{
-    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Environment, Iridescence, Lobes,
-    Material, Sheen, Specular, SpecularGlossiness, Transmission,
+    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Environment, Iridescence, Lobes, Material, Sheen, Specular,
+    SpecularGlossiness, Transmission,
 };
 use serde_json::json;
 
@@ -26,10 +26,7 @@ fn seen(gpu: &mut Headless, material: &Material, sky: &Environment, degrees: f64
     let mut stage = Stage::new(vec![material.clone()]);
     let (sin, cos) = degrees.to_radians().sin_cos();
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    stage.add_quad(
-        0,
-        corners.map(|[x, y]: [f64; 2]| [x * cos, y, x * sin - 2.0].map(|v| v as f32)),
-    );
+    stage.add_quad(0, corners.map(|[x, y]: [f64; 2]| [x * cos, y, x * sin - 2.0].map(|v| v as f32)));
     let (mut scene, mut pose) = stage.build();
     scene.environment = Some(Arc::new(sky.clone()));
     let along = [cos as f32, 0.0, sin as f32, 1.0];
@@ -42,13 +39,7 @@ fn seen(gpu: &mut Headless, material: &Material, sky: &Environment, degrees: f64
 }
 
 fn white(roughness: f32, lobes: Lobes) -> Material {
-    Material {
-        unlit: false,
-        metallic: 0.0,
-        roughness,
-        lobes,
-        ..flat([1.0; 4], AlphaMode::Opaque)
-    }
+    Material { unlit: false, metallic: 0.0, roughness, lobes, ..flat([1.0; 4], AlphaMode::Opaque) }
 }
 
 /// Environment whose radiance is a function of the direction.
@@ -114,14 +105,7 @@ fn a_white_furnace_neither_gains_nor_loses() {
             ),
             (
                 "anisotropy",
-                Lobes {
-                    anisotropy: Some(Anisotropy {
-                        strength: 0.8,
-                        rotation: 0.3,
-                        texture: None,
-                    }),
-                    ..plain
-                },
+                Lobes { anisotropy: Some(Anisotropy { strength: 0.8, rotation: 0.3, texture: None }), ..plain },
             ),
             (
                 "a film",
@@ -184,10 +168,7 @@ fn a_white_furnace_neither_gains_nor_loses() {
             assert!((sum - 1.0).abs() < 0.005, "a pane: {found:?}");
         }
         // The model of a single bounce loses 0.55 at the roughness of this metal.
-        let metal = Material {
-            metallic: 1.0,
-            ..white(0.4, plain)
-        };
+        let metal = Material { metallic: 1.0, ..white(0.4, plain) };
         let found = seen(gpu, &metal, &furnace, 45.0);
         assert!((found[0] - 0.78).abs() < 1e-3, "metal: {found:?}");
     });
@@ -212,19 +193,14 @@ fn the_sky_turns() {
                 ..Lobes::default()
             },
         );
-        let mirror = Material {
-            metallic: 1.0,
-            roughness: 0.0,
-            ..white(0.0, Lobes::default())
-        };
+        let mirror = Material { metallic: 1.0, roughness: 0.0, ..white(0.0, Lobes::default()) };
         for turn in [0.0_f64, 30.0, 200.0] {
             let sky = sky(colors).turned(turn.to_radians());
             // Direction in the map for a direction in the world.
             let (sin, cos) = turn.to_radians().sin_cos();
             let in_map = |d: DVec3| DVec3::new(d.x * cos - d.z * sin, d.y, d.x * sin + d.z * cos);
             for degrees in [0.0_f64, 35.0] {
-                let normal =
-                    DVec3::new(-degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
+                let normal = DVec3::new(-degrees.to_radians().sin(), 0.0, degrees.to_radians().cos());
                 let found = seen(gpu, &matt, &sky, degrees);
                 let expected = in_map(normal);
                 let expected = [expected.x, expected.y, expected.z].map(|x| 1.0 + x * 2.0 / 3.0);
@@ -233,10 +209,7 @@ fn the_sky_turns() {
                 let looked_at = colors(in_map(reflected));
                 for channel in 0..3 {
                     let (found, expected) = (found[channel], expected[channel]);
-                    assert!(
-                        (found - expected).abs() < 0.02,
-                        "matt, {turn}, {degrees}: {found}, expected {expected}"
-                    );
+                    assert!((found - expected).abs() < 0.02, "matt, {turn}, {degrees}: {found}, expected {expected}");
                     // The mirror's roughness of 0.04 costs 2.2 %.
                     let (shown, expected) = (shown[channel], f64::from(looked_at[channel]));
                     assert!(
@@ -315,10 +288,7 @@ fn a_sun_of_one_texel_is_a_smooth_highlight() {
             let step = 6.0 * alpha.min(0.3) / f64::from(WIDE[0]);
             let reflected = |pixel: u32| {
                 let [x, y] = [pixel % WIDE[0], pixel / WIDE[0]].map(f64::from);
-                let off = [
-                    x - f64::from(WIDE[0]) / 2.0,
-                    (y - f64::from(WIDE[1]) / 2.0) * 3.0,
-                ];
+                let off = [x - f64::from(WIDE[0]) / 2.0, (y - f64::from(WIDE[1]) / 2.0) * 3.0];
                 (sun + step * (off[0] * right + off[1] * up)).normalize()
             };
             let directions: Vec<DVec3> = (0..WIDE[0] * WIDE[1]).map(reflected).collect();
@@ -330,15 +300,12 @@ fn a_sun_of_one_texel_is_a_smooth_highlight() {
                 let at = |place: u32, d: u32| middle(place) - 2.0 + middle(d) / f64::from(FINE);
                 let direction = towards(at(place.0, dx), at(place.1, dy));
                 let across = (1.0 - direction.y * direction.y).sqrt();
-                let cell = std::f64::consts::TAU * std::f64::consts::PI
-                    / f64::from(width * height * FINE * FINE);
+                let cell = std::f64::consts::TAU * std::f64::consts::PI / f64::from(width * height * FINE * FINE);
                 let light = sky.radiance(direction).x - 0.5;
                 parts.push((direction, light * cell * across));
             }
             let average = |towards: &DVec3| {
-                let of_sun = parts
-                    .iter()
-                    .map(|(d, light)| light * density(alpha, d.dot(*towards)));
+                let of_sun = parts.iter().map(|(d, light)| light * density(alpha, d.dot(*towards)));
                 0.5 + of_sun.sum::<f64>()
             };
             let expected: Vec<f64> = directions.iter().map(average).collect();
@@ -346,31 +313,18 @@ fn a_sun_of_one_texel_is_a_smooth_highlight() {
             assert!(peak > 2.0, "{peak}");
             for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 let off = (found - expected).abs() / peak;
-                assert!(
-                    off < 0.05,
-                    "roughness {roughness}, {i}: {found}, expected {expected} of {peak}"
-                );
+                assert!(off < 0.05, "roughness {roughness}, {i}: {found}, expected {expected} of {peak}");
             }
             // Nor are there edges: the second differences are those of the average.
             for row in 0..WIDE[1] as usize {
                 let row = row * WIDE[0] as usize..(row + 1) * WIDE[0] as usize;
                 let bends = |values: &[f64]| -> Vec<f64> {
-                    values
-                        .windows(3)
-                        .map(|w| (w[0] - 2.0 * w[1] + w[2]) / peak)
-                        .collect()
+                    values.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]) / peak).collect()
                 };
                 let (found, expected) = (bends(&found[row.clone()]), bends(&expected[row]));
-                let sharpest = expected
-                    .iter()
-                    .fold(0.0, |most: f64, bend| most.max(bend.abs()));
-                let found = found
-                    .iter()
-                    .fold(0.0, |most: f64, bend| most.max(bend.abs()));
-                assert!(
-                    found < 1.3 * sharpest + 2e-3,
-                    "roughness {roughness}: {found}, {sharpest}"
-                );
+                let sharpest = expected.iter().fold(0.0, |most: f64, bend| most.max(bend.abs()));
+                let found = found.iter().fold(0.0, |most: f64, bend| most.max(bend.abs()));
+                assert!(found < 1.3 * sharpest + 2e-3, "roughness {roughness}: {found}, {sharpest}");
             }
         }
     });
@@ -380,25 +334,14 @@ fn a_sun_of_one_texel_is_a_smooth_highlight() {
 const WIDE: [u32; 2] = [48, 5];
 
 /// Radiance around each of these directions, averaged over the lobe of a white metal of this roughness.
-fn reflections(
-    gpu: &mut Headless,
-    sky: &Environment,
-    roughness: f32,
-    directions: &[DVec3],
-) -> Vec<f64> {
-    let metal = Material {
-        metallic: 1.0,
-        ..white(roughness, Lobes::default())
-    };
+fn reflections(gpu: &mut Headless, sky: &Environment, roughness: f32, directions: &[DVec3]) -> Vec<f64> {
+    let metal = Material { metallic: 1.0, ..white(roughness, Lobes::default()) };
     let mut stage = Stage::new(vec![metal]);
     let corners = [[-0.4, -0.4], [-0.4, 0.4], [0.4, 0.4], [0.4, -0.4]];
     let mut normals = Vec::new();
     for (pixel, direction) in directions.iter().enumerate() {
         let [x, y] = centre(pixel, WIDE);
-        stage.add_quad(
-            0,
-            corners.map(|[dx, dy]| seen_at([x + dx, y + dy], 1.0, WIDE[1])),
-        );
+        stage.add_quad(0, corners.map(|[dx, dy]| seen_at([x + dx, y + dy], 1.0, WIDE[1])));
         let to_eye = -DVec3::from_array(seen_at([x, y], 1.0, WIDE[1]).map(f64::from)).normalize();
         normals.push((to_eye + *direction).normalize());
     }
@@ -411,15 +354,8 @@ fn reflections(
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, &once(WIDE)).unwrap();
         let rendered = gpu.render(&mut frame, &camera()).unwrap();
-        rendered
-            .colors
-            .iter()
-            .map(|color| f64::from(color[0]))
-            .collect()
+        rendered.colors.iter().map(|color| f64::from(color[0])).collect()
     };
     let (lit, share) = (seen(sky), seen(&uniform));
-    lit.iter()
-        .zip(share)
-        .map(|(lit, share)| lit / share)
-        .collect()
+    lit.iter().zip(share).map(|(lit, share)| lit / share).collect()
 }

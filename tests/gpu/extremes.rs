@@ -32,17 +32,8 @@ fn assert_empty(gpu: &mut Headless, stage: &Stage, what: &str) {
             let settings = settings.clone().background(background);
             let rendered = stage.render(gpu, &settings);
             let expected = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
-            assert_eq!(
-                rendered.colors, [expected; 220],
-                "{what}, {:?}",
-                settings.method
-            );
-            assert!(
-                rendered
-                    .attributes
-                    .iter()
-                    .all(|p| p.id == 0 && p.depth == 0.0)
-            );
+            assert_eq!(rendered.colors, [expected; 220], "{what}, {:?}", settings.method);
+            assert!(rendered.attributes.iter().all(|p| p.id == 0 && p.depth == 0.0));
         }
     }
 }
@@ -59,14 +50,7 @@ fn what_is_out_of_view_is_background() {
         // The triangles are behind the eye, in front of the near plane, and to the left, right, top and bottom of the
         // view.
         stage.add(0, [[-1.0, -1.0, 3.0], [1.0, -1.0, 3.0], [0.0, 1.0, 3.0]]);
-        stage.add(
-            0,
-            [
-                [-0.1, -0.1, -0.001],
-                [0.1, -0.1, -0.001],
-                [0.0, 0.1, -0.001],
-            ],
-        );
+        stage.add(0, [[-0.1, -0.1, -0.001], [0.1, -0.1, -0.001], [0.0, 0.1, -0.001]]);
         for [x, y] in [[-500.0, 0.0], [500.0, 0.0], [0.0, -500.0], [0.0, 500.0]] {
             let corners = [[0.0, -20.0], [-20.0, 20.0], [20.0, 20.0]];
             stage.add(0, corners.map(|[u, v]| seen_at([x + u, y + v], 2.0, 11)));
@@ -82,16 +66,10 @@ fn degenerate_triangles_cover_nothing() {
         let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
         stage.add(0, [[0.0, 0.0, -2.0]; 3]);
         stage.add(0, [[-1.0, 0.1, -2.0], [1.0, 0.1, -2.0], [0.0, 0.1, -2.0]]);
-        stage.add(
-            0,
-            [[0.25, -1.0, -1.0], [0.25, 0.0, -1.0], [0.25, 1.0, -1.0]],
-        );
+        stage.add(0, [[0.25, -1.0, -1.0], [0.25, 0.0, -1.0], [0.25, 1.0, -1.0]]);
         // The triangle is in a plane through the eye.
         stage.add(0, [[0.0, 1.0, -1.0], [0.0, -1.0, -1.0], [0.0, 0.0, -9.0]]);
-        stage.add(
-            0,
-            [[1e-40, 0.0, -1.0], [0.0, 1e-40, -1.0], [0.0, 0.0, -1.0]],
-        );
+        stage.add(0, [[1e-40, 0.0, -1.0], [0.0, 1e-40, -1.0], [0.0, 0.0, -1.0]]);
         stage.add(0, [[1e30, 0.0, -1.0], [-1e30, 0.0, -1.0], [0.0, 0.0, 1e30]]);
         assert_empty(gpu, &stage, "degenerate");
     });
@@ -111,18 +89,11 @@ fn images_of_any_size_are_covered_to_their_borders() {
                 assert_eq!(rendered.colors.len(), (size[0] * size[1]) as usize);
                 let near = |color: &[f32; 4]| {
                     let expected = [0.5, 0.25, 0.125, 1.0];
-                    color
-                        .iter()
-                        .zip(expected)
-                        .all(|(v, e): (&f32, f32)| (v - e).abs() < 1e-6)
+                    color.iter().zip(expected).all(|(v, e): (&f32, f32)| (v - e).abs() < 1e-6)
                 };
                 let covered = rendered.colors.iter().all(near);
                 assert!(covered, "{size:?}, {:?}", settings.method);
-                assert!(
-                    !ids(&rendered).contains(&0),
-                    "{size:?}, {:?}",
-                    settings.method
-                );
+                assert!(!ids(&rendered).contains(&0), "{size:?}, {:?}", settings.method);
             }
         }
     });
@@ -138,10 +109,7 @@ fn attributes_are_those_of_the_surface() {
             let corners = [[0.0, -40.0], [-40.0, 40.0], [40.0, 40.0]];
             stage.add(0, corners.map(|place| seen_at(place, distance, size[1])));
             for pixel in stage.render(gpu, &once(size)).attributes {
-                assert!(
-                    (f64::from(pixel.depth) / distance - 1.0).abs() < 1e-5,
-                    "{pixel:?}"
-                );
+                assert!((f64::from(pixel.depth) / distance - 1.0).abs() < 1e-5, "{pixel:?}");
                 assert_eq!((pixel.id, pixel.samples, pixel.superpixel), (1, 1, 0));
                 assert!((pixel.normal[2] - 1.0).abs() < 1e-6, "{pixel:?}");
             }

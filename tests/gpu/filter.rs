@@ -18,10 +18,7 @@ const EACH: usize = 3000;
 /// alpha-tested and blended ones. Many of them face away, lie outside of the image or between centres.
 fn stage() -> Stage {
     let mut stage = soup(5, EACH, false, [-3.0, 5.0]);
-    let two_sided = Material {
-        double_sided: true,
-        ..flat([1.0; 4], AlphaMode::Opaque)
-    };
+    let two_sided = Material { double_sided: true, ..flat([1.0; 4], AlphaMode::Opaque) };
     stage.materials.extend([
         two_sided,
         flat([1.0; 4], AlphaMode::Mask { cutoff: 0.5 }),
@@ -54,10 +51,7 @@ fn is_filtered(rendered: &Rendered) -> bool {
 fn filtering_changes_no_pixel() {
     let stage = stage();
     let [width, height] = SIZE;
-    let region = PixelRect {
-        corner: [33, 21],
-        size: [40, 17],
-    };
+    let region = PixelRect { corner: [33, 21], size: [40, 17] };
     let superpixels = Settings::new(width, height).attributes(true);
     let all = [
         superpixels.clone().method(Method::None),

@@ -24,9 +24,7 @@ fn displayed(rendered: &Rendered) -> RgbaImage {
 fn images_are_the_goldens() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let none = Settings::new(SIZE[0], SIZE[1])
-            .background(Some([0.2, 0.4, 0.8]))
-            .method(Method::None);
+        let none = Settings::new(SIZE[0], SIZE[1]).background(Some([0.2, 0.4, 0.8])).method(Method::None);
         let superpixels = Settings::new(SIZE[0], SIZE[1]);
         let results = [("none", none), ("superpixels", superpixels)].map(|(name, settings)| {
             let image = displayed(&stage.render(gpu, &settings));
@@ -38,9 +36,7 @@ fn images_are_the_goldens() {
 
 #[test]
 fn the_comparison_can_fail() {
-    let golden = image::open(folder().join("superpixels.png"))
-        .unwrap()
-        .to_rgba8();
+    let golden = image::open(folder().join("superpixels.png")).unwrap().to_rgba8();
     let check = |image: &RgbaImage| compare(&folder(), "superpixels", image);
     check(&golden).unwrap();
 

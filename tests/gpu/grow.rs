@@ -21,17 +21,10 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let blend = vec![0; ids.len()];
     let frame = DetectionImage::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
     // The last number is a bound on how many superpixels grow.
-    for (samples, growths, mode, fewest) in [
-        (4, 1, Mode::Contrast(CONTRAST), 30),
-        (144, 4, Mode::SecondDifferences(CONTRAST), 10),
-    ] {
-        let rendered = render(
-            &once(SIZE).method(
-                SuperpixelOptions::new(samples)
-                    .contrast(Some(CONTRAST))
-                    .thin(false),
-            ),
-        );
+    for (samples, growths, mode, fewest) in
+        [(4, 1, Mode::Contrast(CONTRAST), 30), (144, 4, Mode::SecondDifferences(CONTRAST), 10)]
+    {
+        let rendered = render(&once(SIZE).method(SuperpixelOptions::new(samples).contrast(Some(CONTRAST)).thin(false)));
         let (resolved, doubtful) = codes(&rendered);
         let mut expected = superpixels(&frame, mode);
         let first = pixels(SIZE, &expected);
@@ -44,18 +37,12 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
         let expected = pixels(SIZE, &expected);
         let count = |mask: &[bool]| mask.iter().filter(|&&superpixel| superpixel).count();
         let counts = [count(&first), count(&expected)];
-        assert!(
-            counts[1] > counts[0] + fewest,
-            "{samples} samples: {counts:?}"
-        );
+        assert!(counts[1] > counts[0] + fewest, "{samples} samples: {counts:?}");
         assert!(count(&expected) < expected.len(), "{samples} samples");
         let mut excused = 0;
         for (pixel, attributes) in rendered.attributes.iter().enumerate() {
             let same = (attributes.superpixel == 1) == expected[pixel];
-            assert!(
-                same || near(&doubtful, SIZE, pixel),
-                "{samples} samples, pixel {pixel}"
-            );
+            assert!(same || near(&doubtful, SIZE, pixel), "{samples} samples, pixel {pixel}");
             excused += u32::from(!same);
         }
         assert!(excused <= 4, "{samples} samples: {excused} pixels differ");
@@ -102,16 +89,9 @@ fn growths_of_locations_do_not_depend_on_memory() {
             let parts = render(Some(bound)).unwrap();
             assert!(parts.attributes == whole.attributes, "{bound} bytes");
             assert_eq!(parts.statistics.superpixels, whole.statistics.superpixels);
-            let pairs = parts
-                .colors
-                .iter()
-                .flatten()
-                .zip(whole.colors.iter().flatten());
+            let pairs = parts.colors.iter().flatten().zip(whole.colors.iter().flatten());
             let farthest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-            assert!(
-                farthest < 1e-5,
-                "{bound} bytes: colours differ by {farthest}"
-            );
+            assert!(farthest < 1e-5, "{bound} bytes: colours differ by {farthest}");
         }
     });
 }
@@ -122,10 +102,8 @@ fn growths_of_locations_do_not_depend_on_memory() {
 fn tips_that_no_centre_saw_are_found() {
     on_gpu(|gpu| {
         let size = [64, 64];
-        let mut stage = Stage::new(vec![
-            flat([1.0; 4], AlphaMode::Opaque),
-            flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-        ]);
+        let mut stage =
+            Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque), flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque)]);
         let wall = [[-90.0, -90.0], [-90.0, 90.0], [90.0, 90.0], [90.0, -90.0]];
         stage.add_quad(1, wall.map(|place| seen_at(place, 5.0, size[1])));
         for wedge in 0..12 {
@@ -134,8 +112,7 @@ fn tips_that_no_centre_saw_are_found() {
             stage.add(0, corners.map(|place| seen_at(place, 2.0, size[1])));
         }
         let mut energy = |detection| {
-            let settings =
-                once(size).method(SuperpixelOptions::new(144).thin(false).detection(detection));
+            let settings = once(size).method(SuperpixelOptions::new(144).thin(false).detection(detection));
             let rendered = stage.render(gpu, &settings);
             rendered.colors.iter().map(|c| f64::from(c[0])).sum::<f64>()
         };

@@ -4,8 +4,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 use gpc::render::{Headless, MethodKind, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
-    AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose,
-    Sampler, Scene,
+    AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose, Sampler, Scene,
 };
 
 use crate::locations::{pinhole, planar};
@@ -19,20 +18,13 @@ const COPIES: usize = 12;
 /// A ball, a perforated square and a pane, each drawn several times: rotated, stretched and mirrored.
 fn scene() -> (Scene, Pose) {
     let mut stage = Stage::new(vec![
-        Material {
-            base_color: [0.8, 0.4, 0.2, 1.0],
-            ..Material::default()
-        },
+        Material { base_color: [0.8, 0.4, 0.2, 1.0], ..Material::default() },
         textured(AlphaMode::Mask { cutoff: 0.5 }),
         flat([0.2, 0.3, 0.9, 0.5], AlphaMode::Blend),
     ]);
     let texel = |alpha: u8| [90, 200, 120, alpha];
     stage.texture = Some((
-        Image {
-            width: 2,
-            height: 2,
-            pixels: [texel(255), texel(0), texel(0), texel(255)].concat(),
-        },
+        Image { width: 2, height: 2, pixels: [texel(255), texel(0), texel(0), texel(255)].concat() },
         Sampler::default(),
     ));
     // The number of the mesh's triangles is above the size of a block, in which triangles share a look-up of their
@@ -50,12 +42,7 @@ fn scene() -> (Scene, Pose) {
             stage.add_quad(0, [a, c, d, b]);
         }
     }
-    let square = [
-        [-1.0, -1.0, 0.0],
-        [1.0, -1.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [-1.0, 1.0, 0.0],
-    ];
+    let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
     for material in [1, 2] {
         stage.add_quad(material, square);
         let first = stage.triangles.len() - 2;
@@ -89,10 +76,7 @@ fn scene() -> (Scene, Pose) {
 }
 
 fn in_world_space(pose: &Pose) -> Pose {
-    Pose {
-        geometry: pose.geometry.flat().into_owned(),
-        ..pose.clone()
-    }
+    Pose { geometry: pose.geometry.flat().into_owned(), ..pose.clone() }
 }
 
 fn render(gpu: &mut Headless, (scene, pose): (&Scene, &Pose), settings: &Settings) -> Rendered {
@@ -116,17 +100,11 @@ fn they_are_what_they_are_in_world_space() {
         let settings = once(SIZE);
         let found = render(gpu, (&scene, &pose), &settings);
         let expected = render(gpu, (&scene, &world), &settings);
-        assert_eq!(
-            found.statistics.triangles.total,
-            pose.geometry.triangle_count()
-        );
+        assert_eq!(found.statistics.triangles.total, pose.geometry.triangle_count());
         let all: Vec<u32> = ids(&found);
         let shown = |first: u32, end: u32| all.iter().any(|id| (first + 1..end + 1).contains(id));
         for instances in pose.geometry.instances.chunks(COPIES).take(2) {
-            assert!(shown(
-                instances[0].first_index,
-                instances[COPIES - 1].first_index
-            ));
+            assert!(shown(instances[0].first_index, instances[COPIES - 1].first_index));
         }
         let pairs = found.attributes.iter().zip(&expected.attributes);
         // The transform to clip space rounds differently, which may change a centre on an edge.
@@ -145,21 +123,15 @@ fn every_method_sees_them() {
     on_gpu(|gpu| {
         let (scene, pose) = scene();
         let world = in_world_space(&pose);
-        for (method, samples) in [
-            (MethodKind::Msaa, 4),
-            (MethodKind::Ssaa, 4),
-            (MethodKind::Superpixel, 16),
-            (MethodKind::Superpixel, 256),
-        ] {
+        for (method, samples) in
+            [(MethodKind::Msaa, 4), (MethodKind::Ssaa, 4), (MethodKind::Superpixel, 16), (MethodKind::Superpixel, 256)]
+        {
             let settings = Settings::new(SIZE[0], SIZE[1]).method(method.with_samples(samples));
             let found = render(gpu, (&scene, &pose), &settings);
             let expected = render(gpu, (&scene, &world), &settings);
             let apart = difference(&found, &expected);
             // A sample on an edge may belong to another triangle: a fraction of one of 6,144 pixels.
-            assert!(
-                apart < 4e-3 / f64::from(samples).sqrt(),
-                "{method:?} {samples}: {apart}"
-            );
+            assert!(apart < 4e-3 / f64::from(samples).sqrt(), "{method:?} {samples}: {apart}");
         }
     });
 }
@@ -174,13 +146,8 @@ fn a_crowd_that_outgrows_its_room_is_drawn_all_the_same() {
         let (mut scene, mut pose) = scene();
         scene.materials[0].double_sided = true;
         let ball = pose.geometry.draws[0];
-        pose.geometry
-            .triangles
-            .truncate(ball.triangle_count as usize);
-        pose.geometry.draws = vec![Draw {
-            class: DrawClass::OpaqueDoubleSided,
-            ..ball
-        }];
+        pose.geometry.triangles.truncate(ball.triangle_count as usize);
+        pose.geometry.draws = vec![Draw { class: DrawClass::OpaqueDoubleSided, ..ball }];
         let mut random = Random::new(9);
         let at = |index: u32, random: &mut Random| Instance {
             first_triangle: 0,
@@ -216,32 +183,14 @@ fn contradictions_are_named() {
     };
     assert_eq!(pose.geometry.check(scene.materials.len()), Ok(()));
     for (change, expected) in [
-        (
-            (|all| all[2].triangle_count = 0) as fn(&mut Vec<Instance>),
-            (2, InstanceFault::Triangles),
-        ),
-        (
-            |all| all[30].triangle_count = 9,
-            (30, InstanceFault::Triangles),
-        ),
+        ((|all| all[2].triangle_count = 0) as fn(&mut Vec<Instance>), (2, InstanceFault::Triangles)),
+        (|all| all[30].triangle_count = 9, (30, InstanceFault::Triangles)),
         (|all| all[1].first_index = 64, (1, InstanceFault::Index)),
         (|all| all[3].first_index += 1, (3, InstanceFault::Index)),
-        (
-            |all| all[11].first_index = u32::MAX - 63,
-            (11, InstanceFault::Index),
-        ),
-        (
-            |all| all[4].transform.translation.x = f64::NAN,
-            (4, InstanceFault::Transform),
-        ),
-        (
-            |all| all[11].triangle_count += 1,
-            (11, InstanceFault::Classes),
-        ),
-        (
-            |all| (all[0].first_triangle, all[0].triangle_count) = (90, 2),
-            (1, InstanceFault::Order),
-        ),
+        (|all| all[11].first_index = u32::MAX - 63, (11, InstanceFault::Index)),
+        (|all| all[4].transform.translation.x = f64::NAN, (4, InstanceFault::Transform)),
+        (|all| all[11].triangle_count += 1, (11, InstanceFault::Classes)),
+        (|all| (all[0].first_triangle, all[0].triangle_count) = (90, 2), (1, InstanceFault::Order)),
     ] {
         assert_eq!(fault_of(change), Some(expected));
     }
@@ -254,9 +203,7 @@ fn locations_see_them() {
         let image = render(gpu, (&scene, &pose), &once(SIZE));
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let locations = planar(SIZE);
-        let sampled = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &once_each())
-            .unwrap();
+        let sampled = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &once_each()).unwrap();
         let found: Vec<u32> = sampled.values.iter().map(|sample| sample.id).collect();
         let expected = ids(&image);
         let other = found.iter().zip(&expected).filter(|(a, b)| a != b).count();

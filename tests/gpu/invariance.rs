@@ -15,9 +15,8 @@ use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
 fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);
     let mut channel = || random.below(65) as f32 / 64.0;
-    let mut materials: Vec<Material> = (0..16)
-        .map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque))
-        .collect();
+    let mut materials: Vec<Material> =
+        (0..16).map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque)).collect();
     materials.push(flat([0.25, 0.5, 0.75, 0.5], AlphaMode::Blend));
     let mut stage = Stage::new(materials);
     let mut random = Random::new(!seed);
@@ -27,11 +26,7 @@ fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
             let place = middle.map(|middle| middle + random.range(-20.0, 20.0));
             seen_at(place, random.range(1.0, 9.0), size[1])
         });
-        let material = if index + blend < count {
-            index % 16
-        } else {
-            16
-        };
+        let material = if index + blend < count { index % 16 } else { 16 };
         stage.add(material, corners);
     }
     stage
@@ -58,19 +53,14 @@ fn assert_same(first: &Rendered, second: &Rendered, what: &str) {
 fn runs_give_the_same_bytes() {
     on_gpu(|gpu| {
         let size = [96, 64];
-        for (blend, shading) in [
-            (0, Shading::Triangle),
-            (0, Shading::Sample),
-            (40, Shading::Triangle),
-        ] {
+        for (blend, shading) in [(0, Shading::Triangle), (0, Shading::Sample), (40, Shading::Triangle)] {
             let mut stage = soup(1, size, 300, blend);
             for material in &mut stage.materials {
                 material.unlit = false;
                 material.roughness = 0.4;
             }
-            let settings = Settings::new(size[0], size[1])
-                .attributes(true)
-                .map_superpixels(|options| options.shading(shading));
+            let settings =
+                Settings::new(size[0], size[1]).attributes(true).map_superpixels(|options| options.shading(shading));
             let (scene, pose) = stage.build();
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
@@ -91,8 +81,7 @@ fn runs_give_the_same_bytes() {
 fn earlier_frames_do_not_matter() {
     on_gpu(|gpu| {
         let size = [256, 160];
-        let settings = Settings::new(size[0], size[1])
-            .map_superpixels(|options| options.shading(Shading::Sample));
+        let settings = Settings::new(size[0], size[1]).map_superpixels(|options| options.shading(Shading::Sample));
         let (scene, pose) = soup(3, size, 4000, 0).build();
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let expected = {
@@ -100,10 +89,7 @@ fn earlier_frames_do_not_matter() {
             gpu.render(&mut frame, &camera()).unwrap()
         };
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
-        let away = Camera {
-            axes: DMat3::from_rotation_y(std::f64::consts::PI) * camera().axes,
-            ..camera()
-        };
+        let away = Camera { axes: DMat3::from_rotation_y(std::f64::consts::PI) * camera().axes, ..camera() };
         let nothing = gpu.render(&mut frame, &away).unwrap();
         assert_eq!(nothing.statistics.superpixels, 0);
         let found = gpu.render(&mut frame, &camera()).unwrap();
@@ -123,9 +109,7 @@ fn crowded_cells_give_the_same_bytes() {
         for count in [6_000, 12_000, 24_000] {
             let mut random = Random::new(5);
             let mut stage = Stage::new(
-                (0..4_u8)
-                    .map(|shade| flat([0.2 * f32::from(shade), 0.5, 0.9, 1.0], AlphaMode::Opaque))
-                    .collect(),
+                (0..4_u8).map(|shade| flat([0.2 * f32::from(shade), 0.5, 0.9, 1.0], AlphaMode::Opaque)).collect(),
             );
             for triangle in 0..count {
                 let middle = size.map(|side| random.range(-0.5, 0.5) * f64::from(side));
@@ -136,8 +120,8 @@ fn crowded_cells_give_the_same_bytes() {
                 });
                 stage.add(triangle % 4, corners);
             }
-            let settings = Settings::new(size[0], size[1])
-                .map_superpixels(|options| options.detection(Detection::Every));
+            let settings =
+                Settings::new(size[0], size[1]).map_superpixels(|options| options.detection(Detection::Every));
             let first = stage.render(gpu, &settings);
             for _ in 0..6 {
                 assert_same(&first, &stage.render(gpu, &settings), "another run");
@@ -160,11 +144,7 @@ fn the_order_of_triangles_does_not_matter() {
                 shuffle(opaque, seed);
                 shuffle(blended, seed);
                 let second = shuffled.render(gpu, &settings);
-                assert_same(
-                    &first,
-                    &second,
-                    &format!("shuffled, {samples} samples, {blend} BLEND"),
-                );
+                assert_same(&first, &second, &format!("shuffled, {samples} samples, {blend} BLEND"));
             }
             let mut sorted = stage.clone();
             sorted.triangles.sort_by_key(|triangle| triangle.material);
@@ -211,19 +191,14 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
     let mut limit = None;
     loop {
         let settings = settings.clone().max_memory(limit);
-        let rendered = gpu
-            .upload(SceneRequest::new(&scene, &pose).within(limit))
-            .and_then(|prepared| {
-                let mut frame = gpu.prepare(&prepared, &settings)?;
-                gpu.render(&mut frame, &camera())
-            });
+        let rendered = gpu.upload(SceneRequest::new(&scene, &pose).within(limit)).and_then(|prepared| {
+            let mut frame = gpu.prepare(&prepared, &settings)?;
+            gpu.render(&mut frame, &camera())
+        });
         match rendered {
             Ok(image) => {
                 let used = image.statistics.memory_bytes;
-                assert!(
-                    limit.is_none_or(|limit| used <= limit),
-                    "{used} of {limit:?}"
-                );
+                assert!(limit.is_none_or(|limit| used <= limit), "{used} of {limit:?}");
                 limit = Some(read_back + (used - read_back) * 3 / 4);
                 images.push(image);
             }
@@ -242,10 +217,7 @@ fn memory_does_not_matter() {
     on_gpu(|gpu| {
         let size = [256, 192];
         let stage = soup(4, size, 500, 0);
-        for (detection, shading) in [
-            (Detection::Every, Shading::Sample),
-            (Detection::Contrast, Shading::Triangle),
-        ] {
+        for (detection, shading) in [(Detection::Every, Shading::Sample), (Detection::Contrast, Shading::Triangle)] {
             let settings = everywhere(size, Pattern::Sobol, 64)
                 .attributes(true)
                 .map_superpixels(|options| options.detection(detection).shading(shading));
@@ -254,8 +226,7 @@ fn memory_does_not_matter() {
                 panic!("{} images", images.len());
             };
             let [most, least] = [first, last].map(|image| &image.statistics);
-            let [most_bytes, least_bytes] =
-                [most, least].map(|s| s.memory_bytes - read_back_bytes(&settings));
+            let [most_bytes, least_bytes] = [most, least].map(|s| s.memory_bytes - read_back_bytes(&settings));
             assert!(least_bytes * 3 < most_bytes, "{least:?}");
             assert!(least.regions > 1 && least.rounds > most.rounds, "{least:?}");
             for image in &images[1..] {
@@ -272,10 +243,7 @@ fn memory_does_not_matter() {
                         assert_eq!(first.colors[pixel], image.colors[pixel], "pixel {pixel}");
                     }
                 }
-                assert!(
-                    others == 0 || regions > 1 && others <= 8,
-                    "{others} pixels, {regions} regions"
-                );
+                assert!(others == 0 || regions > 1 && others <= 8, "{others} pixels, {regions} regions");
             }
         }
     });

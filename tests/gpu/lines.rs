@@ -21,8 +21,7 @@ const SAMPLES: [(u32, u32); 4] = [(4, 8), (64, 8), (256, 32), (1024, 64)];
 const FEW_SAMPLES: &[(u32, u32)] = SAMPLES.split_at(3).0;
 
 fn on_lines(samples: u32) -> Settings {
-    everywhere(SIZE, Pattern::Lines, samples)
-        .map_superpixels(|options| options.shading(Shading::Triangle))
+    everywhere(SIZE, Pattern::Lines, samples).map_superpixels(|options| options.shading(Shading::Triangle))
 }
 
 fn coded(mesh: &Mesh) -> Stage {
@@ -62,9 +61,7 @@ fn compare(gpu: &mut Headless, stage: &Stage, name: &str, tried: &[(u32, u32)]) 
                 }
                 let count = places.len() as f64;
                 let bound = 0.01 + 4095.0 * f64::from(contested) / count;
-                let errs = |channel: usize| {
-                    (f64::from(found[channel]) - sum[channel] / count).abs() > bound
-                };
+                let errs = |channel: usize| (f64::from(found[channel]) - sum[channel] / count).abs() > bound;
                 (!(0..3).any(errs)).then_some(contested)
             };
             match sets.iter().find_map(contested_of_fit) {
@@ -99,11 +96,9 @@ fn tilings_are_seen_as_the_twin_sees_them() {
 #[test]
 fn fans_and_slivers_are_seen_as_the_twin_sees_them() {
     on_gpu(|gpu| {
-        for mesh in [
-            fan(3, 16.0, 12, Depths::Random),
-            fan(3, 16.0, 24, Depths::Random),
-            slivers(5, 16.0, 30, Depths::Random),
-        ] {
+        for mesh in
+            [fan(3, 16.0, 12, Depths::Random), fan(3, 16.0, 24, Depths::Random), slivers(5, 16.0, 30, Depths::Random)]
+        {
             assert_eq!(compare(gpu, &coded(&mesh), &mesh.name, &SAMPLES), 0);
         }
     });
@@ -158,8 +153,7 @@ fn shares_add_up_to_one() {
             let at = random.range(-10.0, 10.0);
             let turn = random.range(0.0, TAU);
             let (sin, cos) = turn.sin_cos();
-            let place =
-                |[x, y]: [f64; 2]| seen_at([x * cos - y * sin, x * sin + y * cos], 2.0, SIZE[1]);
+            let place = |[x, y]: [f64; 2]| seen_at([x * cos - y * sin, x * sin + y * cos], 2.0, SIZE[1]);
             let mut stage = Stage::new(vec![
                 flat([1.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
                 flat([0.0, 1.0, 0.0, 1.0], AlphaMode::Opaque),
@@ -174,10 +168,7 @@ fn shares_add_up_to_one() {
             let image = stage.render(gpu, &on_lines(64));
             for (pixel, color) in image.colors.iter().enumerate() {
                 let [red, green, blue, alpha] = color.map(f64::from);
-                assert!(
-                    alpha <= 1.0 + 1e-6 && (red + green + blue - alpha).abs() < 1e-6,
-                    "pixel {pixel}: {color:?}"
-                );
+                assert!(alpha <= 1.0 + 1e-6 && (red + green + blue - alpha).abs() < 1e-6, "pixel {pixel}: {color:?}");
             }
         }
     });

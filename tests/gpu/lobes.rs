@@ -7,8 +7,8 @@ use gpc::reference::sheen;
 use gpc::render::{Headless, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
-    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Light, LightKind, Lobes,
-    Material, Sheen, Specular, SpecularGlossiness, Transmission,
+    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Light, LightKind, Lobes, Material, Sheen,
+    Specular, SpecularGlossiness, Transmission,
 };
 
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, once, seen_at};
@@ -24,13 +24,7 @@ const COLOR: [f32; 3] = [0.8, 0.4, 0.2];
 
 fn lit(lobes: Lobes) -> Material {
     let [r, g, b] = COLOR;
-    Material {
-        unlit: false,
-        metallic: 0.0,
-        roughness: ROUGHNESS,
-        lobes,
-        ..flat([r, g, b, 1.0], AlphaMode::Opaque)
-    }
+    Material { unlit: false, metallic: 0.0, roughness: ROUGHNESS, lobes, ..flat([r, g, b, 1.0], AlphaMode::Opaque) }
 }
 
 /// A surface at the image's centre, turned by `angle` from facing the eye.
@@ -38,10 +32,7 @@ fn surface(materials: Vec<Material>, angle: f64) -> Stage {
     let mut stage = Stage::new(materials);
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let (sin, cos) = angle.sin_cos();
-    stage.add_quad(
-        0,
-        corners.map(|[x, y]: [f64; 2]| [x * cos, y, x * sin - 2.0].map(|v| v as f32)),
-    );
+    stage.add_quad(0, corners.map(|[x, y]: [f64; 2]| [x * cos, y, x * sin - 2.0].map(|v| v as f32)));
     stage
 }
 
@@ -147,14 +138,7 @@ fn reflections_along_the_normal_have_a_closed_form() {
         let expected = base([0.04; 3], ALPHA).map(|x| x * (1.0 - weight) + weight * peak(0.09));
         assert_near("a coat", response(gpu, lobes, AWAY), expected, 1e-4);
 
-        let lobes = Lobes {
-            anisotropy: Some(Anisotropy {
-                strength: 0.6,
-                rotation: 0.7,
-                texture: None,
-            }),
-            ..plain
-        };
+        let lobes = Lobes { anisotropy: Some(Anisotropy { strength: 0.6, rotation: 0.7, texture: None }), ..plain };
         let along = ALPHA + (1.0 - ALPHA) * 0.36;
         let expected = base([0.04; 3], (along * ALPHA).sqrt());
         assert_near("anisotropy", response(gpu, lobes, AWAY), expected, 1e-4);
@@ -206,13 +190,7 @@ fn a_thin_film_has_the_colour_of_its_thickness() {
                 }),
                 ..Lobes::default()
             };
-            let stage = surface(
-                vec![Material {
-                    base_color: [0.0, 0.0, 0.0, 1.0],
-                    ..lit(lobes)
-                }],
-                0.0,
-            );
+            let stage = surface(vec![Material { base_color: [0.0, 0.0, 0.0, 1.0], ..lit(lobes) }], 0.0);
             let light = Light {
                 kind: LightKind::Directional,
                 position: DVec3::ZERO,
@@ -234,26 +212,15 @@ fn sheen_takes_from_the_base_what_it_reflects() {
     on_gpu(|gpu| {
         for roughness in [0.2_f32, 0.5, 1.0] {
             for degrees in [0.0_f64, 40.0, 70.0] {
-                let sheen = Sheen {
-                    color: [0.25, 0.5, 1.0],
-                    roughness,
-                    color_texture: None,
-                    roughness_texture: None,
-                };
+                let sheen = Sheen { color: [0.25, 0.5, 1.0], roughness, color_texture: None, roughness_texture: None };
                 let mut glowing = |power: f32| {
-                    let material = Material {
-                        emissive: [power; 3],
-                        ..lit(Lobes {
-                            sheen: Some(sheen),
-                            ..Lobes::default()
-                        })
-                    };
+                    let material =
+                        Material { emissive: [power; 3], ..lit(Lobes { sheen: Some(sheen), ..Lobes::default() }) };
                     let stage = surface(vec![material], degrees.to_radians());
                     render(gpu, &stage, &[], &once(SIZE))[0]
                 };
                 let left = glowing(1.0) - glowing(0.0);
-                let expected =
-                    1.0 - sheen::albedo(f64::from(roughness), degrees.to_radians().cos());
+                let expected = 1.0 - sheen::albedo(f64::from(roughness), degrees.to_radians().cos());
                 assert!(
                     (left - expected).abs() < 0.055,
                     "roughness {roughness}, {degrees} degrees: {left}, expected {expected}"

@@ -15,23 +15,11 @@ const REPEATS: f64 = 5.0;
 /// A repeated 2 x 2 checker whose texels are above and below the cutoff, in front of a blue wall.
 pub fn checker() -> Stage {
     let mask = AlphaMode::Mask { cutoff: 0.5 };
-    let mut stage = Stage::new(vec![
-        flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque),
-        textured(mask),
-    ]);
+    let mut stage = Stage::new(vec![flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque), textured(mask)]);
     let texel = |alpha: u8| [255, 255, 255, alpha];
     stage.texture = Some((
-        Image {
-            width: 2,
-            height: 2,
-            pixels: [texel(255), texel(0), texel(100), texel(140)].concat(),
-        },
-        Sampler {
-            mag: Filter::Nearest,
-            min: Filter::Nearest,
-            mip: None,
-            ..Sampler::default()
-        },
+        Image { width: 2, height: 2, pixels: [texel(255), texel(0), texel(100), texel(140)].concat() },
+        Sampler { mag: Filter::Nearest, min: Filter::Nearest, mip: None, ..Sampler::default() },
     ));
     let quad = |half: [f64; 2], distance: f64| {
         [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]]
@@ -53,10 +41,7 @@ fn shows(place: [f64; 2]) -> (bool, bool) {
     let doubtful = at.iter().any(|t| (t - t.round()).abs() < 1e-3);
     let inside = at.iter().all(|t| (0.0..2.0 * REPEATS).contains(t));
     let texel = at.map(|t| t.floor() as i64 & 1);
-    (
-        inside && [255, 0, 100, 140][(texel[0] + 2 * texel[1]) as usize] >= 128,
-        doubtful,
-    )
+    (inside && [255, 0, 100, 140][(texel[0] + 2 * texel[1]) as usize] >= 128, doubtful)
 }
 
 #[test]
@@ -64,11 +49,7 @@ fn alpha_is_tested_for_each_sample() {
     on_gpu(|gpu| {
         let stage = checker();
         let none = once(SIZE).method(Method::None);
-        for settings in [
-            everywhere(SIZE, Pattern::Sobol, 64),
-            everywhere(SIZE, Pattern::Korobov, 300),
-            none,
-        ] {
+        for settings in [everywhere(SIZE, Pattern::Sobol, 64), everywhere(SIZE, Pattern::Korobov, 300), none] {
             let rendered = stage.render(gpu, &settings);
             let offsets = match &settings.method {
                 Method::Superpixel(options) => {
@@ -83,8 +64,7 @@ fn alpha_is_tested_for_each_sample() {
                 let middle = centre(pixel, SIZE);
                 let (mut covered, mut doubtful) = (0.0, 0.0);
                 for offset in &offsets {
-                    let (shown, near_border) =
-                        shows([0, 1].map(|axis| middle[axis] + f64::from(offset[axis])));
+                    let (shown, near_border) = shows([0, 1].map(|axis| middle[axis] + f64::from(offset[axis])));
                     covered += f64::from(u8::from(shown)) * share;
                     doubtful += f64::from(u8::from(near_border)) * share;
                 }
@@ -102,10 +82,7 @@ fn alpha_is_tested_for_each_sample() {
             }
             let pixels = f64::from(SIZE[0] * SIZE[1]);
             assert!(doubts < 0.01 * pixels, "{doubts}");
-            assert!(
-                settings.method == Method::None || partial > 400,
-                "{partial}"
-            );
+            assert!(settings.method == Method::None || partial > 400, "{partial}");
         }
     });
 }

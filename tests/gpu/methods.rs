@@ -22,19 +22,13 @@ fn psnr(a: &Rendered, b: &Rendered) -> f64 {
 }
 
 fn settings(method: MethodKind, samples: u32) -> Settings {
-    Settings::new(SIZE[0], SIZE[1])
-        .background(Some([0.2, 0.4, 0.8]))
-        .method(method.with_samples(samples))
+    Settings::new(SIZE[0], SIZE[1]).background(Some([0.2, 0.4, 0.8])).method(method.with_samples(samples))
 }
 
 /// Superpixels everywhere, with samples on the grid of supersampling.
 fn on_the_grid(samples: u32) -> Settings {
-    settings(MethodKind::Superpixel, samples).map_superpixels(|options| {
-        options
-            .pattern(Pattern::Grid)
-            .shading(Shading::Sample)
-            .detection(Detection::Every)
-    })
+    settings(MethodKind::Superpixel, samples)
+        .map_superpixels(|options| options.pattern(Pattern::Grid).shading(Shading::Sample).detection(Detection::Every))
 }
 
 #[test]
@@ -60,8 +54,7 @@ fn one_sample_is_none() {
         assert_eq!(none.colors, brute.colors);
         // Rounding of vertices moves edges across the centres of a few pixels.
         let sampled = stage.render(gpu, &on_the_grid(1));
-        let near =
-            |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).all(|(a, b)| (a - b).abs() < 1e-4);
+        let near = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).all(|(a, b)| (a - b).abs() < 1e-4);
         let pairs = none.colors.iter().zip(&sampled.colors);
         let different = pairs.filter(|pair| !near(pair)).count();
         assert!(different <= 6, "{different} pixels differ");
@@ -76,15 +69,9 @@ fn superpixels_approach_brute_force_where_it_matters() {
         let none = psnr(&stage.render(gpu, &settings(MethodKind::None, 1)), &brute);
         let sampled = stage.render(gpu, &settings(MethodKind::Superpixel, 64));
         let statistics = &sampled.statistics;
-        assert!(
-            statistics.superpixels * 2 < u64::from(SIZE[0] * SIZE[1]),
-            "{statistics:?}"
-        );
+        assert!(statistics.superpixels * 2 < u64::from(SIZE[0] * SIZE[1]), "{statistics:?}");
         let ratio = psnr(&sampled, &brute);
-        assert!(
-            ratio > none + 8.0,
-            "{ratio} dB, without antialiasing {none}"
-        );
+        assert!(ratio > none + 8.0, "{ratio} dB, without antialiasing {none}");
     });
 }
 
@@ -94,11 +81,8 @@ fn multisampling_is_four_samples_at_the_standard_locations() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
         let device = stage.render(gpu, &settings(MethodKind::Msaa, 4));
-        let own = settings(MethodKind::Superpixel, 4).map_superpixels(|options| {
-            options
-                .pattern(Pattern::Rotated)
-                .detection(Detection::Every)
-        });
+        let own = settings(MethodKind::Superpixel, 4)
+            .map_superpixels(|options| options.pattern(Pattern::Rotated).detection(Detection::Every));
         let own = stage.render(gpu, &own);
         let ratio = psnr(&device, &own);
         assert!(ratio > 35.0, "{ratio} dB");
@@ -117,14 +101,8 @@ fn impossible_counts_are_usage_errors() {
             (MethodKind::Ssaa, 10, "1, 4, 9, 16"),
             (MethodKind::Msaa, 3, "4"),
         ] {
-            let error = gpu
-                .prepare(&prepared, &settings(method, samples))
-                .err()
-                .unwrap();
-            assert!(
-                error.is_usage() && error.to_string().contains(named),
-                "{error}"
-            );
+            let error = gpu.prepare(&prepared, &settings(method, samples)).err().unwrap();
+            assert!(error.is_usage() && error.to_string().contains(named), "{error}");
         }
         let error = gpu.prepare(&prepared, &Settings::new(0, 5)).err().unwrap();
         assert!(error.is_usage(), "{error}");

@@ -6,9 +6,7 @@ use glam::DVec3;
 use gpc::camera::Camera;
 use gpc::reference::reflection::{Surface, reflected};
 use gpc::render::{Headless, SceneRequest};
-use gpc::scene::{
-    AlphaMode, Anisotropy, Clearcoat, Iridescence, Light, LightKind, Lobes, Material, Sheen,
-};
+use gpc::scene::{AlphaMode, Anisotropy, Clearcoat, Iridescence, Light, LightKind, Lobes, Material, Sheen};
 
 use crate::meshes::Random;
 use crate::stage::{Stage, camera, centre, flat, on_gpu, once, seen_at};
@@ -23,13 +21,7 @@ const TURN: f64 = 2e-4;
 
 fn lit(roughness: f32, lobes: Lobes) -> Material {
     let [r, g, b] = COLOR;
-    Material {
-        unlit: false,
-        metallic: 0.0,
-        roughness,
-        lobes,
-        ..flat([r, g, b, 1.0], AlphaMode::Opaque)
-    }
+    Material { unlit: false, metallic: 0.0, roughness, lobes, ..flat([r, g, b, 1.0], AlphaMode::Opaque) }
 }
 
 /// Directions to the eye from the middle of each pixel.
@@ -51,10 +43,7 @@ fn seen(
     let corners = [[-0.4, -0.4], [-0.4, 0.4], [0.4, 0.4], [0.4, -0.4]];
     for pixel in 0..PIXELS {
         let [x, y] = centre(pixel, SIZE);
-        stage.add_quad(
-            0,
-            corners.map(|[dx, dy]| seen_at([x + dx, y + dy], 1.0, SIZE[1])),
-        );
+        stage.add_quad(0, corners.map(|[dx, dy]| seen_at([x + dx, y + dy], 1.0, SIZE[1])));
     }
     let (scene, mut pose) = stage.build();
     let streams = &mut pose.geometry.streams;
@@ -74,9 +63,7 @@ fn seen(
     let rendered = gpu.render(&mut frame, &Camera { eye, ..camera() }).unwrap();
     assert!(rendered.attributes.iter().all(|pixel| pixel.id != 0));
     let colors = rendered.colors.iter();
-    colors
-        .map(|&[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into()))
-        .collect()
+    colors.map(|&[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into())).collect()
 }
 
 fn unit(random: &mut Random) -> DVec3 {
@@ -112,12 +99,7 @@ fn turned(normals: &[DVec3], random: &mut Random) -> Vec<DVec3> {
 fn small_turns_of_normal_or_view_are_small_changes_of_the_colour() {
     on_gpu(|gpu| {
         let plain = Lobes::default();
-        let sheen = Sheen {
-            color: [0.3, 0.6, 0.9],
-            roughness: 0.5,
-            color_texture: None,
-            roughness_texture: None,
-        };
+        let sheen = Sheen { color: [0.3, 0.6, 0.9], roughness: 0.5, color_texture: None, roughness_texture: None };
         let clearcoat = Clearcoat {
             factor: 1.0,
             roughness: 0.5,
@@ -126,69 +108,27 @@ fn small_turns_of_normal_or_view_are_small_changes_of_the_colour() {
             roughness_texture: None,
             normal_texture: None,
         };
-        let iridescence = Iridescence {
-            factor: 1.0,
-            ior: 1.8,
-            thickness: [400.0; 2],
-            texture: None,
-            thickness_texture: None,
-        };
-        let metal = Material {
-            metallic: 1.0,
-            ..lit(0.6, plain)
-        };
+        let iridescence =
+            Iridescence { factor: 1.0, ior: 1.8, thickness: [400.0; 2], texture: None, thickness_texture: None };
+        let metal = Material { metallic: 1.0, ..lit(0.6, plain) };
         let all = [
             ("a metal", metal),
             ("the base", lit(0.6, plain)),
-            (
-                "sheen",
-                lit(
-                    0.6,
-                    Lobes {
-                        sheen: Some(sheen),
-                        ..plain
-                    },
-                ),
-            ),
-            (
-                "a coat",
-                lit(
-                    0.6,
-                    Lobes {
-                        clearcoat: Some(clearcoat),
-                        ..plain
-                    },
-                ),
-            ),
-            (
-                "a film",
-                lit(
-                    0.6,
-                    Lobes {
-                        iridescence: Some(iridescence),
-                        ..plain
-                    },
-                ),
-            ),
+            ("sheen", lit(0.6, Lobes { sheen: Some(sheen), ..plain })),
+            ("a coat", lit(0.6, Lobes { clearcoat: Some(clearcoat), ..plain })),
+            ("a film", lit(0.6, Lobes { iridescence: Some(iridescence), ..plain })),
         ];
         let mut random = Random::new(11);
         for (name, material) in all {
             let before = normals(&mut random);
             let after = turned(&before, &mut random);
             let moved = TURN * unit(&mut random);
-            let [first, turned, moved] = [
-                (&before, DVec3::ZERO),
-                (&after, DVec3::ZERO),
-                (&before, moved),
-            ]
-            .map(|(normals, eye)| seen(gpu, &material, (normals, &[]), 3.0, eye));
+            let [first, turned, moved] = [(&before, DVec3::ZERO), (&after, DVec3::ZERO), (&before, moved)]
+                .map(|(normals, eye)| seen(gpu, &material, (normals, &[]), 3.0, eye));
             // Where both eye and light graze a surface, a lobe of the model rises from 0 to its full height within less than a turn.
             let grazed = |pixel: usize| {
                 let normal = before[pixel];
-                [to_eye(pixel), LIGHT]
-                    .map(|d| normal.dot(d).abs())
-                    .iter()
-                    .all(|cosine| *cosine < 0.05)
+                [to_eye(pixel), LIGHT].map(|d| normal.dot(d).abs()).iter().all(|cosine| *cosine < 0.05)
             };
             for pixel in (0..PIXELS).filter(|pixel| !grazed(*pixel)) {
                 for (what, second) in [("normal", turned[pixel]), ("view", moved[pixel])] {
@@ -210,18 +150,8 @@ fn small_turns_of_normal_or_view_are_small_changes_of_the_colour() {
 #[test]
 fn stretched_reflections_fade_with_their_axis() {
     on_gpu(|gpu| {
-        let anisotropy = Anisotropy {
-            strength: 1.0,
-            rotation: 0.0,
-            texture: None,
-        };
-        let material = lit(
-            0.6,
-            Lobes {
-                anisotropy: Some(anisotropy),
-                ..Lobes::default()
-            },
-        );
+        let anisotropy = Anisotropy { strength: 1.0, rotation: 0.0, texture: None };
+        let material = lit(0.6, Lobes { anisotropy: Some(anisotropy), ..Lobes::default() });
         // A normal at 45 degrees beyond the horizon is mirrored at a right angle, here to its tangent.
         let mut random = Random::new(12);
         let side = |pixel: usize| (to_eye(pixel), to_eye(pixel).any_orthonormal_vector());
@@ -236,8 +166,8 @@ fn stretched_reflections_fade_with_their_axis() {
         };
         let tangents: Vec<_> = (0..PIXELS).map(along).collect();
         let after = turned(&before, &mut random);
-        let [first, second] = [&before, &after]
-            .map(|normals| seen(gpu, &material, (normals, &tangents), 3.0, DVec3::ZERO));
+        let [first, second] =
+            [&before, &after].map(|normals| seen(gpu, &material, (normals, &tangents), 3.0, DVec3::ZERO));
         for pixel in 0..PIXELS {
             let off = (first[pixel] - second[pixel]).abs().max_element();
             assert!(off < 60.0 * TURN, "{} and {}", first[pixel], second[pixel]);
@@ -253,8 +183,7 @@ fn light_on_normals_of_any_direction_is_the_twins() {
             let material = lit(roughness, Lobes::default());
             let normals = normals(&mut random);
             // The studio lights both images, so that it cancels.
-            let [lit, dark] =
-                [3.0, 0.0].map(|light| seen(gpu, &material, (&normals, &[]), light, DVec3::ZERO));
+            let [lit, dark] = [3.0, 0.0].map(|light| seen(gpu, &material, (&normals, &[]), light, DVec3::ZERO));
             let mut away = 0;
             for pixel in 0..PIXELS {
                 let surface = Surface {

@@ -7,16 +7,7 @@ use crate::meshes::{Depths, delaunay, tilings};
 use crate::stage::{Stage, everywhere, flat, on_gpu};
 
 /// Numbers of samples, and the side of the image for each.
-const COUNTS: [(u32, u32); 8] = [
-    (1, 64),
-    (2, 64),
-    (4, 64),
-    (16, 48),
-    (64, 32),
-    (100, 32),
-    (256, 16),
-    (1024, 8),
-];
+const COUNTS: [(u32, u32); 8] = [(1, 64), (2, 64), (4, 64), (16, 48), (64, 32), (100, 32), (256, 16), (1024, 8)];
 
 /// Renders white tilings of one material over an empty background, and compares all channels of each pixel.
 fn assert_every_pixel_is(alpha_mode: AlphaMode, opacity: f32, expected: f32) {
@@ -34,11 +25,7 @@ fn assert_every_pixel_is(alpha_mode: AlphaMode, opacity: f32, expected: f32) {
                 }
                 let mut stage = Stage::new(vec![flat([1.0, 1.0, 1.0, opacity], alpha_mode)]);
                 stage.add_mesh(0, &mesh, side, |triangle| triangle);
-                let pattern = if index < 4 {
-                    Pattern::Sobol
-                } else {
-                    Pattern::Lattice
-                };
+                let pattern = if index < 4 { Pattern::Sobol } else { Pattern::Lattice };
                 let settings = everywhere([side, side], pattern.clone(), samples);
                 let rendered = stage.render(gpu, &settings);
                 assert_eq!(rendered.colors.len(), (side * side) as usize);
@@ -73,11 +60,9 @@ fn blended_tilings_have_no_holes_and_no_double_hits() {
 fn crowded_tiles_have_no_holes() {
     on_gpu(|gpu| {
         let side = 16;
-        for (cells, mode, samples) in [
-            (100, AlphaMode::Opaque, 1024),
-            (200, AlphaMode::Opaque, 64),
-            (40, AlphaMode::Blend, 1024),
-        ] {
+        for (cells, mode, samples) in
+            [(100, AlphaMode::Opaque, 1024), (200, AlphaMode::Opaque, 64), (40, AlphaMode::Blend, 1024)]
+        {
             let mesh = delaunay(8, f64::from(side) / 2.0, cells, Depths::Random);
             let mut stage = Stage::new(vec![flat([0.5; 4], mode)]);
             stage.add_mesh(0, &mesh, side, |triangle| triangle);
@@ -86,10 +71,7 @@ fn crowded_tiles_have_no_holes() {
             let rendered = stage.render(gpu, &settings);
             let holes = rendered.colors.iter().filter(|c| c[0] != expected);
             let holes = holes.count();
-            assert_eq!(
-                holes, 0,
-                "pixels with holes: {cells} cells, {mode:?}, {samples} samples"
-            );
+            assert_eq!(holes, 0, "pixels with holes: {cells} cells, {mode:?}, {samples} samples");
         }
     });
 }

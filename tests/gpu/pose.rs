@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::{Camera, Orbit};
-use gpc::render::{
-    Frame, Headless, RenderError, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions,
-};
+use gpc::render::{Frame, Headless, RenderError, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{Instance, Loaded, Motion, Pose, PoseRequest};
 use serde_json::json;
 
@@ -56,30 +54,19 @@ fn film_builder() -> Builder {
         "indices": builder.indices(&indices),
         "targets": [{"POSITION": builder.floats(&tube.3), "NORMAL": builder.floats(&tube.3)}],
     });
-    let bind = [
-        1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.,
-    ];
+    let bind = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
     let inverse = builder.floats(&[bind, bind]);
     let upper = builder.push("nodes", json!({}));
     let lower = builder.push("nodes", json!({"children": [upper]}));
-    builder.push(
-        "skins",
-        json!({"joints": [lower, upper], "inverseBindMatrices": inverse}),
-    );
+    builder.push("skins", json!({"joints": [lower, upper], "inverseBindMatrices": inverse}));
     let bent = builder.node_with(primitive, json!({"skin": 0}));
 
     // Without normals, shading is flat.
-    let [base, top] = [
-        [[-0.5, 0., -0.4], [0.5, 0., -0.4], [0., 0., 0.6]],
-        [[0., 0.9, 0.]; 3],
-    ];
+    let [base, top] = [[[-0.5, 0., -0.4], [0.5, 0., -0.4], [0., 0., 0.6]], [[0., 0.9, 0.]; 3]];
     let sides = [[0, 1, 3], [1, 2, 3], [2, 0, 3]];
     let corner = |v: usize| *base.get(v).unwrap_or(&top[0]);
     let pyramid: Vec<[f32; 3]> = sides.iter().flatten().map(|v| corner(*v)).collect();
-    let squeezed: Vec<[f32; 3]> = pyramid
-        .iter()
-        .map(|[x, y, z]| [-0.6 * x, 0.3 * y, 0.5 * z * y])
-        .collect();
+    let squeezed: Vec<[f32; 3]> = pyramid.iter().map(|[x, y, z]| [-0.6 * x, 0.3 * y, 0.5 * z * y]).collect();
     let positions = builder.floats(&pyramid);
     let displaced = builder.floats(&squeezed);
     let material = builder.push("materials", json!({"doubleSided": true}));
@@ -88,51 +75,26 @@ fn film_builder() -> Builder {
     morphed["targets"] = json!([{"POSITION": displaced}]);
     let squeezing = builder.node_with(morphed, json!({"translation": [1.2, -0.5, 0.3]}));
     let turned = builder.node_with(plain.clone(), json!({"scale": [-0.8, 1.2, 1.0]}));
-    let turning = builder.push(
-        "nodes",
-        json!({"children": [turned], "translation": [-1.3, 0.2, 0.4]}),
-    );
-    builder.node_with(
-        plain,
-        json!({"translation": [0.3, -1.2, -1.0], "scale": [3.0, 1.0, 1.0]}),
-    );
+    let turning = builder.push("nodes", json!({"children": [turned], "translation": [-1.3, 0.2, 0.4]}));
+    builder.node_with(plain, json!({"translation": [0.3, -1.2, -1.0], "scale": [3.0, 1.0, 1.0]}));
 
     let input = |builder: &mut Builder| builder.floats(&[[0.0], [1.0]]);
     let mut channels = Vec::new();
     let mut samplers = Vec::new();
     let half = std::f32::consts::FRAC_1_SQRT_2;
     for (node, path, output) in [
-        (
-            upper,
-            "rotation",
-            builder.floats(&[[0., 0., 0., 1.], [0., 0., half, half]]),
-        ),
-        (
-            lower,
-            "translation",
-            builder.floats(&[[0., 0., 0.], [0.2, -0.3, 0.5]]),
-        ),
+        (upper, "rotation", builder.floats(&[[0., 0., 0., 1.], [0., 0., half, half]])),
+        (lower, "translation", builder.floats(&[[0., 0., 0.], [0.2, -0.3, 0.5]])),
         (bent, "weights", builder.floats(&[[0.0], [0.9]])),
         (squeezing, "weights", builder.floats(&[[0.0], [1.2]])),
-        (
-            turning,
-            "rotation",
-            builder.floats(&[[0., 0., 0., 1.], [0., half, 0., half]]),
-        ),
-        (
-            turning,
-            "scale",
-            builder.floats(&[[1., 1., 1.], [1.4, 0.7, 1.]]),
-        ),
+        (turning, "rotation", builder.floats(&[[0., 0., 0., 1.], [0., half, 0., half]])),
+        (turning, "scale", builder.floats(&[[1., 1., 1.], [1.4, 0.7, 1.]])),
     ] {
         let input = input(&mut builder);
         channels.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
         samplers.push(json!({"input": input, "output": output}));
     }
-    builder.push(
-        "animations",
-        json!({"channels": channels, "samplers": samplers}),
-    );
+    builder.push("animations", json!({"channels": channels, "samplers": samplers}));
     builder
 }
 
@@ -166,65 +128,30 @@ fn glow() -> Loaded {
             json!({"translation": [x, 0., 0.]}),
         );
     }
-    builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 20.0, "spot": {}}]}});
-    builder.push(
-        "nodes",
-        json!({"translation": [0., 0., 2.], "extensions": {"KHR_lights_punctual": {"light": 0}}}),
-    );
+    builder.json["extensions"] =
+        json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 20.0, "spot": {}}]}});
+    builder.push("nodes", json!({"translation": [0., 0., 2.], "extensions": {"KHR_lights_punctual": {"light": 0}}}));
     let transform = "emissiveTexture/extensions/KHR_texture_transform";
     builder.pointers(&[
-        (
-            "/materials/0/pbrMetallicRoughness/baseColorFactor",
-            vec![1., 1., 1., 1., 0.2, 1., 0.1, 1.],
-        ),
-        (
-            "/materials/1/pbrMetallicRoughness/baseColorFactor",
-            vec![1., 1., 1., 0.7, 1., 0.3, 0., 0.2],
-        ),
-        (
-            "/materials/0/emissiveFactor",
-            vec![0., 0., 0., 0.5, 0., 0.5],
-        ),
-        (
-            &format!("/materials/0/{transform}/offset"),
-            vec![0., 0., 0.4, 0.2],
-        ),
-        (
-            &format!("/materials/0/{transform}/scale"),
-            vec![1., 1., 3., 2.],
-        ),
-        (
-            "/materials/1/extensions/KHR_materials_clearcoat/clearcoatFactor",
-            vec![0., 1.],
-        ),
-        (
-            "/materials/1/pbrMetallicRoughness/roughnessFactor",
-            vec![1., 0.1],
-        ),
-        (
-            "/extensions/KHR_lights_punctual/lights/0/color",
-            vec![1., 1., 1., 0.3, 0.6, 1.],
-        ),
-        (
-            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
-            vec![0.6, 1.2],
-        ),
+        ("/materials/0/pbrMetallicRoughness/baseColorFactor", vec![1., 1., 1., 1., 0.2, 1., 0.1, 1.]),
+        ("/materials/1/pbrMetallicRoughness/baseColorFactor", vec![1., 1., 1., 0.7, 1., 0.3, 0., 0.2]),
+        ("/materials/0/emissiveFactor", vec![0., 0., 0., 0.5, 0., 0.5]),
+        (&format!("/materials/0/{transform}/offset"), vec![0., 0., 0.4, 0.2]),
+        (&format!("/materials/0/{transform}/scale"), vec![1., 1., 3., 2.]),
+        ("/materials/1/extensions/KHR_materials_clearcoat/clearcoatFactor", vec![0., 1.]),
+        ("/materials/1/pbrMetallicRoughness/roughnessFactor", vec![1., 0.1]),
+        ("/extensions/KHR_lights_punctual/lights/0/color", vec![1., 1., 1., 0.3, 0.6, 1.]),
+        ("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", vec![0.6, 1.2]),
         ("/nodes/2/translation", vec![0., 0., 2., 1., 0.5, 1.5]),
     ]);
     let loaded = builder.load().unwrap();
     let warnings = &loaded.warnings;
-    assert!(
-        !warnings.iter().any(|w| w.contains("/animations")),
-        "{warnings:?}"
-    );
+    assert!(!warnings.iter().any(|w| w.contains("/animations")), "{warnings:?}");
     loaded
 }
 
 fn at(time: f64) -> PoseRequest {
-    PoseRequest {
-        time,
-        ..PoseRequest::default()
-    }
+    PoseRequest { time, ..PoseRequest::default() }
 }
 
 struct Shown {
@@ -241,17 +168,9 @@ fn shown(gpu: &mut Headless, settings: &Settings) -> Shown {
 
 fn shown_of(gpu: &mut Headless, loaded: Loaded, settings: &Settings) -> Shown {
     let (pose, motion) = loaded.scene.pose_in_motion(&at(0.0)).unwrap();
-    let prepared = gpu
-        .upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion))
-        .unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion)).unwrap();
     let frame = gpu.prepare(&prepared, settings).unwrap();
-    Shown {
-        camera: camera(&pose),
-        loaded,
-        pose,
-        motion,
-        frame,
-    }
+    Shown { camera: camera(&pose), loaded, pose, motion, frame }
 }
 
 fn camera(pose: &Pose) -> Camera {
@@ -269,9 +188,7 @@ impl Shown {
 
     fn posed(&self, gpu: &mut Headless, time: f64) -> Rendered {
         let pose = self.loaded.scene.pose(&at(time)).unwrap();
-        let prepared = gpu
-            .upload(SceneRequest::new(&self.loaded.scene, &pose))
-            .unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&self.loaded.scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, self.frame.settings()).unwrap();
         gpu.render(&mut frame, &self.camera).unwrap()
     }
@@ -285,15 +202,8 @@ fn moments_are_poses() {
         for time in TIMES {
             let found = shown.moved(gpu, time);
             let expected = shown.posed(gpu, time);
-            let changed = ids(&still)
-                .iter()
-                .zip(ids(&found))
-                .filter(|(a, b)| **a != *b)
-                .count();
-            assert!(
-                changed > 300,
-                "only {changed} pixels show that anything moved"
-            );
+            let changed = ids(&still).iter().zip(ids(&found)).filter(|(a, b)| **a != *b).count();
+            assert!(changed > 300, "only {changed} pixels show that anything moved");
             let pairs = found.attributes.iter().zip(&expected.attributes);
             let other = pairs.clone().filter(|(a, b)| a.id != b.id).count();
             assert!(other <= 3, "{other} pixels show another triangle at {time}");
@@ -340,12 +250,7 @@ fn looks_are_those_of_poses() {
 /// A pane of green glass: half of its side, its thickness, and the node's scale.
 fn pane(half: f32, thickness: f32, scale: f32) -> Builder {
     let mut builder = Builder::new();
-    let corners = [
-        [-half, -half, 0.],
-        [half, -half, 0.],
-        [half, half, 0.],
-        [-half, half, 0.],
-    ];
+    let corners = [[-half, -half, 0.], [half, -half, 0.], [half, half, 0.], [-half, half, 0.]];
     let positions = builder.floats(&corners);
     let indices = builder.indices(&[0, 1, 2, 0, 2, 3]);
     let material = json!({"doubleSided": true, "pbrMetallicRoughness": {"metallicFactor": 0.0}, "extensions": {
@@ -355,8 +260,7 @@ fn pane(half: f32, thickness: f32, scale: f32) -> Builder {
         },
     }});
     let material = builder.push("materials", material);
-    let primitive =
-        json!({"attributes": {"POSITION": positions}, "indices": indices, "material": material});
+    let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices, "material": material});
     builder.node_with(primitive, json!({"scale": [scale, scale, scale]}));
     builder
 }
@@ -373,14 +277,12 @@ fn thickness_grows_with_the_mesh() {
         let mut drawn = |builder: &Builder, place: Option<DAffine3>| {
             let scene = builder.load().unwrap().scene;
             let mut pose = scene.pose(&at(0.0)).unwrap();
-            pose.geometry
-                .instances
-                .extend(place.map(|transform| Instance {
-                    first_triangle: 0,
-                    triangle_count: 2,
-                    first_index: 0,
-                    transform,
-                }));
+            pose.geometry.instances.extend(place.map(|transform| Instance {
+                first_triangle: 0,
+                triangle_count: 2,
+                first_index: 0,
+                transform,
+            }));
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera).unwrap().colors
@@ -408,16 +310,9 @@ fn what_does_not_belong_together_is_refused() {
     on_gpu(|gpu| {
         let mut first = shown(gpu, &once(SIZE));
         let second = shown(gpu, &once(SIZE));
-        let moment = second
-            .motion
-            .at(&second.loaded.scene, 0.5)
-            .unwrap()
-            .unwrap();
+        let moment = second.motion.at(&second.loaded.scene, 0.5).unwrap().unwrap();
         let refused = first.frame.show(Arc::new(moment));
-        assert!(
-            matches!(refused, Err(RenderError::OtherMotion)),
-            "{refused:?}"
-        );
+        assert!(matches!(refused, Err(RenderError::OtherMotion)), "{refused:?}");
         let other = crate::blend::panes().build();
         for shadows in [Shadows::None, Shadows::Exact] {
             let request = SceneRequest::new(&other.0, &other.1).moving(&first.motion);
@@ -437,45 +332,27 @@ fn what_does_not_belong_together_is_refused() {
 /// of a wall.
 fn lit_film() -> Builder {
     let mut builder = film_builder();
-    let corners = [
-        [-3., -3., -2.],
-        [3., -3., -2.],
-        [3., 3., -2.],
-        [-3., 3., -2.],
-    ];
+    let corners = [[-3., -3., -2.], [3., -3., -2.], [3., 3., -2.], [-3., 3., -2.]];
     let wall = builder.floats(&corners);
     let pane = builder.floats(&corners.map(|[x, y, _]| [0.2 * x, 0.2 * y, 1.5]));
     let indices = builder.indices(&[0, 1, 2, 0, 2, 3]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": wall}, "indices": indices}),
-        json!({}),
+    builder.node_with(json!({"attributes": {"POSITION": wall}, "indices": indices}), json!({}));
+    let glass = builder.push(
+        "materials",
+        json!({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1., 1., 1., 0.2]}}),
     );
-    let glass = builder.push("materials", json!({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1., 1., 1., 0.2]}}));
-    let primitive =
-        json!({"attributes": {"POSITION": pane}, "indices": indices, "material": glass});
+    let primitive = json!({"attributes": {"POSITION": pane}, "indices": indices, "material": glass});
     builder.node_with(primitive, json!({"translation": [0.8, 0.9, 0.]}));
     builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
         {"type": "spot", "intensity": 60.0, "spot": {"outerConeAngle": 1.0}},
         {"type": "directional", "intensity": 2.0},
     ]}});
     let light = |light: u32| json!({"KHR_lights_punctual": {"light": light}});
-    let lamp = builder.push(
-        "nodes",
-        json!({"translation": [0.5, 0.5, 4.], "extensions": light(0)}),
-    );
-    builder.push(
-        "nodes",
-        json!({"rotation": [-0.2, 0.2, 0., 0.96], "extensions": light(1)}),
-    );
+    let lamp = builder.push("nodes", json!({"translation": [0.5, 0.5, 4.], "extensions": light(0)}));
+    builder.push("nodes", json!({"rotation": [-0.2, 0.2, 0., 0.96], "extensions": light(1)}));
     builder.pointers(&[
-        (
-            &format!("/nodes/{lamp}/translation"),
-            vec![0.5, 0.5, 4., -1.5, 1., 3.],
-        ),
-        (
-            &format!("/materials/{glass}/pbrMetallicRoughness/baseColorFactor"),
-            vec![1., 1., 1., 0.2, 1., 1., 1., 1.],
-        ),
+        (&format!("/nodes/{lamp}/translation"), vec![0.5, 0.5, 4., -1.5, 1., 3.]),
+        (&format!("/materials/{glass}/pbrMetallicRoughness/baseColorFactor"), vec![1., 1., 1., 0.2, 1., 1., 1., 1.]),
     ]);
     join_animations(&mut builder);
     builder
@@ -488,8 +365,7 @@ fn join_animations(builder: &mut Builder) {
     for animation in animations.as_array().unwrap() {
         for channel in animation["channels"].as_array().unwrap() {
             let mut channel = channel.clone();
-            channel["sampler"] =
-                json!(channel["sampler"].as_u64().unwrap() as usize + samplers.len());
+            channel["sampler"] = json!(channel["sampler"].as_u64().unwrap() as usize + samplers.len());
             channels.push(channel);
         }
         samplers.extend(animation["samplers"].as_array().unwrap().iter().cloned());
@@ -502,28 +378,20 @@ fn join_animations(builder: &mut Builder) {
 fn shadows_follow_the_moment() {
     on_gpu(|gpu| {
         let scene = lit_film().load().unwrap().scene;
-        let settings = Settings::new(SIZE[0], SIZE[1])
-            .shadows(Shadows::Exact)
-            .method(SuperpixelOptions::new(16));
+        let settings = Settings::new(SIZE[0], SIZE[1]).shadows(Shadows::Exact).method(SuperpixelOptions::new(16));
         let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
         let camera = camera(&pose);
-        let request = SceneRequest::new(&scene, &pose)
-            .moving(&motion)
-            .shadowed(Shadows::Exact);
+        let request = SceneRequest::new(&scene, &pose).moving(&motion).shadowed(Shadows::Exact);
         let prepared = gpu.upload(request).unwrap();
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
         for time in TIMES {
-            frame
-                .show(Arc::new(motion.at(&scene, time).unwrap().unwrap()))
-                .unwrap();
+            frame.show(Arc::new(motion.at(&scene, time).unwrap().unwrap())).unwrap();
             let found = gpu.render(&mut frame, &camera).unwrap().colors;
             let posed = |shadows, gpu: &mut Headless| {
                 let pose = scene.pose(&at(time)).unwrap();
                 let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
                 let prepared = gpu.upload(request).unwrap();
-                let mut frame = gpu
-                    .prepare(&prepared, &settings.clone().shadows(shadows))
-                    .unwrap();
+                let mut frame = gpu.prepare(&prepared, &settings.clone().shadows(shadows)).unwrap();
                 gpu.render(&mut frame, &camera).unwrap().colors
             };
             let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
@@ -532,10 +400,7 @@ fn shadows_follow_the_moment() {
                 (squares / (4 * a.len()) as f64).sqrt()
             };
             let expected = posed(Shadows::Exact, gpu);
-            let (error, shade) = (
-                apart(&found, &expected),
-                apart(&posed(Shadows::None, gpu), &expected),
-            );
+            let (error, shade) = (apart(&found, &expected), apart(&posed(Shadows::None, gpu), &expected));
             println!("{time}: {error} {shade}");
             assert!(shade > 0.015, "{shade}: hardly a shadow at {time}");
             assert!(error < 1e-4, "{error} at {time}");

@@ -22,10 +22,7 @@ fn cubes(color: impl Fn(u32, DVec3) -> DVec3) -> Vec<Cube> {
                 let color = color(level, Cube::direction(side, i));
                 color.to_array().map(|x| f64::from(f16::from_f64(x))).into()
             });
-            Cube {
-                side,
-                texels: texels.collect(),
-            }
+            Cube { side, texels: texels.collect() }
         })
         .collect()
 }
@@ -46,10 +43,7 @@ fn halved(fine: &Cube) -> Cube {
         let sum = |total: DVec3, (i, weight): (u32, f64)| total + fine.texels[i as usize] * weight;
         four.into_iter().zip(weights).fold(DVec3::ZERO, sum) / weights.iter().sum::<f64>()
     };
-    Cube {
-        side,
-        texels: (0..6 * side * side).map(texel).collect(),
-    }
+    Cube { side, texels: (0..6 * side * side).map(texel).collect() }
 }
 
 /// Filtered levels, from the first that is not the finest cube itself.
@@ -65,9 +59,7 @@ fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     let (layout, memory) = unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
     let bytes: &[u8] = bytemuck::cast_slice(&texels);
     let usage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
-    let mut buffer = memory
-        .buffer("texels", bytes.len() as u64, usage, MemoryUse::Readback)
-        .unwrap();
+    let mut buffer = memory.buffer("texels", bytes.len() as u64, usage, MemoryUse::Readback).unwrap();
     buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
     let prefilter = Prefilter::new(&layout, &memory, buffer, SIDE).unwrap();
     submit(gpu.gpu(), |commands| {
@@ -111,11 +103,7 @@ fn every_texel_is_the_twins() {
                 let expected = average(&sources, &rays, Cube::direction(cube.side, i));
                 // A half float has 11 bits, and drivers may round either way.
                 let off = ((texel - expected) / expected).abs().max_element();
-                assert!(
-                    off < 1.2 / 1024.0,
-                    "{} a side, texel {i}: {texel}, expected {expected}",
-                    cube.side
-                );
+                assert!(off < 1.2 / 1024.0, "{} a side, texel {i}: {texel}, expected {expected}", cube.side);
             }
         }
     });
@@ -127,10 +115,7 @@ fn what_is_alike_all_around_stays_so() {
         let color = DVec3::new(0.5, 1.0, 40.0);
         for cube in filtered(gpu, &cubes(|_, _| color)) {
             for texel in cube.texels {
-                assert!(
-                    ((texel - color) / color).abs().max_element() < 1e-3,
-                    "{texel}"
-                );
+                assert!(((texel - color) / color).abs().max_element() < 1e-3, "{texel}");
             }
         }
     });
@@ -145,20 +130,12 @@ fn a_sky_brighter_to_one_side_has_a_closed_form() {
         let found = filtered(gpu, &cubes(|_, d| DVec3::splat(1.0 + d.dot(towards))));
         let mut expected = 0.0;
         for (cube, rays) in found.iter().zip(lobes(found.len())) {
-            let sum = |power: i32| {
-                rays.iter()
-                    .map(|ray| f64::from(ray[2]).powi(power))
-                    .sum::<f64>()
-            };
+            let sum = |power: i32| rays.iter().map(|ray| f64::from(ray[2]).powi(power)).sum::<f64>();
             expected = sum(2) / sum(1);
             for (i, texel) in (0..).zip(&cube.texels) {
                 let expected = 1.0 + expected * Cube::direction(cube.side, i).dot(towards);
                 let off = (texel.x - expected).abs();
-                assert!(
-                    off < 0.03,
-                    "{} a side: {texel}, expected {expected}",
-                    cube.side
-                );
+                assert!(off < 0.03, "{} a side: {texel}, expected {expected}", cube.side);
             }
         }
         assert!((expected - 2.0 / 3.0).abs() < 1e-3, "{expected}");
@@ -190,19 +167,13 @@ fn a_small_light_makes_no_sparks() {
         assert!(expected > 0.0);
         for cube in &filtered(gpu, &sources)[1..] {
             let found = mean(cube);
-            assert!(
-                (found / expected - 1.0).abs() < 0.25,
-                "{found}, expected {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 0.25, "{found}, expected {expected}");
             // Along the row of the light, the values rise towards it and fall after it.
             let start = (5 * cube.side + cube.side / 2) * cube.side;
-            let row: Vec<_> = (start..start + cube.side)
-                .map(|i| cube.texels[i as usize].x)
-                .collect();
+            let row: Vec<_> = (start..start + cube.side).map(|i| cube.texels[i as usize].x).collect();
             let peak = row.iter().copied().fold(0.0, f64::max);
-            let turns = row.windows(3).filter(|w| {
-                (w[1] - w[0]) * (w[2] - w[1]) < 0.0 && (w[1] - w[0]).abs() > 0.02 * peak
-            });
+            let turns =
+                row.windows(3).filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0 && (w[1] - w[0]).abs() > 0.02 * peak);
             assert!(turns.count() <= 1, "{row:?}");
         }
     });

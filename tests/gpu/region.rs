@@ -1,8 +1,8 @@
 //! Regions of an image have the same values as in the whole image.
 
 use gpc::render::{
-    EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings,
-    Shading, SuperpixelOptions,
+    EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings, Shading,
+    SuperpixelOptions,
 };
 use gpc::scene::{AlphaMode, Material};
 
@@ -31,19 +31,8 @@ fn region(corner: [u32; 2], size: [u32; 2]) -> PixelRect {
 fn behind_glass() -> Stage {
     let mut stage = ball_over_checker();
     let glass = stage.materials.len();
-    stage.materials.push(Material {
-        double_sided: true,
-        ..flat([0.3, 0.6, 0.9, 0.4], AlphaMode::Blend)
-    });
-    stage.add_quad(
-        glass,
-        [
-            [-0.2, -0.5, -1.4],
-            [0.6, -0.45, -1.5],
-            [0.7, 0.5, -1.6],
-            [-0.1, 0.4, -1.5],
-        ],
-    );
+    stage.materials.push(Material { double_sided: true, ..flat([0.3, 0.6, 0.9, 0.4], AlphaMode::Blend) });
+    stage.add_quad(glass, [[-0.2, -0.5, -1.4], [0.6, -0.45, -1.5], [0.7, 0.5, -1.6], [-0.1, 0.4, -1.5]]);
     stage
 }
 
@@ -79,15 +68,9 @@ fn assert_regions_are_parts(
         let settings = settings.clone().region(Some(wanted));
         let image = render(gpu, stage, &settings);
         assert_eq!(image.size, size);
-        assert!(
-            image.colors == part(&whole.colors, row, wanted),
-            "{what}: colours of {wanted:?}"
-        );
+        assert!(image.colors == part(&whole.colors, row, wanted), "{what}: colours of {wanted:?}");
         if settings.attributes {
-            assert!(
-                image.attributes == part(&whole.attributes, row, wanted),
-                "{what}: attributes of {wanted:?}"
-            );
+            assert!(image.attributes == part(&whole.attributes, row, wanted), "{what}: attributes of {wanted:?}");
             let superpixels = |pixel: &gpc::render::PixelAttributes| pixel.superpixel == 1;
             assert_eq!(
                 image.statistics.superpixels as usize,
@@ -160,15 +143,13 @@ fn regions_of_crowded_tiles_are_parts_of_the_image() {
         (corner, size)
     });
     let stage = crowd();
-    for (name, policy) in [
-        ("CPU", as_cpu as fn(&mut gpc::vulkan::Limits)),
-        ("GPU", as_gpu as fn(&mut gpc::vulkan::Limits)),
-    ] {
+    for (name, policy) in
+        [("CPU", as_cpu as fn(&mut gpc::vulkan::Limits)), ("GPU", as_gpu as fn(&mut gpc::vulkan::Limits))]
+    {
         within(policy, |gpu| {
             for samples in [16, 64] {
-                let settings = Settings::new(CROWDED[0], CROWDED[1])
-                    .attributes(true)
-                    .method(SuperpixelOptions::new(samples));
+                let settings =
+                    Settings::new(CROWDED[0], CROWDED[1]).attributes(true).method(SuperpixelOptions::new(samples));
                 let what = format!("{name}, {samples} samples");
                 assert_regions_are_parts(gpu, &stage, &settings, &regions, &what);
             }
@@ -195,18 +176,10 @@ fn impossible_regions_are_refused() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
         let prepared = stage.upload(gpu);
-        for (corner, size) in [
-            ([150, 0], [8, 8]),
-            ([0, 113], [1, 1]),
-            ([0, 0], [0, 4]),
-            ([1, 1], [u32::MAX, 1]),
-        ] {
+        for (corner, size) in [([150, 0], [8, 8]), ([0, 113], [1, 1]), ([0, 0], [0, 4]), ([1, 1], [u32::MAX, 1])] {
             let settings = Settings::new(SIZE[0], SIZE[1]).region(Some(region(corner, size)));
             let refused = gpu.prepare(&prepared, &settings).err().unwrap();
-            assert!(
-                matches!(refused, RenderError::Engine(EngineError::Region { .. })),
-                "{refused}"
-            );
+            assert!(matches!(refused, RenderError::Engine(EngineError::Region { .. })), "{refused}");
         }
         let settings = Settings::new(SIZE[0], SIZE[1]).region(Some(region([0, 0], [8, 8])));
         let refused = gpu.render_locations(&prepared, &[], &settings);

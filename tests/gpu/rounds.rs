@@ -1,9 +1,7 @@
 //! Rounds of a device with plenty of memory and of one without. One of them is simulated.
 
 use glam::DVec3;
-use gpc::render::{
-    Frame, Headless, PassTime, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions,
-};
+use gpc::render::{Frame, Headless, PassTime, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{Light, LightKind};
 
 use crate::devices::within;
@@ -74,8 +72,7 @@ fn the_passes_of_all_rounds_are_timed() {
     together.scene.max_memory = Some(24 << 20);
     let one_by_one = together.clone().time_rounds(true);
     on_gpu(|gpu| {
-        let [together, one_by_one] =
-            [together, one_by_one].map(|settings| render(gpu, &stage, &settings));
+        let [together, one_by_one] = [together, one_by_one].map(|settings| render(gpu, &stage, &settings));
         assert!(together.colors == one_by_one.colors);
         assert!(together.statistics.rounds > 8);
         let passes = [&together, &one_by_one].map(|image| &image.statistics.passes);

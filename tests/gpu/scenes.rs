@@ -9,12 +9,8 @@ use crate::stage::{Stage, flat};
 /// A faceted ball above a checker floor, with a fan of wires behind it. No edge runs along a pixel's diagonal or side
 /// through its centre, where samples would tie.
 pub fn ball_over_checker() -> Stage {
-    let lit = |base_color| Material {
-        unlit: false,
-        metallic: 0.0,
-        roughness: 0.5,
-        ..flat(base_color, AlphaMode::Opaque)
-    };
+    let lit =
+        |base_color| Material { unlit: false, metallic: 0.0, roughness: 0.5, ..flat(base_color, AlphaMode::Opaque) };
     let mut stage = Stage::new(vec![
         lit([0.8, 0.1, 0.05, 1.0]),
         lit([0.9, 0.9, 0.85, 1.0]),
@@ -27,31 +23,13 @@ pub fn ball_over_checker() -> Stage {
         let corner = |x: f64, z: f64| [x as f32, -1.0, z as f32];
         stage.add_quad(
             usize::from(1 + (row + column) % 2),
-            [
-                corner(left, near),
-                corner(left + 0.7, near),
-                corner(left + 0.7, near - 0.7),
-                corner(left, near - 0.7),
-            ],
+            [corner(left, near), corner(left + 0.7, near), corner(left + 0.7, near - 0.7), corner(left, near - 0.7)],
         );
     }
     for wire in 0..9 {
         let angle = f64::from(wire) * 0.19 + 0.07;
-        let at = |angle: f64, far: f64| {
-            [
-                (1.1 - far * angle.cos()) as f32,
-                (far * angle.sin() - 0.9) as f32,
-                -3.5,
-            ]
-        };
-        stage.add(
-            3,
-            [
-                [1.1, -0.9, -3.5],
-                at(angle + 0.006, 3.0),
-                at(angle - 0.006, 3.0),
-            ],
-        );
+        let at = |angle: f64, far: f64| [(1.1 - far * angle.cos()) as f32, (far * angle.sin() - 0.9) as f32, -3.5];
+        stage.add(3, [[1.1, -0.9, -3.5], at(angle + 0.006, 3.0), at(angle - 0.006, 3.0)]);
     }
     stage
 }
@@ -61,19 +39,11 @@ fn ball(stage: &mut Stage, middle: [f64; 3], radius: f64) {
     const RINGS: u32 = 10;
     const SECTORS: u32 = 16;
     let at = |ring: u32, sector: u32| {
-        let (polar, azimuth) = (
-            PI * f64::from(ring) / f64::from(RINGS),
-            TAU * f64::from(sector) / f64::from(SECTORS),
-        );
-        let direction = [
-            polar.sin() * azimuth.sin(),
-            polar.cos(),
-            polar.sin() * azimuth.cos(),
-        ];
+        let (polar, azimuth) = (PI * f64::from(ring) / f64::from(RINGS), TAU * f64::from(sector) / f64::from(SECTORS));
+        let direction = [polar.sin() * azimuth.sin(), polar.cos(), polar.sin() * azimuth.cos()];
         [0, 1, 2].map(|axis| (middle[axis] + radius * direction[axis]) as f32)
     };
-    for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector)))
-    {
+    for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector))) {
         let [a, b] = [at(ring, sector), at(ring + 1, sector)];
         let [c, d] = [at(ring + 1, sector + 1), at(ring, sector + 1)];
         stage.add_quad(0, [a, b, c, d]);

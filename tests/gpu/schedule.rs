@@ -4,8 +4,8 @@ use gpc::bench::Random;
 use gpc::reference::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 use gpc::render::Headless;
 use gpc::testing::{
-    Argument, Buffer, Cells, Counter, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder,
-    ResourceSizes, SampleBlocks, SampleOptions, load_passes,
+    Argument, Buffer, Cells, Counter, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder, ResourceSizes,
+    SampleBlocks, SampleOptions, load_passes,
 };
 
 use crate::bare::{Bare, copy};
@@ -99,20 +99,12 @@ struct Kept {
 impl Kept {
     fn new(bare: &Bare) -> Self {
         let (resources, like) = (&bare.resources, |buffer| bare.like(buffer));
-        Self {
-            counters: like(&resources.counters),
-            tiles: like(&resources.tiles),
-            work: like(&resources.tile_lists),
-        }
+        Self { counters: like(&resources.counters), tiles: like(&resources.tiles), work: like(&resources.tile_lists) }
     }
 
     fn read(&self, tiles: usize) -> Found {
         let all = |buffer: &Buffer| buffer.read(buffer.size() as usize / 4).unwrap().to_vec();
-        Found {
-            counters: all(&self.counters),
-            tiles: self.tiles.read(tiles).unwrap().to_vec(),
-            work: all(&self.work),
-        }
+        Found { counters: all(&self.counters), tiles: self.tiles.read(tiles).unwrap().to_vec(), work: all(&self.work) }
     }
 }
 
@@ -186,45 +178,22 @@ impl<'a> Passes<'a> {
             candidates: case.candidates,
             records: case.records,
         };
-        Self {
-            gpu,
-            bare,
-            load,
-            passes,
-            sizes,
-            uniform,
-            twin,
-        }
+        Self { gpu, bare, load, passes, sizes, uniform, twin }
     }
 
     /// Number of rounds that are recorded for tiles with `candidates` candidates in total.
     fn recorded(&self, candidates: u32) -> usize {
-        let sizes = ResourceSizes {
-            pair_capacity: candidates,
-            ..self.sizes
-        };
+        let sizes = ResourceSizes { pair_capacity: candidates, ..self.sizes };
         self.load.most_rounds(&sizes, self.uniform.triangle_count) as usize
     }
 
     /// Buffers after each of `count` rounds on the device.
     fn run(&self, content: &[(u32, [u32; 4])], count: usize) -> Vec<Found> {
-        let Self {
-            gpu,
-            bare: Bare {
-                memory, resources, ..
-            },
-            passes: [tally, schedule],
-            uniform,
-            ..
-        } = self;
+        let Self { gpu, bare: Bare { memory, resources, .. }, passes: [tally, schedule], uniform, .. } = self;
         let masks: Vec<u32> = content.iter().map(|tile| tile.0).collect();
         let tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
         let busy = masks.iter().filter(|&&mask| mask != 0).count() as u32;
-        let upload = |words: &[u32]| {
-            memory
-                .upload("upload", bytemuck::cast_slice(words))
-                .unwrap()
-        };
+        let upload = |words: &[u32]| memory.upload("upload", bytemuck::cast_slice(words)).unwrap();
         let (mask_upload, tile_upload) = (upload(&masks), upload(tiles.as_flattened()));
         let mut counters = [0; Counter::COUNT];
         counters[Counter::Tiles as usize] = busy;
@@ -274,13 +243,7 @@ fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
 
 /// Entries of each list, in order.
 fn entries(round: &Round, tiles: &[Tile], team: u32) -> [Vec<u32>; 4] {
-    [
-        ScheduledList::Plain,
-        ScheduledList::Masked,
-        ScheduledList::Blended,
-        ScheduledList::Unlisted,
-    ]
-    .map(|list| {
+    [ScheduledList::Plain, ScheduledList::Masked, ScheduledList::Blended, ScheduledList::Unlisted].map(|list| {
         let placed = round.placed.iter().filter(|placed| placed.list == list);
         let parts = |placed: &Placed| {
             let cells = tiles[placed.tile].cells;
@@ -300,28 +263,19 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     // Pairs are dropped only if they have filled all the room that the device allows.
     let most_pairs = ResourceSizes::most_pairs(passes.gpu.gpu().limits());
     let recorded = passes.recorded(most_pairs as u32);
-    assert!(
-        expected.len() <= recorded,
-        "{}: {} of {recorded}",
-        case.name,
-        expected.len()
-    );
+    assert!(expected.len() <= recorded, "{}: {} of {recorded}", case.name, expected.len());
     let found = passes.run(&content, expected.len() + IDLE);
     let team = passes.gpu.gpu().limits().teams.members;
     let mut tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
     let (mut busy_rounds, mut candidates, mut unlisted) = (0, 0, 0);
     for (number, found) in found.iter().enumerate() {
         let what = format!("{}, seed {seed}, round {number}", case.name);
-        let round = expected.get(number).cloned().unwrap_or_else(|| Round {
-            tiles: content.len()..content.len(),
-            placed: Vec::new(),
-        });
+        let round = expected
+            .get(number)
+            .cloned()
+            .unwrap_or_else(|| Round { tiles: content.len()..content.len(), placed: Vec::new() });
         let counter = |counter: Counter| found.counters[counter as usize];
-        assert_eq!(
-            counter(Counter::RoundFirst),
-            round.tiles.start as u32,
-            "{what}"
-        );
+        assert_eq!(counter(Counter::RoundFirst), round.tiles.start as u32, "{what}");
         assert_eq!(counter(Counter::NextTile), round.tiles.end as u32, "{what}");
         for placed in &round.placed {
             let tile = &mut tiles[placed.tile];
@@ -359,12 +313,7 @@ fn rounds_are_the_twins() {
     on_gpu(|gpu| {
         let cases = [
             USUAL,
-            Case {
-                name: "one tile",
-                size: [1, 1],
-                sparseness: 1,
-                ..USUAL
-            },
+            Case { name: "one tile", size: [1, 1], sparseness: 1, ..USUAL },
             Case {
                 name: "all in one round",
                 size: [240, 270],
@@ -410,13 +359,7 @@ fn rounds_are_the_twins() {
                 rarity: 2,
                 ..USUAL
             },
-            Case {
-                name: "records of samples",
-                samples: 16,
-                records_are: RecordRate::Sample,
-                blends: true,
-                ..USUAL
-            },
+            Case { name: "records of samples", samples: 16, records_are: RecordRate::Sample, blends: true, ..USUAL },
         ];
         let counts = cases.map(|case| {
             let passes = Passes::new(gpu, &case);
@@ -424,10 +367,7 @@ fn rounds_are_the_twins() {
         });
         // A single tile, tiles that fit together, and tiles that are skipped take one round; the others take several.
         assert_eq!([counts[1], counts[2], counts[6]], [1, 1, 1]);
-        assert!(
-            [0, 3, 4, 5, 7].iter().all(|&case| counts[case] > 3),
-            "{counts:?}"
-        );
+        assert!([0, 3, 4, 5, 7].iter().all(|&case| counts[case] > 3), "{counts:?}");
     });
 }
 
@@ -435,14 +375,7 @@ fn rounds_are_the_twins() {
 #[test]
 fn rounds_end_with_stretches() {
     on_gpu(|gpu| {
-        let case = Case {
-            name: "even",
-            size: [256, 40],
-            samples: 4,
-            candidates: 9 * 256,
-            records: 1 << 20,
-            ..USUAL
-        };
+        let case = Case { name: "even", size: [256, 40], samples: 4, candidates: 9 * 256, records: 1 << 20, ..USUAL };
         let content = vec![(1, [3, 0, 0, 0]); 256 * 40];
         let passes = Passes::new(gpu, &case);
         let expected = passes.twin.of(&twins_of(&content));
@@ -464,30 +397,11 @@ fn as_many_rounds_are_recorded_as_tiles_may_take() {
         for (name, triangles, records, records_are, tile) in [
             ("records", 1000, 200_000, RecordRate::Part, [2, 0, 0, 0]),
             ("samples", 1000, 200_000, RecordRate::Sample, [0; 4]),
-            (
-                "candidates",
-                1000,
-                MUCH,
-                RecordRate::Triangle,
-                [60, 0, 0, 0],
-            ),
-            (
-                "dense",
-                350_000,
-                MUCH,
-                RecordRate::Triangle,
-                [2501, 0, 0, 0],
-            ),
+            ("candidates", 1000, MUCH, RecordRate::Triangle, [60, 0, 0, 0]),
+            ("dense", 350_000, MUCH, RecordRate::Triangle, [2501, 0, 0, 0]),
         ] {
-            let case = Case {
-                name,
-                size: [60, 40],
-                triangles,
-                records_are,
-                records,
-                unlisted: tile[0] > 2500,
-                ..USUAL
-            };
+            let case =
+                Case { name, size: [60, 40], triangles, records_are, records, unlisted: tile[0] > 2500, ..USUAL };
             let passes = Passes::new(gpu, &case);
             let content = vec![(u32::MAX, tile); 60 * 40];
             let taken = passes.twin.of(&twins_of(&content)).len();
@@ -496,10 +410,7 @@ fn as_many_rounds_are_recorded_as_tiles_may_take() {
             // More rounds are recorded for dense tiles, because it is not known beforehand that these tiles have no
             // lists.
             let most = if case.unlisted { recorded } else { 2 * taken };
-            assert!(
-                (taken..=most).contains(&recorded),
-                "{name}: {taken} of {recorded}"
-            );
+            assert!((taken..=most).contains(&recorded), "{name}: {taken} of {recorded}");
         }
     });
 }

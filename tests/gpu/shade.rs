@@ -9,27 +9,15 @@ use crate::stage::{Stage, camera, flat, on_gpu, once, seen_at};
 const SIZE: [u32; 2] = [48, 32];
 
 fn read(texture: u32, scale: f32) -> Option<TextureUse> {
-    Some(TextureUse {
-        texture,
-        uv_set: 0,
-        transform: TextureTransform([[scale, 0.0, 0.0], [0.0, scale, 0.0]]),
-    })
+    Some(TextureUse { texture, uv_set: 0, transform: TextureTransform([[scale, 0.0, 0.0], [0.0, scale, 0.0]]) })
 }
 
 /// A surface of a lit material, all of whose textures have the same noise.
 fn lit(material: Material) -> Stage {
     let mut random = Random::new(3);
-    let mut stage = Stage::new(vec![Material {
-        unlit: false,
-        metallic: 0.7,
-        ..material
-    }]);
+    let mut stage = Stage::new(vec![Material { unlit: false, metallic: 0.7, ..material }]);
     stage.texture = Some((
-        Image {
-            width: 16,
-            height: 16,
-            pixels: (0..16 * 16 * 4).map(|_| random.below(256) as u8).collect(),
-        },
+        Image { width: 16, height: 16, pixels: (0..16 * 16 * 4).map(|_| random.below(256) as u8).collect() },
         Sampler::default(),
     ));
     let corners = [[-50.0, -40.0], [-45.0, 45.0], [50.0, 38.0], [47.0, -43.0]];
@@ -56,10 +44,7 @@ fn packed_occlusion_is_occlusion() {
             let (mut scene, pose) = stage.build();
             let copy = scene.images[0].clone();
             scene.images.push(copy);
-            scene.textures.push(Texture {
-                image: 1,
-                sampler: Sampler::default(),
-            });
+            scene.textures.push(Texture { image: 1, sampler: Sampler::default() });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let settings = once(SIZE).method(Method::None);
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
@@ -80,11 +65,8 @@ fn packed_occlusion_is_occlusion() {
 fn textures_of_other_sizes_keep_their_own_footprint() {
     on_gpu(|gpu| {
         let mut random = Random::new(4);
-        let larger = Image {
-            width: 64,
-            height: 64,
-            pixels: (0..64 * 64 * 4).map(|_| random.below(256) as u8).collect(),
-        };
+        let larger =
+            Image { width: 64, height: 64, pixels: (0..64 * 64 * 4).map(|_| random.below(256) as u8).collect() };
         let mut shaded = |base, emissive: Option<TextureUse>| {
             let stage = lit(Material {
                 base_color_texture: base,
@@ -94,14 +76,10 @@ fn textures_of_other_sizes_keep_their_own_footprint() {
             });
             let (mut scene, pose) = stage.build();
             scene.images.push(larger.clone());
-            scene.textures.push(Texture {
-                image: 1,
-                sampler: Sampler::default(),
-            });
+            scene.textures.push(Texture { image: 1, sampler: Sampler::default() });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
-            let uniform =
-                SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
+            let uniform = SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
             let settings = once(SIZE).method(uniform.thin(false));
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera()).unwrap().colors

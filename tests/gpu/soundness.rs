@@ -4,8 +4,7 @@
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
 use gpc::render::{
-    EngineError, Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings,
-    Target,
+    EngineError, Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings, Target,
 };
 use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
 use gpc::testing::{MemoryUse, memory};
@@ -51,9 +50,7 @@ fn a_scene_is_uploaded_before_it_is_shown() {
     on_gpu(|gpu| {
         let (scene, pose) = stage().build();
         let renderer = Renderer::in_gpu(gpu.gpu().clone()).unwrap();
-        let prepared = renderer
-            .prepare_scene(SceneRequest::new(&scene, &pose))
-            .unwrap();
+        let prepared = renderer.prepare_scene(SceneRequest::new(&scene, &pose)).unwrap();
         let refused = gpu.prepare(&prepared, &once(SIZE)).err();
         assert!(matches!(refused, Some(RenderError::NotUploaded)));
     });
@@ -71,21 +68,14 @@ fn discarded_recordings_change_nothing() {
         let device = gpu.gpu().clone();
         let renderer = Renderer::in_gpu(device.clone()).unwrap();
         let (scene, pose) = stage().build();
-        let prepared = renderer
-            .prepare_scene(SceneRequest::new(&scene, &pose))
-            .unwrap();
+        let prepared = renderer.prepare_scene(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = renderer.prepare(&prepared, &settings, None).unwrap();
         // SAFETY: buffers made from it are read once the commands have run.
         let memory = unsafe { memory(&device, None) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let pixels = (SIZE[0] * SIZE[1]) as usize;
-        let colors = memory
-            .buffer("colours", 16 * pixels as u64, usage, MemoryUse::Readback)
-            .unwrap();
-        let target = Target::Buffer {
-            colors: colors.handle(),
-            attributes: None,
-        };
+        let colors = memory.buffer("colours", 16 * pixels as u64, usage, MemoryUse::Readback).unwrap();
+        let target = Target::Buffer { colors: colors.handle(), attributes: None };
         let refusal = |frame: &Frame| match frame.statistics() {
             Err(RenderError::Engine(EngineError::Vulkan(error))) => error,
             other => panic!("{other:?}"),
@@ -102,9 +92,7 @@ fn discarded_recordings_change_nothing() {
         discard(&device, |commands| record(&mut frame, commands));
         assert!(is_not_done(&refusal(&frame)));
         let again = renderer.prepare_again(&frame).err();
-        assert!(
-            matches!(&again, Some(RenderError::Engine(EngineError::Vulkan(error))) if is_not_done(error))
-        );
+        assert!(matches!(&again, Some(RenderError::Engine(EngineError::Vulkan(error))) if is_not_done(error)));
         submit(&device, |commands| record(&mut frame, commands));
         assert_eq!(colors.read::<[f32; 4]>(pixels).unwrap(), expected.colors);
         let found = frame.statistics().unwrap();
@@ -129,54 +117,29 @@ fn geometry_that_contradicts_itself_is_refused() {
         };
         assert_eq!(
             refused(&|geometry| geometry.triangles[3][1] = vertices as u32),
-            GeometryError::Index {
-                triangle: 3,
-                index: vertices as u32,
-                vertices
-            }
+            GeometryError::Index { triangle: 3, index: vertices as u32, vertices }
         );
         assert_eq!(
             refused(&|geometry| geometry.streams.normals.truncate(2)),
-            GeometryError::Stream {
-                stream: "normals",
-                found: 2,
-                vertices
-            }
+            GeometryError::Stream { stream: "normals", found: 2, vertices }
         );
         assert_eq!(
             refused(&|geometry| geometry.draws[0].material = 77),
-            GeometryError::Material {
-                draw: 0,
-                material: 77,
-                materials: scene.materials.len()
-            }
+            GeometryError::Material { draw: 0, material: 77, materials: scene.materials.len() }
         );
         assert_eq!(
             refused(&|geometry| geometry.draws[0].triangle_count = u32::MAX),
-            GeometryError::Draw {
-                draw: 0,
-                first: 0,
-                expected: 0,
-                triangles
-            }
+            GeometryError::Draw { draw: 0, first: 0, expected: 0, triangles }
         );
         let draws = pose.geometry.draws.len();
         let last = pose.geometry.draws.last().unwrap().first_triangle;
         assert_eq!(
             refused(&|geometry| geometry.draws.truncate(draws - 1)),
-            GeometryError::Draw {
-                draw: draws - 1,
-                first: triangles as u32,
-                expected: last as usize,
-                triangles
-            }
+            GeometryError::Draw { draw: draws - 1, first: triangles as u32, expected: last as usize, triangles }
         );
         assert_eq!(
             refused(&|geometry| geometry.draws[0].class = DrawClass::BlendDoubleSided),
-            GeometryError::Order {
-                draw: 1,
-                class: pose.geometry.draws[1].class
-            }
+            GeometryError::Order { draw: 1, class: pose.geometry.draws[1].class }
         );
     });
 }
@@ -206,11 +169,7 @@ fn uploads_count_until_they_are_freed() {
         let side = 512;
         let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
         stage.add(0, [[-1.0, -1.0, -2.0], [1.0, -1.0, -2.0], [0.0, 1.0, -2.0]]);
-        let image = Image {
-            width: side,
-            height: side,
-            pixels: vec![200; 4 * (side * side) as usize],
-        };
+        let image = Image { width: side, height: side, pixels: vec![200; 4 * (side * side) as usize] };
         stage.texture = Some((image, Sampler::default()));
         let image = u64::from(4 * side * side);
         let prepared = stage.upload(gpu);
@@ -227,10 +186,7 @@ fn the_bound_on_memory_covers_what_is_read_back() {
         let read_back = u64::from(size[0] * size[1]) * 16;
         let with = |limit| Settings::new(size[0], size[1]).max_memory(Some(limit));
         let refused = gpu.prepare(&prepared, &with(read_back)).err();
-        assert!(matches!(
-            refused,
-            Some(RenderError::Engine(EngineError::Memory { .. }))
-        ));
+        assert!(matches!(refused, Some(RenderError::Engine(EngineError::Memory { .. }))));
         let limit = 2 * read_back + (12 << 20);
         let mut frame = gpu.prepare(&prepared, &with(limit)).unwrap();
         let rendered = gpu.render(&mut frame, &camera()).unwrap();

@@ -7,8 +7,8 @@ use ash::vk;
 use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
 use gpc::render::{
-    CellOptions, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Rendered,
-    SceneRequest, SceneSettings, Settings,
+    CellOptions, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Rendered, SceneRequest, SceneSettings,
+    Settings,
 };
 use gpc::scene::Material;
 use gpc::vulkan::Limits;

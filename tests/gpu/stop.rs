@@ -28,10 +28,7 @@ fn what_is_unwanted_is_not_begun_and_the_device_goes_on() {
     let stopped = gpu.render(&mut frame, &camera());
     assert!(matches!(stopped, Err(RenderError::Stopped)));
     is_unwanted.store(false, Ordering::Relaxed);
-    assert_eq!(
-        gpu.render(&mut frame, &camera()).unwrap().colors,
-        image.colors
-    );
+    assert_eq!(gpu.render(&mut frame, &camera()).unwrap().colors, image.colors);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }
 

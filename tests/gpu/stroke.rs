@@ -4,9 +4,7 @@ use glam::DVec3;
 use gpc::camera::{Camera, Projection};
 use gpc::reference::edge::triangle_area;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
-use gpc::render::{
-    Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings,
-};
+use gpc::render::{Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
 use serde_json::{Value, json};
@@ -26,15 +24,9 @@ const LINE_STRIP: u32 = 3;
 fn drawn(mode: u32, positions: &[[f32; 3]]) -> Loaded {
     let mut builder = Builder::new();
     let positions = builder.floats(positions);
-    let material = builder.push(
-        "materials",
-        json!({"extensions": {"KHR_materials_unlit": {}}}),
-    );
+    let material = builder.push("materials", json!({"extensions": {"KHR_materials_unlit": {}}}));
     builder.json["extensionsUsed"] = json!(["KHR_materials_unlit"]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions}, "mode": mode, "material": material}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions}, "mode": mode, "material": material}), json!({}));
     builder.load().unwrap()
 }
 
@@ -55,8 +47,8 @@ fn clip(camera: &Camera, position: [f32; 3]) -> Clip {
 fn covered(polygons: &[Vec<[f64; 2]>], pixel: usize) -> f64 {
     let centre = centre(pixel, SIZE);
     let fan = |polygon: &Vec<[f64; 2]>| -> f64 {
-        let triangles = (1..polygon.len().max(2) - 1)
-            .map(|k| triangle_area([polygon[0], polygon[k], polygon[k + 1]], centre));
+        let triangles =
+            (1..polygon.len().max(2) - 1).map(|k| triangle_area([polygon[0], polygon[k], polygon[k + 1]], centre));
         triangles.sum()
     };
     polygons.iter().map(fan).sum()
@@ -65,15 +57,11 @@ fn covered(polygons: &[Vec<[f64; 2]>], pixel: usize) -> f64 {
 /// Root mean squared and largest difference between an image, white on an empty background, and the areas of polygons.
 fn difference(image: &Rendered, polygons: &[Vec<[f64; 2]>]) -> (f64, f64) {
     let errors = image.colors.iter().enumerate().map(|(pixel, color)| {
-        assert!(
-            color.iter().all(|x| (x - color[3]).abs() < 1e-6),
-            "{color:?}"
-        );
+        assert!(color.iter().all(|x| (x - color[3]).abs() < 1e-6), "{color:?}");
         (f64::from(color[3]) - covered(polygons, pixel)).abs()
     });
-    let (squares, largest) = errors.fold((0.0, 0.0), |(squares, largest): (f64, f64), error| {
-        (squares + error * error, largest.max(error))
-    });
+    let (squares, largest) =
+        errors.fold((0.0, 0.0), |(squares, largest): (f64, f64), error| (squares + error * error, largest.max(error)));
     ((squares / image.colors.len() as f64).sqrt(), largest)
 }
 
@@ -106,10 +94,7 @@ fn a_line_covers_its_area() {
                 let (mean, largest) = difference(&image, &[line]);
                 let seen = image.colors.iter().filter(|c| c[3] > 0.0).count();
                 assert!(seen > 5, "{seen} pixels of {ends:?}");
-                assert!(
-                    mean < 2e-3 && largest < 0.06,
-                    "{ends:?}, width {width}: {mean}, {largest}"
-                );
+                assert!(mean < 2e-3 && largest < 0.06, "{ends:?}, width {width}: {mean}, {largest}");
             }
         }
     });
@@ -121,8 +106,7 @@ fn no_pixel_of_a_thin_line_is_missed() {
     on_gpu(|gpu| {
         for width in [0.3, 1.0] {
             for ends in segments() {
-                let settings = by_lines(width)
-                    .map_superpixels(|options| options.detection(Detection::Contrast));
+                let settings = by_lines(width).map_superpixels(|options| options.detection(Detection::Contrast));
                 let found = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
                 let all = rendered(gpu, &drawn(LINES, &ends), &by_lines(width), &camera());
                 let unlike = found.colors.iter().zip(&all.colors);
@@ -138,14 +122,10 @@ fn brute_force_and_multisampling_draw_lines_as_wide() {
     on_gpu(|gpu| {
         let ends = [[-20.3, -11.0], [24.0, 13.7]].map(|at| seen_at(at, 2.0, SIZE[1]));
         let clips = ends.map(|end| clip(&camera(), end));
-        for (method, samples, tolerance) in [
-            (MethodKind::Ssaa, 64, 0.02),
-            (MethodKind::Msaa, 4, 0.1),
-            (MethodKind::None, 1, 0.2),
-        ] {
-            let settings = by_lines(3.0)
-                .line_width(3.0)
-                .method(method.with_samples(samples));
+        for (method, samples, tolerance) in
+            [(MethodKind::Ssaa, 64, 0.02), (MethodKind::Msaa, 4, 0.1), (MethodKind::None, 1, 0.2)]
+        {
+            let settings = by_lines(3.0).line_width(3.0).method(method.with_samples(samples));
             let image = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
             let line = segment(None, clips, None, 3.0);
             let (mean, _) = difference(&image, &[line]);
@@ -157,21 +137,13 @@ fn brute_force_and_multisampling_draw_lines_as_wide() {
 /// Strips and loops with mitred and bevelled joints.
 #[test]
 fn strips_and_loops_are_joined() {
-    let strip = [
-        [-25.0, 10.0],
-        [-10.0, -12.0],
-        [0.5, 14.0],
-        [20.0, -15.0],
-        [21.0, 18.0],
-    ];
+    let strip = [[-25.0, 10.0], [-10.0, -12.0], [0.5, 14.0], [20.0, -15.0], [21.0, 18.0]];
     let small = [[-8.0, 0.0], [6.0, -9.3], [9.0, 11.0]];
     let spike = [[-25.0, 0.0], [20.0, 1.0], [-24.0, 9.0]];
     on_gpu(|gpu| {
-        for (mode, path, overlaps) in [
-            (LINE_STRIP, &strip[..], false),
-            (LINE_LOOP, &small[..], false),
-            (LINE_STRIP, &spike[..], true),
-        ] {
+        for (mode, path, overlaps) in
+            [(LINE_STRIP, &strip[..], false), (LINE_LOOP, &small[..], false), (LINE_STRIP, &spike[..], true)]
+        {
             let width = 3.0;
             let positions: Vec<_> = path.iter().map(|at| seen_at(*at, 2.0, SIZE[1])).collect();
             let clips: Vec<_> = positions.iter().map(|p| clip(&camera(), *p)).collect();
@@ -179,9 +151,7 @@ fn strips_and_loops_are_joined() {
                 let count = clips.len() as isize;
                 match mode {
                     LINE_LOOP => Some(clips[index.rem_euclid(count) as usize]),
-                    _ => usize::try_from(index)
-                        .ok()
-                        .and_then(|i| clips.get(i).copied()),
+                    _ => usize::try_from(index).ok().and_then(|i| clips.get(i).copied()),
                 }
             };
             let mut polygons = Vec::new();
@@ -195,12 +165,8 @@ fn strips_and_loops_are_joined() {
             let image = rendered(gpu, &drawn(mode, &positions), &settings, &camera());
             for (pixel, color) in image.colors.iter().enumerate() {
                 // Where a line folds back on itself, its polygons overlap.
-                let parts = polygons
-                    .iter()
-                    .map(|part| covered(std::slice::from_ref(part), pixel));
-                let (least, most) = parts.fold((0.0, 0.0), |(least, most), part| {
-                    (part.max(least), most + part)
-                });
+                let parts = polygons.iter().map(|part| covered(std::slice::from_ref(part), pixel));
+                let (least, most) = parts.fold((0.0, 0.0), |(least, most), part| (part.max(least), most + part));
                 let least = if overlaps { least } else { most };
                 let found = f64::from(color[3]);
                 assert!(
@@ -232,14 +198,8 @@ fn points_are_discs() {
 #[test]
 fn a_parallel_projection_has_lines_as_wide() {
     on_gpu(|gpu| {
-        let camera = Camera {
-            projection: Projection::Orthographic {
-                half_height: 2.0,
-                near: 0.1,
-                far: 10.0,
-            },
-            ..camera()
-        };
+        let camera =
+            Camera { projection: Projection::Orthographic { half_height: 2.0, near: 0.1, far: 10.0 }, ..camera() };
         let ends = [[-2.0, -1.3, -1.0], [1.7, 1.1, -6.0]];
         let image = rendered(gpu, &drawn(LINES, &ends), &by_lines(1.0), &camera);
         let line = segment(None, ends.map(|end| clip(&camera, end)), None, 1.0);
@@ -253,11 +213,7 @@ fn lines_without_length_show_nothing() {
     on_gpu(|gpu| {
         let point = [0.1, 0.2, -2.0];
         // The segments are seen end-on in front of and behind the eye, have no length, or are behind the eye.
-        let nothing = [
-            [point, point.map(|x| 3.0 * x)],
-            [point, point],
-            [[1.0, 0.0, 1.0], [-1.0, 0.0, 2.0]],
-        ];
+        let nothing = [[point, point.map(|x| 3.0 * x)], [point, point], [[1.0, 0.0, 1.0], [-1.0, 0.0, 2.0]]];
         for ends in nothing {
             let image = rendered(gpu, &drawn(LINES, &ends), &by_lines(5.0), &camera());
             let seen: f32 = image.colors.iter().map(|c| c[3]).sum();
@@ -271,17 +227,10 @@ fn a_region_is_that_part_of_the_whole() {
     on_gpu(|gpu| {
         let ends: Vec<_> = segments().into_iter().flatten().collect();
         let loaded = drawn(LINES, &ends);
-        let settings =
-            by_lines(1.5).map_superpixels(|options| options.detection(Detection::Contrast));
+        let settings = by_lines(1.5).map_superpixels(|options| options.detection(Detection::Contrast));
         let whole = rendered(gpu, &loaded, &settings, &camera());
-        assert_eq!(
-            whole.colors,
-            rendered(gpu, &loaded, &settings, &camera()).colors
-        );
-        let region = PixelRect {
-            corner: [17, 9],
-            size: [30, 21],
-        };
+        assert_eq!(whole.colors, rendered(gpu, &loaded, &settings, &camera()).colors);
+        let region = PixelRect { corner: [17, 9], size: [30, 21] };
         let part = settings.region(Some(region));
         let part = rendered(gpu, &loaded, &part, &camera());
         for (row, colors) in part.colors.chunks(30).enumerate() {
@@ -312,12 +261,7 @@ fn lines_without_normals_are_unlit() {
         };
         let (unlit, towards) = seen(None);
         let (lit, given) = seen(Some([0.0, 1.0, 0.0]));
-        let apart = |a: &[f32], b: &[f32]| {
-            a.iter()
-                .zip(b)
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f32::max)
-        };
+        let apart = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(apart(&unlit, &[0.5, 0.25, 0.125, 1.0]) < 1e-6, "{unlit:?}");
         assert!(apart(&towards, &[0.0, 0.0, 1.0]) < 1e-6, "{towards:?}");
         assert!(apart(&lit, &unlit) > 0.02, "{lit:?}");
@@ -331,14 +275,8 @@ fn lines_move_with_their_nodes() {
     on_gpu(|gpu| {
         let mut builder = Builder::new();
         let positions = builder.floats(&[[-1.0, 0.0, -2.0], [1.0, 0.3, -2.0], [0.5, -1.0, -2.0]]);
-        let node = builder.node_with(
-            json!({"attributes": {"POSITION": positions}, "mode": LINE_STRIP}),
-            json!({}),
-        );
-        let (times, places) = (
-            builder.floats(&[[0.0], [1.0]]),
-            builder.floats(&[[0.0, 0.0, 0.0], [0.4, 0.5, -1.0]]),
-        );
+        let node = builder.node_with(json!({"attributes": {"POSITION": positions}, "mode": LINE_STRIP}), json!({}));
+        let (times, places) = (builder.floats(&[[0.0], [1.0]]), builder.floats(&[[0.0, 0.0, 0.0], [0.4, 0.5, -1.0]]));
         builder.push(
             "animations",
             json!({
@@ -347,27 +285,17 @@ fn lines_move_with_their_nodes() {
             }),
         );
         let loaded = builder.load().unwrap();
-        let later = PoseRequest {
-            time: 1.0,
-            ..PoseRequest::default()
-        };
-        let start = PoseRequest {
-            animation: Some("0".to_owned()),
-            ..PoseRequest::default()
-        };
+        let later = PoseRequest { time: 1.0, ..PoseRequest::default() };
+        let start = PoseRequest { animation: Some("0".to_owned()), ..PoseRequest::default() };
         let (pose, motion) = loaded.scene.pose_in_motion(&start).unwrap();
-        let prepared = gpu
-            .upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion))
-            .unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion)).unwrap();
         let mut frame = gpu.prepare(&prepared, &by_lines(1.0)).unwrap();
         let first = gpu.render(&mut frame, &camera()).unwrap().colors;
         let moment = motion.at(&loaded.scene, 1.0).unwrap().unwrap();
         frame.show(moment.into()).unwrap();
         let moved = gpu.render(&mut frame, &camera()).unwrap().colors;
         let posed = loaded.scene.pose(&later).unwrap();
-        let prepared = gpu
-            .upload(SceneRequest::new(&loaded.scene, &posed))
-            .unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &posed)).unwrap();
         let mut frame = gpu.prepare(&prepared, &by_lines(1.0)).unwrap();
         let expected = gpu.render(&mut frame, &camera()).unwrap().colors;
         let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
@@ -391,13 +319,7 @@ fn locations_see_lines_as_wide() {
             let settings = by_lines(width);
             let image = rendered(gpu, &loaded, &settings, &camera());
             let seen = gpu
-                .sample_superpixels(
-                    &prepared,
-                    &pinhole(SIZE),
-                    &planar(SIZE),
-                    &cells(&settings),
-                    &settings.scene,
-                )
+                .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &cells(&settings), &settings.scene)
                 .unwrap();
             let pairs = image.colors.iter().zip(&seen.values);
             let apart = pairs.map(|(a, b)| (a[3] - b[3]).abs()).fold(0.0, f32::max);
@@ -414,10 +336,7 @@ fn impossible_sizes_are_refused() {
         let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
         for line_width in [0.0, -1.0, f32::NAN, 1e4] {
             let refused = gpu.prepare(&prepared, &by_lines(line_width));
-            assert!(
-                matches!(refused, Err(RenderError::Stroke(_))),
-                "{line_width}"
-            );
+            assert!(matches!(refused, Err(RenderError::Stroke(_))), "{line_width}");
         }
     });
 }

@@ -5,11 +5,7 @@ use gpc::vulkan::Gpu;
 use std::sync::Arc;
 
 /// Records commands and submits them; `meanwhile` is called before waiting for them.
-pub fn submit_and(
-    gpu: &Arc<Gpu>,
-    record: impl FnOnce(vk::CommandBuffer),
-    meanwhile: impl FnOnce(),
-) {
+pub fn submit_and(gpu: &Arc<Gpu>, record: impl FnOnce(vk::CommandBuffer), meanwhile: impl FnOnce()) {
     let device = gpu.device();
     with_commands(gpu, |commands| {
         record(commands);
@@ -26,9 +22,7 @@ pub fn submit_and(
             device.cmd_pipeline_barrier2(commands, &info);
             device.end_command_buffer(commands).unwrap();
             let queue = device.get_device_queue(gpu.queue_family(), 0);
-            device
-                .queue_submit(queue, &submits, vk::Fence::null())
-                .unwrap();
+            device.queue_submit(queue, &submits, vk::Fence::null()).unwrap();
             meanwhile();
             device.queue_wait_idle(queue).unwrap();
         }
@@ -56,9 +50,7 @@ fn with_commands(gpu: &Arc<Gpu>, lend: impl FnOnce(vk::CommandBuffer)) {
     unsafe {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family());
         let pool = device.create_command_pool(&info, None).unwrap();
-        let info = vk::CommandBufferAllocateInfo::default()
-            .command_pool(pool)
-            .command_buffer_count(1);
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
         let commands = device.allocate_command_buffers(&info).unwrap();
         let info = vk::CommandBufferBeginInfo::default();
         device.begin_command_buffer(commands[0], &info).unwrap();

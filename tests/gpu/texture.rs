@@ -14,11 +14,7 @@ const PATCH: u32 = 4;
 
 /// An image in which each mipmap level is independent noise of black and white channels.
 fn noise(size: [u32; 2], random: &mut Random) -> Image {
-    let mut image = Image {
-        width: size[0],
-        height: size[1],
-        pixels: Vec::new(),
-    };
+    let mut image = Image { width: size[0], height: size[1], pixels: Vec::new() };
     for level in 0..image.full_levels() {
         let [width, height] = image.level_size(level);
         for _ in 0..width * height {
@@ -108,8 +104,7 @@ fn compare(
     stage.texture = Some((image.clone(), sampler));
     let mut maps = Vec::new();
     for patch in 0..(SIZE[0] / PATCH) * (SIZE[1] / PATCH) {
-        let first = [patch % (SIZE[0] / PATCH), patch / (SIZE[0] / PATCH)]
-            .map(|column| f64::from(PATCH * column));
+        let first = [patch % (SIZE[0] / PATCH), patch / (SIZE[0] / PATCH)].map(|column| f64::from(PATCH * column));
         let map = Map::new(image, random);
         let side = f64::from(PATCH);
         let corners = [[0.0, 0.0], [0.0, side], [side, side], [side, 0.0]];
@@ -146,10 +141,7 @@ fn compare(
         let expected = filtered(image, &found);
         for channel in 0..3 {
             let apart = (f64::from(color[channel]) - expected[channel]).abs();
-            assert!(
-                apart < 0.01,
-                "({x}, {y}): {color:?}, not {expected:?} of {found:?}"
-            );
+            assert!(apart < 0.01, "({x}, {y}): {color:?}, not {expected:?} of {found:?}");
         }
     }
 }
@@ -160,14 +152,8 @@ fn textures_are_averaged_over_footprints() {
         let mut random = Random::new(7);
         let mut seen = [[0; 8]; MOST_PROBES as usize];
         // A mean over a footprint does not depend on how a sampler reads a single texel of it.
-        let nearest = Sampler {
-            min: Filter::Nearest,
-            ..Sampler::default()
-        };
-        let without_mipmaps = Sampler {
-            mip: None,
-            ..nearest
-        };
+        let nearest = Sampler { min: Filter::Nearest, ..Sampler::default() };
+        let without_mipmaps = Sampler { mip: None, ..nearest };
         let samplers = [Sampler::default(), nearest, without_mipmaps];
         for (size, sampler) in [[64, 64], [128, 32], [60, 33]].into_iter().zip(samplers) {
             let image = noise(size, &mut random);
@@ -175,9 +161,7 @@ fn textures_are_averaged_over_footprints() {
         }
         // All numbers of places occur, and one and two places occur at each of the four finest levels.
         let enough = seen.iter().all(|levels| levels.iter().sum::<u32>() > 100)
-            && seen[..2]
-                .iter()
-                .all(|levels| levels[..4].iter().all(|n| *n > 100));
+            && seen[..2].iter().all(|levels| levels[..4].iter().all(|n| *n > 100));
         assert!(enough, "{seen:?}");
     });
 }

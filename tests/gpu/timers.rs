@@ -11,10 +11,7 @@ const LIGHTS: usize = 600;
 
 #[test]
 fn a_long_pass_is_long_and_its_neighbours_are_not() {
-    let mut stage = Stage::new(vec![Material {
-        unlit: false,
-        ..flat([0.5; 4], AlphaMode::Opaque)
-    }]);
+    let mut stage = Stage::new(vec![Material { unlit: false, ..flat([0.5; 4], AlphaMode::Opaque) }]);
     stage.add(0, [[-9.0, -9.0, -3.0], [9.0, -9.0, -3.0], [0.0, 9.0, -3.0]]);
     let (scene, mut pose) = stage.build();
     pose.lights = vec![

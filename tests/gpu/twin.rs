@@ -16,10 +16,7 @@ pub struct Twin {
 impl Twin {
     /// Makes the twin of a stage in an image of `size` pixels.
     pub fn new(stage: &Stage, size: [u32; 2]) -> Self {
-        let mut twin = Self {
-            surfaces: Vec::new(),
-            near: vec![Vec::new(); size[0] as usize * size[1] as usize],
-        };
+        let mut twin = Self { surfaces: Vec::new(), near: vec![Vec::new(); size[0] as usize * size[1] as usize] };
         for (index, triangle) in stage.triangles.iter().enumerate() {
             let vertices = triangle.corners.map(|corner| clip(corner, size));
             let double_sided = stage.materials[triangle.material].double_sided;
@@ -28,10 +25,7 @@ impl Twin {
             };
             let [columns, rows] = [0, 1].map(|axis| reach(vertices, axis, size[axis]));
             for row in rows {
-                for pixel in columns
-                    .clone()
-                    .map(|column| row * size[0] as usize + column)
-                {
+                for pixel in columns.clone().map(|column| row * size[0] as usize + column) {
                     // No sample is more than 0.71 pixels from its pixel's centre.
                     if surface.edges().margin(centre(pixel, size)) > -0.75 {
                         twin.near[pixel].push(twin.surfaces.len() as u32);
@@ -58,8 +52,7 @@ impl Twin {
         };
         let around = |surface: &Surface| {
             let depth = surface.depth(centre);
-            let slopes = [[1.0, 0.0], [0.0, 1.0]]
-                .map(|[x, y]| surface.depth([centre[0] + x, centre[1] + y]) - depth);
+            let slopes = [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| surface.depth([centre[0] + x, centre[1] + y]) - depth);
             let error = SNAP * (slopes[0].abs() + slopes[1].abs());
             [depth - error, depth + error]
         };
@@ -73,10 +66,7 @@ impl Twin {
             let [furthest, nearest] = around(surface);
             furthest <= 1.0 && nearest >= lowest
         });
-        (
-            seen,
-            rivalled || seen.contested() || seen.edge_margin < SNAP,
-        )
+        (seen, rivalled || seen.contested() || seen.edge_margin < SNAP)
     }
 
     /// Visibility of a sample without the surfaces with the IDs `hidden`.

@@ -30,11 +30,7 @@ fn patches([width, height]: [u32; 2], seed: u64) -> Image {
             pixels.extend([grey, grey, grey, 255]);
         }
     }
-    Image {
-        width,
-        height,
-        pixels,
-    }
+    Image { width, height, pixels }
 }
 
 /// Stage of two triangles that fill the image and meet between two columns of pixels, with one or two materials.
@@ -42,23 +38,14 @@ fn stage(size: [u32; 2], seed: u64, materials: usize) -> Stage {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque); materials]);
     stage.texture = Some((
         patches(size, seed),
-        Sampler {
-            mag: Filter::Nearest,
-            min: Filter::Nearest,
-            mip: None,
-            ..Sampler::default()
-        },
+        Sampler { mag: Filter::Nearest, min: Filter::Nearest, mip: None, ..Sampler::default() },
     ));
     let [width, height] = size.map(f64::from);
     let at = |x: f64, y: f64| seen_at([x, y], 1.0, size[1]);
     let uv = |x: f64, y: f64| [(x / width + 0.5) as f32, (y / height + 0.5) as f32];
     for (material, side) in [(0, -1.0), (materials - 1, 1.0)] {
         let corners = [[0.0, -120.0], [side * 150.0, 0.0], [0.0, 120.0]];
-        let corners = if side > 0.0 {
-            corners
-        } else {
-            [corners[0], corners[2], corners[1]]
-        };
+        let corners = if side > 0.0 { corners } else { [corners[0], corners[2], corners[1]] };
         stage.add(material, corners.map(|[x, y]| at(x, y)));
         if let Some(triangle) = stage.triangles.last_mut() {
             triangle.uvs = corners.map(|[x, y]| uv(x, y));
@@ -70,10 +57,7 @@ fn stage(size: [u32; 2], seed: u64, materials: usize) -> Stage {
 /// Centres around a pixel, in the form of the twin.
 fn around(rendered: &Rendered, size: [u32; 2], x: i64, y: i64) -> Neighbourhood {
     let [width, height] = size.map(i64::from);
-    let mut found = Neighbourhood {
-        ids: [0; 9],
-        colours: [[0; 3]; 9],
-    };
+    let mut found = Neighbourhood { ids: [0; 9], colours: [[0; 3]; 9] };
     for place in 0..9 {
         let (nx, ny) = (x + place % 3 - 1, y + place / 3 - 1);
         if (0..width).contains(&nx) && (0..height).contains(&ny) {
@@ -95,15 +79,11 @@ fn mean(rendered: &Rendered) -> f64 {
 fn places_are_as_many_as_the_twin_says() {
     on_gpu(|gpu| {
         let mut seen = [0; 4];
-        let stages = SIZES
-            .into_iter()
-            .flat_map(|size| [(1, 1), (2, 2), (3, 1)].map(|(seed, m)| (size, seed, m)));
+        let stages = SIZES.into_iter().flat_map(|size| [(1, 1), (2, 2), (3, 1)].map(|(seed, m)| (size, seed, m)));
         for (size, seed, materials) in stages {
             let stage = stage(size, seed, materials);
             let base = stage.render(gpu, &once(size));
-            let rates = CONTRASTS
-                .into_iter()
-                .flat_map(|c| RATES.map(|rate| (c, rate)));
+            let rates = CONTRASTS.into_iter().flat_map(|c| RATES.map(|rate| (c, rate)));
             for (contrast, (samples, all)) in rates {
                 let settings = |shading| {
                     once(size).method(
@@ -136,10 +116,7 @@ fn places_are_as_many_as_the_twin_says() {
                     }
                 }
                 let records = rendered.statistics.records;
-                assert_eq!(
-                    records, expected,
-                    "{materials} materials, {samples} samples, contrast {contrast}"
-                );
+                assert_eq!(records, expected, "{materials} materials, {samples} samples, contrast {contrast}");
                 // Texels are pixels, so that all places of a pixel have one colour: nothing is lost or counted twice.
                 let sampled = stage.render(gpu, &settings(Shading::Sample));
                 let apart = mean(&rendered) / mean(&sampled) - 1.0;

@@ -24,10 +24,7 @@ struct Tally {
 impl Tally {
     /// Fails if so many samples are contested that the comparison means little.
     fn assert_few_contested(&self, name: &str) {
-        assert!(
-            self.contested * 20 <= self.samples && self.excused * 10 <= self.contested + 20,
-            "{name}: {self:?}"
-        );
+        assert!(self.contested * 20 <= self.samples && self.excused * 10 <= self.contested + 20, "{name}: {self:?}");
     }
 }
 
@@ -40,13 +37,7 @@ enum Excuse {
 }
 
 /// Compares each pixel with the mean of the [codes](code) of the triangles that its samples see.
-fn compare(
-    gpu: &mut Headless,
-    stage: &Stage,
-    name: &str,
-    (pattern, samples): (Pattern, u32),
-    excuse: Excuse,
-) -> Tally {
+fn compare(gpu: &mut Headless, stage: &Stage, name: &str, (pattern, samples): (Pattern, u32), excuse: Excuse) -> Tally {
     let rendered = stage.render(gpu, &everywhere(SIZE, pattern.clone(), samples));
     let offsets = pattern.offsets(samples).unwrap();
     let twin = Twin::new(stage, SIZE);
@@ -65,9 +56,7 @@ fn compare(
             }
         }
         let mean = sum.map(|sum| sum / f64::from(samples));
-        let difference = (0..3)
-            .map(|channel| (f64::from(found[channel]) - mean[channel]).abs())
-            .fold(0.0, f64::max);
+        let difference = (0..3).map(|channel| (f64::from(found[channel]) - mean[channel]).abs()).fold(0.0, f64::max);
         // Interpolated codes are accurate to 2^-21 of their value.
         const ROUNDING: f64 = 0.004;
         let allowed = match excuse {
@@ -103,8 +92,7 @@ fn tilings_are_seen_as_the_twin_sees_them() {
             let stage = coded(&mesh, true, |triangle| triangle + index);
             let lone = Pattern::List(vec![[0.17, -0.31]]);
             for pattern in [(lone, 1), (Pattern::Sobol, 17)] {
-                compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested)
-                    .assert_few_contested(&mesh.name);
+                compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested).assert_few_contested(&mesh.name);
             }
         }
     });
@@ -120,13 +108,7 @@ fn samples_on_edges_are_owned_by_the_rule() {
             slivers(3, HALF, 40, Depths::Snapped),
         ] {
             let stage = coded(&mesh, true, |triangle| triangle);
-            let tally = compare(
-                gpu,
-                &stage,
-                &mesh.name,
-                (Pattern::Grid, 64),
-                Excuse::Nothing,
-            );
+            let tally = compare(gpu, &stage, &mesh.name, (Pattern::Grid, 64), Excuse::Nothing);
             assert!(tally.contested > 300, "few ties: {tally:?}");
         }
     });
@@ -138,8 +120,7 @@ fn back_faces_are_not_seen() {
         let mesh = fan(5, HALF, 48, Depths::Random);
         let stage = coded(&mesh, false, |triangle| triangle);
         let pattern = (Pattern::Sobol, 16);
-        compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested)
-            .assert_few_contested(&mesh.name);
+        compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested).assert_few_contested(&mesh.name);
         let single = stage.render(gpu, &once(SIZE));
         assert!(ids(&single).contains(&0) && ids(&single).iter().any(|&id| id != 0));
     });
@@ -154,8 +135,7 @@ fn planes_through_the_eye_are_seen_as_the_twin_sees_them() {
             let stage = coded(&mesh, true, |triangle| triangle);
             let lone = Pattern::List(vec![[-0.45, 0.08]]);
             for pattern in [(lone, 1), (Pattern::Sobol, 16)] {
-                compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested)
-                    .assert_few_contested(&mesh.name);
+                compare(gpu, &stage, &mesh.name, pattern, Excuse::Contested).assert_few_contested(&mesh.name);
             }
         }
     });
@@ -186,8 +166,7 @@ fn the_nearest_of_intersecting_triangles_is_seen() {
         for (seed, count, double_sided) in [(1, 60, true), (2, 400, false), (3, 600, true)] {
             let stage = soup(seed, count, double_sided, [-1.0, 5.0]);
             let name = format!("{count} intersecting triangles");
-            compare(gpu, &stage, &name, (Pattern::Sobol, 16), Excuse::Contested)
-                .assert_few_contested(&name);
+            compare(gpu, &stage, &name, (Pattern::Sobol, 16), Excuse::Contested).assert_few_contested(&name);
         }
     });
 }
@@ -232,10 +211,7 @@ fn raster_agrees_with_the_twin_away_from_edges() {
                 let middle = centre(pixel, SIZE);
                 let (seen, doubtful) = twin.rasterized(pixel, middle);
                 let expected = seen.nearest.map_or(0, |hit| hit.id);
-                assert!(
-                    id == expected || doubtful,
-                    "{name}, at {middle:?}: {id} instead of {expected}; {seen:?}"
-                );
+                assert!(id == expected || doubtful, "{name}, at {middle:?}: {id} instead of {expected}; {seen:?}");
                 excused += u32::from(id != expected);
             }
             assert!(excused <= 41, "{name}: {excused} of 4096 pixels differ");

@@ -28,9 +28,9 @@ pub fn prefix() -> &'static Path {
 
 /// Runs a program and returns its standard output.
 pub fn said(program: &mut Command) -> String {
-    let run = program.output().unwrap_or_else(|error| {
-        panic!("{program:?}: {error}; tools/setup.sh build c installs what is needed")
-    });
+    let run = program
+        .output()
+        .unwrap_or_else(|error| panic!("{program:?}: {error}; tools/setup.sh build c installs what is needed"));
     let complained = String::from_utf8_lossy(&run.stderr);
     assert!(run.status.success(), "{program:?}:\n{complained}");
     String::from_utf8(run.stdout).unwrap()
@@ -39,9 +39,7 @@ pub fn said(program: &mut Command) -> String {
 /// Options that pkg-config prints for the installed library.
 pub fn pkg_config(options: &[&str]) -> Vec<String> {
     let mut program = Command::new("pkg-config");
-    program
-        .args(options)
-        .env("PKG_CONFIG_PATH", prefix().join("lib/pkgconfig"));
+    program.args(options).env("PKG_CONFIG_PATH", prefix().join("lib/pkgconfig"));
     let words = said(&mut program);
     words.split_whitespace().map(str::to_owned).collect()
 }
@@ -68,11 +66,8 @@ pub fn compiled(compiler: &str, source: &str, options: &[&str], libraries: &[Str
 fn the_header_is_made_of_the_sources() {
     let root = Path::new(ROOT);
     let config = cbindgen::Config::from_file(root.join("cbindgen.toml")).unwrap();
-    let bindings = cbindgen::Builder::new()
-        .with_src(root.join("src/capi/mod.rs"))
-        .with_config(config)
-        .generate()
-        .unwrap();
+    let bindings =
+        cbindgen::Builder::new().with_src(root.join("src/capi/mod.rs")).with_config(config).generate().unwrap();
     let mut made = Vec::new();
     bindings.write(&mut made);
     let made = String::from_utf8(made).unwrap();
@@ -81,10 +76,7 @@ fn the_header_is_made_of_the_sources() {
         std::fs::write(&header, &made).unwrap();
     }
     let checked_in = std::fs::read_to_string(&header).unwrap_or_default();
-    assert!(
-        made == checked_in,
-        "include/gpc.h is not what src/capi makes: run `make header`"
-    );
+    assert!(made == checked_in, "include/gpc.h is not what src/capi makes: run `make header`");
 }
 
 #[test]
@@ -140,14 +132,7 @@ endif()
     std::fs::write(folder.join("CMakeLists.txt"), lists).unwrap();
     let built = folder.join("built");
     let configured = format!("-DCMAKE_PREFIX_PATH={}", prefix().display());
-    said(
-        Command::new("cmake")
-            .arg("-S")
-            .arg(&folder)
-            .arg("-B")
-            .arg(&built)
-            .arg(configured),
-    );
+    said(Command::new("cmake").arg("-S").arg(&folder).arg("-B").arg(&built).arg(configured));
     said(Command::new("cmake").arg("--build").arg(&built));
     run(built.join("with_gpc"));
     run(built.join("with_gpc_static"));
@@ -155,24 +140,13 @@ endif()
 
 #[test]
 fn the_libraries_show_the_interface_alone() {
-    for (library, options) in [
-        ("libgpc.a", ["--extern-only", "--defined-only"]),
-        ("libgpc.so", ["--dynamic", "--defined-only"]),
-    ] {
-        let symbols = said(
-            Command::new("nm")
-                .args(options)
-                .arg(prefix().join("lib").join(library)),
-        );
-        let names: Vec<_> = symbols
-            .lines()
-            .filter_map(|line| line.split_whitespace().nth(2))
-            .collect();
+    for (library, options) in
+        [("libgpc.a", ["--extern-only", "--defined-only"]), ("libgpc.so", ["--dynamic", "--defined-only"])]
+    {
+        let symbols = said(Command::new("nm").args(options).arg(prefix().join("lib").join(library)));
+        let names: Vec<_> = symbols.lines().filter_map(|line| line.split_whitespace().nth(2)).collect();
         assert!(names.contains(&"gpc_frame_record"), "{library}: {names:?}");
-        let other: Vec<_> = names
-            .iter()
-            .filter(|name| !name.starts_with("gpc_"))
-            .collect();
+        let other: Vec<_> = names.iter().filter(|name| !name.starts_with("gpc_")).collect();
         assert!(other.is_empty(), "{library}: {other:?}");
     }
 }
@@ -189,10 +163,7 @@ fn a_standard_without_what_the_header_needs_is_refused_by_name() {
         .unwrap();
     let complained = String::from_utf8_lossy(&run.stderr);
     assert!(!run.status.success());
-    assert!(
-        complained.contains("gpc.h needs C++11 or later: compile with -std=c++11"),
-        "{complained}"
-    );
+    assert!(complained.contains("gpc.h needs C++11 or later: compile with -std=c++11"), "{complained}");
 }
 
 #[test]
@@ -200,11 +171,7 @@ fn the_manual_the_example_and_the_licences_are_installed() {
     for (folder, file, source) in [
         ("doc/gpc", "embedding.md", "docs/embedding.md"),
         ("doc/gpc", "swapchains.md", "docs/swapchains.md"),
-        (
-            "doc/gpc/pictures",
-            "besides-right.png",
-            "docs/pictures/besides-right.png",
-        ),
+        ("doc/gpc/pictures", "besides-right.png", "docs/pictures/besides-right.png"),
         ("doc/gpc", "LICENSE-MIT", "LICENSE-MIT"),
         ("doc/gpc", "LICENSE-APACHE", "LICENSE-APACHE"),
         ("doc/gpc", "CHANGELOG.md", "CHANGELOG.md"),
@@ -239,9 +206,7 @@ fn a_program_of_an_earlier_header_runs_with_the_shared_library() {
     let needed = said(Command::new("readelf").arg("--dynamic").arg(&program));
     assert!(needed.contains("[libgpc.so.1]"), "{needed}");
     example::validated(
-        Command::new(program)
-            .arg(frozen.join("samples.spv"))
-            .env("LD_LIBRARY_PATH", prefix().join("lib")),
+        Command::new(program).arg(frozen.join("samples.spv")).env("LD_LIBRARY_PATH", prefix().join("lib")),
     );
 }
 
@@ -261,43 +226,20 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
     let shaders = Path::new(ROOT).join("examples/forward/shaders/spirv");
     let said = example::validated(program().arg(&shaders).arg(prefix().join("forward.ppm")));
     assert!(said.contains(" 0 left over"), "{said}");
-    assert!(
-        said.contains("after two resizes: the same picture"),
-        "{said}"
-    );
+    assert!(said.contains("after two resizes: the same picture"), "{said}");
     let brute = figure(&said, "error of brute force: ");
-    assert!(
-        figure(&said, "error of one sample: ") > 20.0 * brute,
-        "{said}"
-    );
-    assert!(
-        figure(&said, "error of superpixels: ") <= 0.97 * brute,
-        "{said}"
-    );
-    let placed = figure(
-        &said,
-        "error of superpixels, samples where brute force has them: ",
-    );
+    assert!(figure(&said, "error of one sample: ") > 20.0 * brute, "{said}");
+    assert!(figure(&said, "error of superpixels: ") <= 0.97 * brute, "{said}");
+    let placed = figure(&said, "error of superpixels, samples where brute force has them: ");
     assert!(placed <= 1.2 * brute, "{said}");
-    let each = figure(
-        &said,
-        "error of superpixels, each of these samples shaded: ",
-    );
+    let each = figure(&said, "error of superpixels, each of these samples shaded: ");
     assert!(each <= 1.15 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.45, "{said}");
 
     let said = example::validated(program().arg(&shaders).args(["--sizes", "48x27,64x36"]));
-    let rows: Vec<Vec<&str>> = (said.lines().skip(1))
-        .map(|line| line.split(',').collect())
-        .collect();
+    let rows: Vec<Vec<&str>> = (said.lines().skip(1)).map(|line| line.split(',').collect()).collect();
     let of_size = |size: [&'static str; 2]| {
-        let methods = [
-            ["none", "1"],
-            ["own", "64"],
-            ["own", "256"],
-            ["superpixel", "64"],
-            ["superpixel", "256"],
-        ];
+        let methods = [["none", "1"], ["own", "64"], ["own", "256"], ["superpixel", "64"], ["superpixel", "256"]];
         methods.map(|[method, samples]| [size[0], size[1], method, samples])
     };
     let expected = [of_size(["48", "27"]), of_size(["64", "36"])].concat();
@@ -307,16 +249,10 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
         let [wall, cpu, error, share] = [5, 6, 7, 8].map(|i| row[i].parse::<f64>().unwrap());
         assert!(wall > 0.0 && cpu > 0.0, "{said}");
         let is_of_the_library = row[2] == "superpixel";
-        assert!(
-            (share > 0.1) == is_of_the_library && (error < 0.01) == (row[2] != "none"),
-            "{said}"
-        );
+        assert!((share > 0.1) == is_of_the_library && (error < 0.01) == (row[2] != "none"), "{said}");
     }
     let mut wrong = program();
     wrong.arg(&shaders).args(["--sizes", "48x27,"]);
     let complained = String::from_utf8(wrong.output().unwrap().stderr).unwrap();
-    assert!(
-        complained.starts_with("\"48x27,\" is no list of sizes such as 240x135,480x270; usage: "),
-        "{complained}"
-    );
+    assert!(complained.starts_with("\"48x27,\" is no list of sizes such as 240x135,480x270; usage: "), "{complained}");
 }

@@ -18,20 +18,14 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
     let camera = Camera::from_scene(pose.cameras.first().unwrap());
     let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
     let prepared = headless.upload(request).unwrap();
-    let settings = Settings::new(width, height)
-        .background(Some([0.2, 0.3, 0.5]))
-        .shadows(Shadows::Exact);
+    let settings = Settings::new(width, height).background(Some([0.2, 0.3, 0.5])).shadows(Shadows::Exact);
     let mut frame = headless.prepare(&prepared, &settings).unwrap();
     let rendered = headless.render(&mut frame, &camera).unwrap();
     assert!(rendered.statistics.superpixels > 0);
     assert_eq!(headless.validation_messages(), Vec::<String>::new());
     let code = |linear: f32| srgb::encode_u8(f64::from(linear));
     let alpha = |alpha: f32| (alpha.clamp(0.0, 1.0) * 255.0).round() as u8;
-    rendered
-        .colors
-        .iter()
-        .map(|[r, g, b, a]| [code(*r), code(*g), code(*b), alpha(*a)])
-        .collect()
+    rendered.colors.iter().map(|[r, g, b, a]| [code(*r), code(*g), code(*b), alpha(*a)]).collect()
 }
 
 #[test]
@@ -55,8 +49,5 @@ fn a_hosts_image_holds_what_a_headless_render_gives() {
         .flat_map(|(found, expected)| found.0.into_iter().zip(*expected))
         .map(|(found, expected)| found.abs_diff(expected))
         .max();
-    assert!(
-        farthest.is_some_and(|codes| codes <= 1),
-        "differs by {farthest:?} codes"
-    );
+    assert!(farthest.is_some_and(|codes| codes <= 1), "differs by {farthest:?} codes");
 }

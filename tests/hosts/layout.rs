@@ -56,9 +56,7 @@ fn program(header: &str) -> String {
             writeln!(lines, "printf(\"{name} %u\\n\", (unsigned){name});").unwrap();
         }
     }
-    format!(
-        "#include <gpc.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {{\n{lines}return 0;\n}}\n"
-    )
+    format!("#include <gpc.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {{\n{lines}return 0;\n}}\n")
 }
 
 /// Compiles a program in C against the installed library, and returns what it prints.
@@ -66,12 +64,7 @@ fn ran(name: &str, source: &str) -> String {
     let path = prefix().join(name);
     std::fs::write(&path, source).unwrap();
     let libraries = pkg_config(&["--libs", "gpc"]);
-    let program = compiled(
-        "cc",
-        path.to_str().unwrap(),
-        &["-std=c99", "-pedantic"],
-        &libraries,
-    );
+    let program = compiled("cc", path.to_str().unwrap(), &["-std=c99", "-pedantic"], &libraries);
     said(Command::new(program).env("LD_LIBRARY_PATH", prefix().join("lib")))
 }
 
@@ -124,14 +117,10 @@ fn broken(released: &str, present: &str) -> Vec<String> {
     let now: HashMap<_, _> = entries(present).into_iter().collect();
     let changed = |(name, was): &(&str, Vec<usize>)| {
         let grows = name.starts_with("Gpc") && !name.contains('.') && !FIXED.contains(name);
-        now.get(name)
-            .is_none_or(|is| if grows { is < was } else { is != was })
+        now.get(name).is_none_or(|is| if grows { is < was } else { is != was })
     };
     let entries = entries(released).into_iter();
-    entries
-        .filter(changed)
-        .map(|(name, was)| format!("{name} was {was:?} and is {:?}", now.get(name)))
-        .collect()
+    entries.filter(changed).map(|(name, was)| format!("{name} was {was:?} and is {:?}", now.get(name))).collect()
 }
 
 #[test]

@@ -17,24 +17,12 @@ fn a_hosts_own_materials_are_antialiased_as_by_its_brute_force() {
     let said = example::validated(Command::new(example::built("visibility")).args([&out, &lens]));
     assert_eq!(said.matches(" 0 left over").count(), 2, "{said}");
     let brute = figure(&said, "error of brute force: ");
-    assert!(
-        figure(&said, "error of one sample: ") > 10.0 * brute,
-        "{said}"
-    );
-    assert!(
-        figure(&said, "error of superpixels: ") <= 0.9 * brute,
-        "{said}"
-    );
-    let placed = figure(
-        &said,
-        "error of superpixels, samples where brute force has them: ",
-    );
+    assert!(figure(&said, "error of one sample: ") > 10.0 * brute, "{said}");
+    assert!(figure(&said, "error of superpixels: ") <= 0.9 * brute, "{said}");
+    let placed = figure(&said, "error of superpixels, samples where brute force has them: ");
     // Supersampling shades 64 samples where a superpixel is shaded in 8 or 16 places.
     assert!(placed <= 1.15 * brute, "{said}");
-    let each = figure(
-        &said,
-        "error of superpixels, each of these samples shaded: ",
-    );
+    let each = figure(&said, "error of superpixels, each of these samples shaded: ");
     assert!(each <= 1.05 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.6, "{said}");
 

@@ -11,20 +11,15 @@ fn regenerating_gives_the_same_bytes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     for (name, build) in scenes::ALL {
         let stored = std::fs::read(folder.join(name)).unwrap();
-        assert!(
-            stored == build(),
-            "assets/{name} differs from what the generator writes: run `make assets`"
-        );
+        assert!(stored == build(), "assets/{name} differs from what the generator writes: run `make assets`");
     }
 }
 
 #[test]
 fn the_folder_holds_nothing_else() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    let mut found: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut found: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     found.sort();
     assert_eq!(found, scenes::ALL.map(|(name, _)| name));
 }

@@ -9,8 +9,7 @@ use serde_json::json;
 fn draco(bytes: &[u8], vertices: u64, indices: u64) -> Builder {
     let mut builder = Builder::new();
     let view = builder.view(bytes, json!({}));
-    let accessor =
-        |kind, component, count| json!({"type": kind, "componentType": component, "count": count});
+    let accessor = |kind, component, count| json!({"type": kind, "componentType": component, "count": count});
     let positions = builder.push("accessors", accessor("VEC3", 5126, vertices));
     let indices = builder.push("accessors", accessor("SCALAR", 5125, indices));
     let extension = json!({"bufferView": view, "attributes": {"POSITION": 0}});
@@ -29,24 +28,11 @@ fn draco(bytes: &[u8], vertices: u64, indices: u64) -> Builder {
 fn draco_cannot_claim_what_its_bytes_cannot_hold() {
     let place = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: ";
     for (bytes, vertices, indices, message) in [
-        (
-            &b"DRACO"[..],
-            1 << 40,
-            3,
-            "5 bytes cannot hold 1 triangles of 1099511627776 vertices",
-        ),
-        (
-            b"DRACO\x02\x02\x01\x01",
-            3,
-            3,
-            "the compressed data are broken",
-        ),
+        (&b"DRACO"[..], 1 << 40, 3, "5 bytes cannot hold 1 triangles of 1099511627776 vertices"),
+        (b"DRACO\x02\x02\x01\x01", 3, 3, "the compressed data are broken"),
         (b"nothing of Draco", 3, 3, "the compressed data are broken"),
     ] {
-        let error = draco(bytes, vertices, indices)
-            .load()
-            .unwrap_err()
-            .to_string();
+        let error = draco(bytes, vertices, indices).load().unwrap_err().to_string();
         assert!(error.contains(place) && error.contains(message), "{error}");
     }
     let error = draco(b"DRACO", 3, 3 << 40).load().unwrap_err().to_string();
@@ -79,19 +65,7 @@ fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
     let level = [148_u64, 16, claimed];
     bytes.extend(level.iter().flat_map(|word| word.to_le_bytes()));
     // The descriptor says: colour model UASTC, primaries of BT.709, transfer function of sRGB, blocks of 4 x 4 texels.
-    let words = [
-        44_u32,
-        0,
-        2 | 40 << 16,
-        166 | 1 << 8 | 2 << 16,
-        3 | 3 << 8,
-        16,
-        0,
-        0,
-        0,
-        0,
-        0,
-    ];
+    let words = [44_u32, 0, 2 | 40 << 16, 166 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16, 0, 0, 0, 0, 0];
     bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
     bytes.extend([0; 16]);
     bytes
@@ -109,21 +83,12 @@ fn ktx2_cannot_claim_what_its_blocks_cannot_hold() {
     for (image, message) in [
         (far, "the KTX2 header refers beyond the 164 bytes"),
         (long, "the KTX2 header refers beyond the 164 bytes"),
-        (
-            ktx2(4, 4, 1, 1 << 50),
-            "claims 1125899906842624 bytes for 1 blocks",
-        ),
-        (
-            ktx2(16_384, 16_384, 1, 16),
-            "claims 16384 x 16384 texels, but has",
-        ),
+        (ktx2(4, 4, 1, 1 << 50), "claims 1125899906842624 bytes for 1 blocks"),
+        (ktx2(16_384, 16_384, 1, 16), "claims 16384 x 16384 texels, but has"),
         (ktx2(1 << 20, 4, 1, 16), "are not within 1 to 16384 a side"),
         (ktx2(4, 4, 6, 16), "several layers or faces"),
         (ktx2(4, 4, 1, 16), "the KTX2 image cannot be decoded"),
-        (
-            ktx2(4, 4, 1, 16)[..90].to_vec(),
-            "the KTX2 header is broken",
-        ),
+        (ktx2(4, 4, 1, 16)[..90].to_vec(), "the KTX2 header is broken"),
     ] {
         let mut builder = Builder::new();
         let view = builder.view(&image, json!({}));
@@ -135,10 +100,7 @@ fn ktx2_cannot_claim_what_its_blocks_cannot_hold() {
         builder.triangle(json!({}));
         let warnings = builder.load().unwrap().warnings.join("\n");
         let expected = "test.glb: /images/0: ";
-        assert!(
-            warnings.contains(expected) && warnings.contains(message),
-            "{warnings}"
-        );
+        assert!(warnings.contains(expected) && warnings.contains(message), "{warnings}");
     }
 }
 
@@ -182,9 +144,7 @@ fn etc1s_and_uastc_have_their_colours() {
     for found in [
         texels(balloon, |[r, _, b, _]| b > 200 && r < 150),
         texels(balloon, |[_, g, b, _]| g > 90 && b < 60),
-        texels(lamp, |[r, g, b, a]| {
-            r > 150 && g > b && r > g + 50 && a == 255
-        }),
+        texels(lamp, |[r, g, b, a]| r > 150 && g > b && r > g + 50 && a == 255),
     ] {
         assert!(found > 1000, "{found}");
     }
@@ -210,27 +170,11 @@ fn ktx2_keeps_its_levels() {
         let mut offset = u64::from(descriptor) + 44;
         for level in 0..levels {
             let size = if level == 0 { 64 } else { 16 };
-            bytes.extend(
-                [offset, size, size]
-                    .iter()
-                    .flat_map(|word| word.to_le_bytes()),
-            );
+            bytes.extend([offset, size, size].iter().flat_map(|word| word.to_le_bytes()));
             offset += size;
         }
-        let words = [
-            44_u32,
-            0,
-            2 | 40 << 16,
-            166 | 1 << 8 | 2 << 16,
-            3 | 3 << 8,
-            16,
-        ];
-        bytes.extend(
-            words
-                .iter()
-                .chain(&[0; 5])
-                .flat_map(|word| word.to_le_bytes()),
-        );
+        let words = [44_u32, 0, 2 | 40 << 16, 166 | 1 << 8 | 2 << 16, 3 | 3 << 8, 16];
+        bytes.extend(words.iter().chain(&[0; 5]).flat_map(|word| word.to_le_bytes()));
         for (level, &color) in colors.iter().take(levels).enumerate() {
             for _ in 0..if level == 0 { 4 } else { 1 } {
                 bytes.extend(block(color).to_le_bytes());
@@ -241,14 +185,8 @@ fn ktx2_keeps_its_levels() {
     for (levels, kept) in [(1, 1), (2, 1), (4, 4)] {
         let mut builder = Builder::new();
         let view = builder.view(&file(levels), json!({}));
-        builder.push(
-            "images",
-            json!({"bufferView": view, "mimeType": "image/ktx2"}),
-        );
-        builder.push(
-            "textures",
-            json!({"extensions": {"KHR_texture_basisu": {"source": 0}}}),
-        );
+        builder.push("images", json!({"bufferView": view, "mimeType": "image/ktx2"}));
+        builder.push("textures", json!({"extensions": {"KHR_texture_basisu": {"source": 0}}}));
         builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
         let loaded = builder.load().unwrap();
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);

@@ -8,35 +8,16 @@ use serde_json::{Value, json};
 fn folded(degrees: f32) -> Vec<[f32; 3]> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let at = |x: f32, y: f32| {
-        if x > 0.0 {
-            [x * cos, y, -x * sin]
-        } else {
-            [x, y, 0.0]
-        }
+        if x > 0.0 { [x * cos, y, -x * sin] } else { [x, y, 0.0] }
     };
-    let square = |x: f32| {
-        [
-            [x, 0.0],
-            [x + 1.0, 0.0],
-            [x + 1.0, 1.0],
-            [x, 0.0],
-            [x + 1.0, 1.0],
-            [x, 1.0],
-        ]
-    };
-    [square(-1.0), square(0.0)]
-        .concat()
-        .iter()
-        .map(|[x, y]| at(*x, *y))
-        .collect()
+    let square = |x: f32| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+    [square(-1.0), square(0.0)].concat().iter().map(|[x, y]| at(*x, *y)).collect()
 }
 
 fn edges_of(primitives: &[Vec<[f32; 3]>]) -> Geometry {
     let mut builder = Builder::new();
-    let primitives: Vec<Value> = primitives
-        .iter()
-        .map(|positions| json!({"attributes": {"POSITION": builder.floats(positions)}}))
-        .collect();
+    let primitives: Vec<Value> =
+        primitives.iter().map(|positions| json!({"attributes": {"POSITION": builder.floats(positions)}})).collect();
     let mesh = builder.push("meshes", json!({"primitives": primitives}));
     builder.push("nodes", json!({"mesh": mesh}));
     let mut scene = builder.load().unwrap().scene;
@@ -56,12 +37,7 @@ fn counts(geometry: &Geometry) -> [usize; 2] {
 /// The common side of two faces in a plane is not an edge.
 #[test]
 fn faces_that_turn_far_make_a_crease() {
-    for (angle, expected) in [
-        (0.0, [0, 6]),
-        (29.0, [1, 6]),
-        (31.0, [0, 7]),
-        (90.0, [0, 7]),
-    ] {
+    for (angle, expected) in [(0.0, [0, 6]), (29.0, [1, 6]), (31.0, [0, 7]), (90.0, [0, 7])] {
         let geometry = edges_of(&[folded(angle)]);
         assert_eq!(counts(&geometry), expected, "{angle} degrees");
     }
@@ -88,11 +64,7 @@ fn a_third_face_makes_an_edge_that_shows() {
 #[test]
 fn faces_back_to_back_are_one() {
     let sheet = folded(0.0);
-    let back = sheet
-        .as_chunks()
-        .0
-        .iter()
-        .flat_map(|[a, b, c]: &[[f32; 3]; 3]| [*a, *c, *b]);
+    let back = sheet.as_chunks().0.iter().flat_map(|[a, b, c]: &[[f32; 3]; 3]| [*a, *c, *b]);
     let both: Vec<_> = sheet.iter().copied().chain(back).collect();
     let geometry = edges_of(&[both]);
     assert_eq!(counts(&geometry), [0, 6]);

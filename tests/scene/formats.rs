@@ -29,35 +29,20 @@ const QUAD: &str = "# a comment\nmtllib quad.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 
 /// The order of a file's corners means nothing if the file has normals: a front is where these point.
 #[test]
 fn normals_decide_which_side_of_a_face_is_its_front() {
-    let obj =
-        |corners: &str, z: i32| format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 {z}\nf {corners}\n");
+    let obj = |corners: &str, z: i32| format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 {z}\nf {corners}\n");
     let ply = |corners: &str, z: i32| {
         let head = "ply\nformat ascii 1.0\nelement vertex 3\n";
         let axes = ["x", "y", "z", "nx", "ny", "nz"].map(|axis| format!("property float {axis}\n"));
         let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
         let vertices = ["0 0 0", "1 0 0", "0 1 0"].map(|v| format!("{v} 0 0 {z}\n"));
-        format!(
-            "{head}{}{faces}{}3 {corners}\n",
-            axes.concat(),
-            vertices.concat()
-        )
+        format!("{head}{}{faces}{}3 {corners}\n", axes.concat(), vertices.concat())
     };
     for z in [1, -1] {
-        for file in [
-            obj("1//1 2//1 3//1", z),
-            obj("1//1 3//1 2//1", z),
-            ply("0 1 2", z),
-            ply("0 2 1", z),
-        ] {
+        for file in [obj("1//1 2//1 3//1", z), obj("1//1 3//1 2//1", z), ply("0 1 2", z), ply("0 2 1", z)] {
             let geometry = pose(file.as_bytes()).1.geometry;
-            let [a, b, c] = geometry.triangles[0]
-                .map(|v| glam::Vec3::from_array(geometry.positions[v as usize]));
+            let [a, b, c] = geometry.triangles[0].map(|v| glam::Vec3::from_array(geometry.positions[v as usize]));
             assert_eq!((b - a).cross(c - a), glam::Vec3::Z * z as f32, "{file}");
-            let kept = geometry
-                .streams
-                .normals
-                .iter()
-                .all(|n| *n == [0., 0., z as f32]);
+            let kept = geometry.streams.normals.iter().all(|n| *n == [0., 0., z as f32]);
             assert!(kept, "{:?}", geometry.streams.normals);
         }
     }
@@ -78,31 +63,19 @@ fn obj_has_its_mtl_colours_and_textures() {
     assert_eq!(paint.base_color, [0.5, 0.25, 1.0, 0.5]);
     assert_eq!((paint.metallic, paint.alpha_mode), (0.0, AlphaMode::Blend));
     let texture = scene.textures[paint.base_color_texture.unwrap().texture as usize];
-    assert_eq!(
-        scene.images[texture.image as usize].pixels[..4],
-        [1, 2, 3, 255]
-    );
+    assert_eq!(scene.images[texture.image as usize].pixels[..4], [1, 2, 3, 255]);
 
     let geometry = scene.pose(&PoseRequest::default()).unwrap().geometry;
     assert_eq!(geometry.triangles.len(), 2);
     assert_eq!(geometry.draws[0].material, 0);
-    assert!(
-        geometry
-            .streams
-            .normals
-            .iter()
-            .all(|n| *n == [0.0, 0.0, 1.0])
-    );
+    assert!(geometry.streams.normals.iter().all(|n| *n == [0.0, 0.0, 1.0]));
     // In OBJ v starts at the bottom of the image, in glTF at its top.
     for (position, uv) in geometry.positions.iter().zip(&geometry.streams.uvs) {
         let [x, y] = [0, 1].map(|i| position[i] + geometry.origin[i] as f32);
         assert_eq!([x, 1.0 - y], uv[..2]);
     }
     let info = serde_json::to_value(scene.info()).unwrap();
-    assert_eq!(
-        (&info["format"], &info["triangles"]),
-        (&"OBJ".into(), &2.into())
-    );
+    assert_eq!((&info["format"], &info["triangles"]), (&"OBJ".into(), &2.into()));
 }
 
 /// A single component stands for all three. Without components, or if one is not a number, the default is used.
@@ -145,28 +118,12 @@ fn obj_with_indices_beyond_its_vertices_is_refused() {
         ("v 0 0", 5, "3 numbers are needed, and there are 2"),
         ("# of nothing\nvt 1 zero", 6, "\"zero\" is not a number"),
         ("f 1 2 three", 5, "\"three\" names no corner"),
-        (
-            "f 1 2 3\n\nf 1 2 5\no next\nv 0 0 1",
-            7,
-            "vertex 5 is named, and there are 4",
-        ),
+        ("f 1 2 3\n\nf 1 2 5\no next\nv 0 0 1", 7, "vertex 5 is named, and there are 4"),
         ("l 1 0", 5, "vertex 0 is named, and there are 3"),
-        (
-            "f -1 -2 -3\nf -1 -2 -4",
-            6,
-            "vertex -4 is named, and there are 3",
-        ),
-        (
-            "f 1 2 4\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//2",
-            8,
-            "normal 2 is named, and there are 1",
-        ),
+        ("f -1 -2 -3\nf -1 -2 -4", 6, "vertex -4 is named, and there are 3"),
+        ("f 1 2 4\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//2", 8, "normal 2 is named, and there are 1"),
         // Found by fuzzing: a texture coordinate before the first one.
-        (
-            "vt 0 0\nf 1/-9 2/1 3/1",
-            6,
-            "texture coordinate -9 is named, and there are 1",
-        ),
+        ("vt 0 0\nf 1/-9 2/1 3/1", 6, "texture coordinate -9 is named, and there are 1"),
     ] {
         let expected = format!("line {line}: the OBJ file is broken: {reason}");
         refused(format!("{corners}{statements}\n").as_bytes(), &expected);
@@ -206,29 +163,16 @@ fn stl_in_binary_and_as_text() {
         assert_eq!(pose.geometry.bounds().unwrap().1, DVec3::new(1.0, 1.0, 0.0));
         assert!(loaded.scene.materials[0].double_sided);
     }
-    refused(
-        b"solid x\nfacet normal 0 0 nought\n",
-        "the STL file is broken",
-    );
+    refused(b"solid x\nfacet normal 0 0 nought\n", "the STL file is broken");
     refused(&binary[..100], "nor OBJ, STL or PLY");
     // A file that is named as an STL says why it is none.
-    let named = |bytes: &[u8]| {
-        Scene::from_slice(bytes, "a.STL", None)
-            .unwrap_err()
-            .to_string()
-    };
+    let named = |bytes: &[u8]| Scene::from_slice(bytes, "a.STL", None).unwrap_err().to_string();
     let cut = named(&binary[..100]);
-    assert!(
-        cut.contains("it states 1 triangles and has 100 bytes"),
-        "{cut}"
-    );
+    assert!(cut.contains("it states 1 triangles and has 100 bytes"), "{cut}");
     assert!(named(b"solid x\nendsolid x\n").contains("the STL file is broken: it has no facets"));
     let comma = text.replace("1 0 0", "1,0 0 0");
     let comma = load(comma.as_bytes(), None).unwrap_err().to_string();
-    assert!(
-        comma.contains("line 5: the STL file is broken: \"1,0\" has a decimal comma"),
-        "{comma}"
-    );
+    assert!(comma.contains("line 5: the STL file is broken: \"1,0\" has a decimal comma"), "{comma}");
 }
 
 #[test]
@@ -236,11 +180,7 @@ fn positions_that_are_not_finite_are_left_out() {
     let broken = [CORNERS[0], CORNERS[1], [f32::NAN, 0.0, 0.0]];
     let (loaded, pose) = pose(&binary_stl("", &[CORNERS, broken]));
     assert_eq!(pose.geometry.triangles.len(), 1);
-    assert!(
-        loaded.warnings[0].contains("1 of 2 triangles"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("1 of 2 triangles"), "{:?}", loaded.warnings);
 }
 
 /// A PLY header for this encoding; x is a double and far from the origin.
@@ -265,24 +205,8 @@ fn ply_in_all_encodings() {
     let mut big = ply_header("binary_big_endian", 4).into_bytes();
     for [x, y] in corners {
         let x = far + f64::from(x);
-        little.extend(
-            [
-                &x.to_le_bytes()[..],
-                &y.to_le_bytes(),
-                &[0; 4],
-                &[255, 0, 188],
-            ]
-            .concat(),
-        );
-        big.extend(
-            [
-                &x.to_be_bytes()[..],
-                &y.to_be_bytes(),
-                &[0; 4],
-                &[255, 0, 188],
-            ]
-            .concat(),
-        );
+        little.extend([&x.to_le_bytes()[..], &y.to_le_bytes(), &[0; 4], &[255, 0, 188]].concat());
+        big.extend([&x.to_be_bytes()[..], &y.to_be_bytes(), &[0; 4], &[255, 0, 188]].concat());
     }
     little.push(4);
     big.push(4);
@@ -295,10 +219,7 @@ fn ply_in_all_encodings() {
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
         assert_eq!(pose.geometry.triangles.len(), 2);
         let (low, high) = pose.geometry.bounds().unwrap();
-        assert_eq!(
-            (low, high),
-            (DVec3::new(far, 0., 0.), DVec3::new(far + 1.0, 1., 0.))
-        );
+        assert_eq!((low, high), (DVec3::new(far, 0., 0.), DVec3::new(far + 1.0, 1., 0.)));
         let [r, g, b, a] = pose.geometry.streams.colors[0];
         assert_eq!((r, g, a), (1.0, 0.0, 1.0));
         assert!((b - 0.5029).abs() < 1e-3, "{b}");
@@ -307,14 +228,8 @@ fn ply_in_all_encodings() {
 
 #[test]
 fn ply_cannot_claim_what_is_not_there() {
-    refused(
-        ply_header("ascii", 1 << 40).as_bytes(),
-        "element vertex: claims 1099511627776",
-    );
-    refused(
-        ply_header("binary_little_endian", 100).as_bytes(),
-        "the PLY file is broken",
-    );
+    refused(ply_header("ascii", 1 << 40).as_bytes(), "element vertex: claims 1099511627776");
+    refused(ply_header("binary_little_endian", 100).as_bytes(), "the PLY file is broken");
     let empty = "ply\nformat binary_little_endian 1.0\nelement nothing 1\nend_header\n";
     refused(empty.as_bytes(), "element nothing: has no properties");
     refused(b"ply\nformat ascii 1.0\n", "the PLY file is broken");
@@ -330,11 +245,7 @@ fn vertices_of_ply_are_points_where_nothing_connects_them() {
     let cloud = format!("{header}end_header\n1 2 3\n4 5 6\n1e60 0 0\n");
     let (loaded, _) = pose(cloud.as_bytes());
     assert_eq!(loaded.scene.info().points, 2);
-    assert!(
-        loaded.warnings[0].contains("1 of 3"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("1 of 3"), "{:?}", loaded.warnings);
     let edges = "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n";
     let wires = format!("{header}{edges}0 0 0\n1 0 0\n1 1 0\n0 1\n1 2\n");
     let (loaded, pose) = pose(wires.as_bytes());
@@ -353,10 +264,7 @@ fn lines_and_points_of_obj_are_no_faces() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let (low, high) = pose.geometry.bounds().unwrap();
     assert_eq!((low, high), (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)));
-    refused(
-        b"v 0 0 0\nl 1 2\n",
-        "line 2: the OBJ file is broken: vertex 2 is named",
-    );
+    refused(b"v 0 0 0\nl 1 2\n", "line 2: the OBJ file is broken: vertex 2 is named");
 }
 
 #[test]
@@ -369,8 +277,7 @@ fn strips_of_ply_keep_their_sides() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert_eq!(pose.geometry.triangles.len(), 4);
     for triangle in &pose.geometry.triangles {
-        let [a, b, c] =
-            triangle.map(|v| DVec3::from_array(pose.geometry.positions[v as usize].map(f64::from)));
+        let [a, b, c] = triangle.map(|v| DVec3::from_array(pose.geometry.positions[v as usize].map(f64::from)));
         assert!((b - a).cross(c - a).z > 0.0);
     }
     assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
@@ -393,10 +300,7 @@ fn obj_as_programs_write_it() {
     let mut obj = obj.as_bytes().to_vec();
     obj[3] = 0xFC;
     let loaded = load(&obj, Some(folder.path())).unwrap();
-    assert_eq!(
-        loaded.warnings,
-        ["test: left out: MTL statements (1: -clamp of map_Kd)"]
-    );
+    assert_eq!(loaded.warnings, ["test: left out: MTL statements (1: -clamp of map_Kd)"]);
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
     assert_eq!(pose.geometry.triangles.len(), 4);
     let used = loaded.scene.materials[0].base_color_texture.unwrap();

@@ -14,33 +14,22 @@ fn strips_and_fans_wind_like_lists() {
     for (mode, positions) in [(5, square), (6, around)] {
         let mut builder = Builder::new();
         let positions = builder.floats(&positions);
-        builder.node_with(
-            json!({"attributes": {"POSITION": positions}, "mode": mode}),
-            json!({}),
-        );
+        builder.node_with(json!({"attributes": {"POSITION": positions}, "mode": mode}), json!({}));
         let geometry = builder.pose().geometry;
         assert_eq!(geometry.triangles.len(), 2);
-        assert!(
-            geometry.streams.normals.iter().all(|n| *n == [0., 0., 1.]),
-            "mode {mode}"
-        );
+        assert!(geometry.streams.normals.iter().all(|n| *n == [0., 0., 1.]), "mode {mode}");
     }
 }
 
 #[test]
 fn every_index_type() {
-    for (component, bytes) in [
-        (5121, vec![2, 0, 1]),
-        (5123, vec![2, 0, 0, 0, 1, 0]),
-        (5125, vec![2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]),
-    ] {
+    for (component, bytes) in
+        [(5121, vec![2, 0, 1]), (5123, vec![2, 0, 0, 0, 1, 0]), (5125, vec![2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0])]
+    {
         let mut builder = Builder::new();
         let positions = builder.floats(&TRIANGLE);
         let indices = builder.accessor("SCALAR", component, &bytes, json!({}));
-        builder.node_with(
-            json!({"attributes": {"POSITION": positions}, "indices": indices}),
-            json!({}),
-        );
+        builder.node_with(json!({"attributes": {"POSITION": positions}, "indices": indices}), json!({}));
         let geometry = builder.pose().geometry;
         assert_near(corners(&geometry, 0), [FIRST[2], FIRST[0], FIRST[1]]);
     }
@@ -72,13 +61,7 @@ fn points_and_lines_are_corners_to_place() {
         // Two separate lines, and two that share a vertex.
         (1, json!([0, 1, 2, 3]), 4, 2 * SEGMENT, [0, 2]),
         (1, json!([0, 1, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
-        (
-            1,
-            json!([0, 1, 1, 2, 2, 0]),
-            3,
-            3 * (SEGMENT + JOINT),
-            [0, 3],
-        ),
+        (1, json!([0, 1, 1, 2, 2, 0]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
         (2, json!([0, 1, 2]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
         (3, json!([0, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
         // A segment without length has no direction.
@@ -87,10 +70,7 @@ fn points_and_lines_are_corners_to_place() {
     ] {
         let (geometry, info, warnings) = drawn(mode, indices.clone());
         let what = format!("mode {mode}, {indices}");
-        assert!(
-            !warnings.iter().any(|w| w.contains("primitives")),
-            "{what}: {warnings:?}"
-        );
+        assert!(!warnings.iter().any(|w| w.contains("primitives")), "{what}: {warnings:?}");
         assert_eq!(geometry.positions.len(), anchors + corners, "{what}");
         assert_eq!(geometry.strokes.len(), corners, "{what}");
         assert_eq!([info.points, info.lines], counts, "{what}");
@@ -112,10 +92,7 @@ fn points_and_lines_are_corners_to_place() {
     assert!(said(&warnings, "1 of 6 vertices"), "{warnings:?}");
     let (_, info, warnings) = drawn(1, json!([0, 1, 2]));
     assert_eq!(info.lines, 1);
-    assert!(
-        said(&warnings, "1 of 3 indices makes no line"),
-        "{warnings:?}"
-    );
+    assert!(said(&warnings, "1 of 3 indices makes no line"), "{warnings:?}");
 }
 
 #[test]
@@ -125,28 +102,17 @@ fn lines_without_normals_have_unlit_materials() {
     let normals = builder.floats(&[[0.0, 1.0, 0.0]; 3]);
     let material = builder.push("materials", json!({"alphaMode": "BLEND"}));
     let plain = json!({"POSITION": positions});
-    for (attributes, mode) in [
-        (plain.clone(), 1),
-        (plain.clone(), 0),
-        (json!({"POSITION": positions, "NORMAL": normals}), 3),
-        (plain, 4),
-    ] {
-        builder.node_with(
-            json!({"attributes": attributes, "mode": mode, "material": material}),
-            json!({}),
-        );
+    for (attributes, mode) in
+        [(plain.clone(), 1), (plain.clone(), 0), (json!({"POSITION": positions, "NORMAL": normals}), 3), (plain, 4)]
+    {
+        builder.node_with(json!({"attributes": attributes, "mode": mode, "material": material}), json!({}));
     }
     let loaded = builder.load().unwrap();
     let materials = &loaded.scene.materials;
     assert_eq!(materials.len(), 3);
     assert_eq!(loaded.scene.info().materials.blend, 1);
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
-    let used: Vec<_> = pose
-        .geometry
-        .draws
-        .iter()
-        .map(|draw| draw.material)
-        .collect();
+    let used: Vec<_> = pose.geometry.draws.iter().map(|draw| draw.material).collect();
     assert_eq!(used, [2, 0]);
     assert!(materials[2].unlit && !materials[0].unlit);
     let facing = pose.geometry.strokes.iter().filter(|s| s.faces_camera);
@@ -156,10 +122,7 @@ fn lines_without_normals_have_unlit_materials() {
 #[test]
 fn interleaved_attributes() {
     let mut builder = Builder::new();
-    let rows: Vec<[f32; 6]> = TRIANGLE
-        .iter()
-        .map(|&[x, y, z]| [x, y, z, 0., 1., 0.])
-        .collect();
+    let rows: Vec<[f32; 6]> = TRIANGLE.iter().map(|&[x, y, z]| [x, y, z, 0., 1., 0.]).collect();
     let view = builder.view(&le(&rows), json!({"byteStride": 24}));
     let mut accessor = |offset: usize| {
         builder.push(
@@ -169,10 +132,7 @@ fn interleaved_attributes() {
         )
     };
     let (positions, normals) = (accessor(0), accessor(12));
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions, "NORMAL": normals}}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions, "NORMAL": normals}}), json!({}));
     let geometry = builder.pose().geometry;
     assert_near(corners(&geometry, 0), FIRST);
     assert_eq!(geometry.streams.normals, [[0., 1., 0.]; 3]);
@@ -193,10 +153,7 @@ fn sparse_replaces_elements_and_zeros() {
             let wrong = [[0., 0., 0.], [9., 9., 9.], [9., 9., 9.]];
             builder.accessor("VEC3", 5126, &le(&wrong), json!({"sparse": sparse}))
         } else {
-            builder.push(
-                "accessors",
-                json!({"type": "VEC3", "componentType": 5126, "count": 3, "sparse": sparse}),
-            )
+            builder.push("accessors", json!({"type": "VEC3", "componentType": 5126, "count": 3, "sparse": sparse}))
         };
         builder.node_with(json!({"attributes": {"POSITION": positions}}), json!({}));
         assert_near(corners(&builder.pose().geometry, 0), FIRST);
@@ -206,10 +163,8 @@ fn sparse_replaces_elements_and_zeros() {
 #[test]
 fn quantised_positions_and_normalised_colours() {
     let mut builder = Builder::new();
-    let shorts: Vec<u8> = [0_i16, 0, 0, 0, 32_767, 0, 0, 0, -32_768, 0, 0, 0]
-        .iter()
-        .flat_map(|x| x.to_le_bytes())
-        .collect();
+    let shorts: Vec<u8> =
+        [0_i16, 0, 0, 0, 32_767, 0, 0, 0, -32_768, 0, 0, 0].iter().flat_map(|x| x.to_le_bytes()).collect();
     let view = builder.view(&shorts, json!({"byteStride": 8}));
     let mut positions = |normalized: bool| {
         builder.push(
@@ -219,23 +174,13 @@ fn quantised_positions_and_normalised_colours() {
         )
     };
     let (plain, normalized) = (positions(false), positions(true));
-    let colors = builder.accessor(
-        "VEC4",
-        5121,
-        &[0, 51, 255, 102, 255, 255, 255, 255, 0, 0, 0, 0],
-        json!({"normalized": true}),
-    );
+    let colors =
+        builder.accessor("VEC4", 5121, &[0, 51, 255, 102, 255, 255, 255, 255, 0, 0, 0, 0], json!({"normalized": true}));
     for positions in [plain, normalized] {
-        builder.node_with(
-            json!({"attributes": {"POSITION": positions, "COLOR_0": colors}}),
-            json!({}),
-        );
+        builder.node_with(json!({"attributes": {"POSITION": positions, "COLOR_0": colors}}), json!({}));
     }
     let geometry = builder.pose().geometry;
-    assert_near(
-        corners(&geometry, 0),
-        [[0.; 3], [32_767., 0., 0.], [-32_768., 0., 0.]],
-    );
+    assert_near(corners(&geometry, 0), [[0.; 3], [32_767., 0., 0.], [-32_768., 0., 0.]]);
     let high: Vec<f64> = corners(&geometry, 1).iter().map(|c| c[0]).collect();
     // Relative to the centre of a scene with a size of 65,535 units, single precision resolves 1/512.
     for (found, expected) in high.iter().zip([0.0, 1.0, -1.0]) {
@@ -248,9 +193,7 @@ fn quantised_positions_and_normalised_colours() {
 fn mirrored_nodes_keep_their_fronts() {
     let mut builder = Builder::new();
     builder.triangle(json!({"scale": [-1, 1, 1]}));
-    let matrix = [
-        1., 0., 0., 0., 0., -2., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.,
-    ];
+    let matrix = [1., 0., 0., 0., 0., -2., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
     builder.triangle(json!({"matrix": matrix}));
     builder.triangle(json!({"scale": [-1, -1, 1]}));
     let geometry = builder.pose().geometry;
@@ -268,10 +211,7 @@ fn normals_follow_the_inverse_transpose() {
     let mut builder = Builder::new();
     let positions = builder.floats(&[[0., 0., 0.], [1., -1., 0.], [0., 0., 1.]]);
     let normals = builder.floats(&[[1., 1., 0.]; 3]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions, "NORMAL": normals}}),
-        json!({"scale": [4, 1, -1]}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions, "NORMAL": normals}}), json!({"scale": [4, 1, -1]}));
     let geometry = builder.pose().geometry;
     let length = (1.0_f32 / 16.0 + 1.0).sqrt();
     for normal in geometry.streams.normals {
@@ -288,10 +228,7 @@ fn faces_without_normals_are_flat_and_share_no_vertex() {
     let roof = [[0., 0., 0.], [1., 0., 0.], [0., 1., 1.], [0., -1., 1.]];
     let positions = builder.floats(&roof);
     let indices = builder.indices(&[0, 1, 2, 1, 0, 3]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions}, "indices": indices}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions}, "indices": indices}), json!({}));
     let geometry = builder.pose().geometry;
     assert_eq!(geometry.positions.len(), 6);
     let half = 0.5_f32.sqrt();
@@ -308,17 +245,10 @@ fn unusable_normals_are_replaced_with_one_warning() {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
     let normals = builder.floats(&[[0., 0., 5.], [0.; 3], [f32::NAN; 3]]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions, "NORMAL": normals}}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions, "NORMAL": normals}}), json!({}));
     let loaded = builder.load().unwrap();
     assert_eq!(loaded.warnings.len(), 2, "{:?}", loaded.warnings);
-    assert!(
-        loaded.warnings[1].contains("2 of the normals"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[1].contains("2 of the normals"), "{:?}", loaded.warnings);
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
     assert_eq!(pose.geometry.streams.normals, [[0., 0., 1.]; 3]);
 }
@@ -330,20 +260,11 @@ fn triangles_without_a_place_are_dropped_and_counted() {
     values[4][1] = f32::INFINITY;
     let positions = builder.floats(&values);
     let indices = builder.indices(&[0, 1, 2, 3, 4, 5, 0, 1, 6, 2, 0, 1]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions}, "indices": indices}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions}, "indices": indices}), json!({}));
     let loaded = builder.load().unwrap();
     let warnings = loaded.warnings.join("\n");
-    assert!(
-        warnings.contains("/meshes/0/primitives/0/indices: 1 of 4 triangles refer to"),
-        "{warnings}"
-    );
-    assert!(
-        warnings.contains("/accessors/0: 1 of 3 triangles have infinite"),
-        "{warnings}"
-    );
+    assert!(warnings.contains("/meshes/0/primitives/0/indices: 1 of 4 triangles refer to"), "{warnings}");
+    assert!(warnings.contains("/accessors/0: 1 of 3 triangles have infinite"), "{warnings}");
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
     assert_eq!(pose.geometry.triangles.len(), 2);
 }
@@ -356,10 +277,7 @@ fn only_vertices_in_use_are_kept() {
     let positions = builder.floats(&many);
     let normals = builder.floats(&[[0., 0., 1.]; 100]);
     let indices = builder.indices(&[40, 41, 42]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions, "NORMAL": normals}, "indices": indices}), json!({}));
     let geometry = builder.pose().geometry;
     assert_eq!(geometry.positions.len(), 3);
     assert_near(corners(&geometry, 0), FIRST);
@@ -369,10 +287,7 @@ fn only_vertices_in_use_are_kept() {
 fn draws_are_sorted_by_class_and_merged() {
     let mut builder = Builder::new();
     let blend = builder.push("materials", json!({"alphaMode": "BLEND"}));
-    let mask = builder.push(
-        "materials",
-        json!({"alphaMode": "MASK", "doubleSided": true}),
-    );
+    let mask = builder.push("materials", json!({"alphaMode": "MASK", "doubleSided": true}));
     let positions = builder.floats(&TRIANGLE);
     let mut primitive = json!({"attributes": {"POSITION": positions}});
     for material in [Some(blend), None, None, Some(mask), None] {
@@ -383,17 +298,10 @@ fn draws_are_sorted_by_class_and_merged() {
         builder.node_with(primitive.clone(), json!({}));
     }
     let draws = builder.pose().geometry.draws;
-    let found: Vec<_> = draws
-        .iter()
-        .map(|d| (d.class, d.material, d.first_triangle, d.triangle_count))
-        .collect();
+    let found: Vec<_> = draws.iter().map(|d| (d.class, d.material, d.first_triangle, d.triangle_count)).collect();
     assert_eq!(
         found,
-        [
-            (DrawClass::Opaque, 2, 0, 3),
-            (DrawClass::MaskDoubleSided, 1, 3, 1),
-            (DrawClass::Blend, 0, 4, 1),
-        ]
+        [(DrawClass::Opaque, 2, 0, 3), (DrawClass::MaskDoubleSided, 1, 3, 1), (DrawClass::Blend, 0, 4, 1),]
     );
 }
 
@@ -401,10 +309,7 @@ fn draws_are_sorted_by_class_and_merged() {
 fn far_from_the_origin_nothing_is_lost() {
     let mut builder = Builder::new();
     let near = builder.triangle(json!({"translation": [0.001, 0, 0]}));
-    builder.push(
-        "nodes",
-        json!({"children": [near], "translation": [1e9, -1e9, 0]}),
-    );
+    builder.push("nodes", json!({"children": [near], "translation": [1e9, -1e9, 0]}));
     let geometry = builder.pose().geometry;
     let [a, b, _] = geometry.triangles[0].map(|v| geometry.positions[v as usize]);
     assert_eq!([b[0] - a[0], b[1] - a[1]], [1.0, 0.0]);
@@ -419,19 +324,13 @@ fn optional_streams_are_there_only_when_used() {
     let positions = builder.floats(&TRIANGLE);
     let uvs = builder.floats(&[[0., 1.], [1., 1.], [0., 0.]]);
     let texture = builder.texture([1, 2, 3]);
-    let textured = builder.push(
-        "materials",
-        json!({"normalTexture": {"index": texture, "texCoord": 1}}),
-    );
+    let textured = builder.push("materials", json!({"normalTexture": {"index": texture, "texCoord": 1}}));
     let attributes = json!({"POSITION": positions, "TEXCOORD_1": uvs});
     builder.node_with(json!({"attributes": attributes}), json!({}));
     let streams = builder.pose().geometry.streams;
     assert!(streams.uvs.is_empty() && streams.tangents.is_empty() && streams.colors.is_empty());
 
-    builder.node_with(
-        json!({"attributes": attributes, "material": textured}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": attributes, "material": textured}), json!({}));
     let geometry = builder.pose().geometry;
     let draw = geometry.draws[1];
     assert_eq!(draw.material, textured as u32);
@@ -449,10 +348,7 @@ fn scenes_are_chosen_by_request_default_or_order() {
         builder.triangle(json!({"translation": [x, 0, 0]}));
     }
     let first = |builder: &Builder, scene| {
-        let request = PoseRequest {
-            scene,
-            ..PoseRequest::default()
-        };
+        let request = PoseRequest { scene, ..PoseRequest::default() };
         let geometry = builder.pose_at(&request).geometry;
         (geometry.triangles.len(), corners(&geometry, 0)[0][0])
     };
@@ -464,15 +360,9 @@ fn scenes_are_chosen_by_request_default_or_order() {
     builder.json["scene"] = 1.into();
     assert_eq!(first(&builder, None), (1, 2.0));
     assert_eq!(first(&builder, Some(0)), (1, 1.0));
-    let request = PoseRequest {
-        scene: Some(2),
-        ..PoseRequest::default()
-    };
+    let request = PoseRequest { scene: Some(2), ..PoseRequest::default() };
     let error = builder.load().unwrap().scene.pose(&request).unwrap_err();
-    assert!(
-        error.to_string().contains("no scene 2, the file has 2"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("no scene 2, the file has 2"), "{error}");
 }
 
 #[test]
@@ -480,9 +370,8 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     const SIDE: usize = 17;
     const COPIES: usize = 200;
     let mut builder = Builder::new();
-    let grid: Vec<[f32; 3]> = (0..SIDE * SIDE)
-        .map(|v| [(v % SIDE) as f32, (v / SIDE) as f32, (v % 7) as f32])
-        .collect();
+    let grid: Vec<[f32; 3]> =
+        (0..SIDE * SIDE).map(|v| [(v % SIDE) as f32, (v / SIDE) as f32, (v % 7) as f32]).collect();
     let mut indices = Vec::new();
     for row in 0..SIDE - 1 {
         for a in (row * SIDE..).take(SIDE - 1) {
@@ -491,17 +380,12 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     }
     let positions = builder.floats(&grid);
     let corners_of = builder.indices(&indices);
-    let mesh = builder.push(
-        "meshes",
-        json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": corners_of}]}),
-    );
+    let mesh =
+        builder.push("meshes", json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": corners_of}]}));
     let size = |copy: usize| [if copy == 3 { -2.0 } else { 2.0 }, 1.0, 0.5];
     for copy in 0..COPIES {
         let place = [copy as f64, 3.0, 0.0];
-        builder.push(
-            "nodes",
-            json!({"mesh": mesh, "translation": place, "scale": size(copy)}),
-        );
+        builder.push("nodes", json!({"mesh": mesh, "translation": place, "scale": size(copy)}));
     }
     builder.triangle(json!({}));
     let geometry = builder.pose().geometry;
@@ -538,8 +422,5 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
         }
     }
     let (low, high) = geometry.bounds().unwrap();
-    assert_eq!(
-        flat.bounds().map(|(l, h)| (l.as_vec3(), h.as_vec3())),
-        Some((low.as_vec3(), high.as_vec3()))
-    );
+    assert_eq!(flat.bounds().map(|(l, h)| (l.as_vec3(), h.as_vec3())), Some((low.as_vec3(), high.as_vec3())));
 }

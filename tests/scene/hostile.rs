@@ -17,32 +17,17 @@ fn refused(builder: &Builder, message: &str) {
 #[test]
 fn accessors_cannot_claim_what_is_not_there() {
     for (change, message) in [
-        (
-            json!({"count": 4}),
-            "4 elements of 12 bytes, 12 apart, at 0 reach beyond the 36 bytes",
-        ),
+        (json!({"count": 4}), "4 elements of 12 bytes, 12 apart, at 0 reach beyond the 36 bytes"),
         (json!({"count": 0}), "/accessors/0/count: 0 elements"),
-        (
-            json!({"count": u64::MAX}),
-            "/accessors/0/count: 18446744073709551615 elements",
-        ),
+        (json!({"count": u64::MAX}), "/accessors/0/count: 18446744073709551615 elements"),
         (
             json!({"count": 4_000_000_000_u32, "bufferView": null}),
             "/accessors/0: claims 4000000000 elements, but has no buffer view",
         ),
         (json!({"byteOffset": u64::MAX}), "reach beyond"),
-        (
-            json!({"type": "VEC2"}),
-            "expected elements of [3] components, found 2",
-        ),
-        (
-            json!({"type": "VEC9"}),
-            "/accessors/0/type: \"VEC9\" is no valid type",
-        ),
-        (
-            json!({"componentType": 5124}),
-            "/accessors/0/componentType: 5124",
-        ),
+        (json!({"type": "VEC2"}), "expected elements of [3] components, found 2"),
+        (json!({"type": "VEC9"}), "/accessors/0/type: \"VEC9\" is no valid type"),
+        (json!({"componentType": 5124}), "/accessors/0/componentType: 5124"),
     ] {
         let mut builder = Builder::new();
         builder.triangle(json!({}));
@@ -59,21 +44,13 @@ fn zeros_are_not_allocated_by_claim() {
     let mut builder = Builder::new();
     let positions = builder.push("accessors", void.clone());
     builder.node_with(json!({"attributes": {"POSITION": positions}}), json!({}));
-    refused(
-        &builder,
-        "/accessors/0: claims 4000000000 elements, but has no buffer view",
-    );
+    refused(&builder, "/accessors/0: claims 4000000000 elements, but has no buffer view");
 
     let mut builder = Builder::new();
     let positions = builder.push("accessors", void.clone());
-    let indices = builder.push(
-        "accessors",
-        json!({"type": "SCALAR", "componentType": 5125, "count": 4_000_000_000_u32}),
-    );
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions}, "indices": indices}),
-        json!({}),
-    );
+    let indices =
+        builder.push("accessors", json!({"type": "SCALAR", "componentType": 5125, "count": 4_000_000_000_u32}));
+    builder.node_with(json!({"attributes": {"POSITION": positions}, "indices": indices}), json!({}));
     refused(&builder, "/accessors/1: claims");
 
     let mut builder = Builder::new();
@@ -94,12 +71,7 @@ fn compressed_views_cannot_claim_what_is_not_there() {
         }})
     };
     for (count, stride, mode, message) in [
-        (
-            1_u64 << 40,
-            12,
-            "ATTRIBUTES",
-            "36 bytes cannot hold 1099511627776 elements of 12",
-        ),
+        (1_u64 << 40, 12, "ATTRIBUTES", "36 bytes cannot hold 1099511627776 elements of 12"),
         (3, 12, "ATTRIBUTES", "the compressed data are broken"),
         (3, 13, "ATTRIBUTES", "the compressed data are broken"),
         (3, 0, "ATTRIBUTES", "the compressed data are broken"),
@@ -128,10 +100,7 @@ fn repetition_is_bounded() {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
     let indices = builder.indices(&[0; 60_000]);
-    builder.node_with(
-        json!({"attributes": {"POSITION": positions}, "indices": indices}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": {"POSITION": positions}, "indices": indices}), json!({}));
     for _ in 0..40_000 {
         builder.push("nodes", json!({"mesh": 0}));
     }
@@ -168,10 +137,7 @@ fn unusable_tangents_are_generated() {
             let primitive = json!({"attributes": attributes, "material": material});
             builder.node_with(primitive, json!({}));
             let loaded = builder.load().unwrap();
-            let told = loaded
-                .warnings
-                .iter()
-                .any(|text| text.to_lowercase().contains("tangent"));
+            let told = loaded.warnings.iter().any(|text| text.to_lowercase().contains("tangent"));
             assert_eq!(told, has_normals && !is_usable, "{:?}", loaded.warnings);
             for [x, y, z, _] in builder.pose().geometry.streams.tangents {
                 let expected = match (has_normals && is_usable, has_uvs) {
@@ -181,10 +147,7 @@ fn unusable_tangents_are_generated() {
                     (false, false) => [x, (1.0 - x * x).sqrt().copysign(y), 0.],
                 };
                 let off = [x - expected[0], y - expected[1], z - expected[2]];
-                assert!(
-                    off.iter().all(|d| d.abs() < 1e-6),
-                    "{tangents:?}: {x} {y} {z}"
-                );
+                assert!(off.iter().all(|d| d.abs() < 1e-6), "{tangents:?}: {x} {y} {z}");
             }
         }
     }
@@ -197,9 +160,7 @@ fn crowded_vertices_have_tangents() {
     let mut builder = Builder::new();
     let turn = |i: u32| f64::from(i) / f64::from(TRIANGLES) * std::f64::consts::TAU;
     let rim = |i: u32| [turn(i).cos() as f32, turn(i).sin() as f32];
-    let places: Vec<[f32; 2]> = std::iter::once([0., 0.])
-        .chain((0..TRIANGLES).map(rim))
-        .collect();
+    let places: Vec<[f32; 2]> = std::iter::once([0., 0.]).chain((0..TRIANGLES).map(rim)).collect();
     let positions: Vec<[f32; 3]> = places.iter().map(|[x, y]| [*x, *y, 0.]).collect();
     let triangles = (0..TRIANGLES).flat_map(|i| [0, 1 + i, 1 + (i + 1) % TRIANGLES]);
     let indices: Vec<u8> = triangles.flat_map(u32::to_le_bytes).collect();
@@ -212,10 +173,7 @@ fn crowded_vertices_have_tangents() {
     let indices = builder.accessor("SCALAR", 5125, &indices, json!({}));
     let texture = builder.texture([128, 128, 255]);
     let material = builder.push("materials", json!({"normalTexture": {"index": texture}}));
-    builder.node_with(
-        json!({"attributes": attributes, "indices": indices, "material": material}),
-        json!({}),
-    );
+    builder.node_with(json!({"attributes": attributes, "indices": indices, "material": material}), json!({}));
     let tangents = builder.pose().geometry.streams.tangents;
     assert_eq!(tangents.len(), positions.len());
     for [x, y, z, sign] in tangents {
@@ -230,10 +188,7 @@ fn deep_hierarchies_do_not_overflow_the_stack() {
     let mut builder = Builder::new();
     builder.triangle(json!({"translation": [1, 0, 0]}));
     for child in 0..DEPTH {
-        builder.push(
-            "nodes",
-            json!({"children": [child], "translation": [1, 0, 0]}),
-        );
+        builder.push("nodes", json!({"children": [child], "translation": [1, 0, 0]}));
     }
     let (low, _) = builder.pose().geometry.bounds().unwrap();
     assert_eq!(low.x, (DEPTH + 1) as f64);
@@ -243,18 +198,9 @@ fn deep_hierarchies_do_not_overflow_the_stack() {
 fn cycles_and_second_parents_are_found() {
     for (nodes, message) in [
         (json!([{"children": [0]}]), "/nodes/0: is its own ancestor"),
-        (
-            json!([{}, {"children": [2]}, {"children": [1]}]),
-            "/nodes/1: is its own ancestor",
-        ),
-        (
-            json!([{"children": [2]}, {"children": [2]}, {}]),
-            "/nodes/1/children: node 2 is already a child of node 0",
-        ),
-        (
-            json!([{"children": [1, 1]}, {}]),
-            "node 1 is already a child of node 0",
-        ),
+        (json!([{}, {"children": [2]}, {"children": [1]}]), "/nodes/1: is its own ancestor"),
+        (json!([{"children": [2]}, {"children": [2]}, {}]), "/nodes/1/children: node 2 is already a child of node 0"),
+        (json!([{"children": [1, 1]}, {}]), "node 1 is already a child of node 0"),
     ] {
         let mut builder = Builder::new();
         builder.json["nodes"] = nodes;
@@ -275,11 +221,7 @@ fn transforms_beyond_floating_point_leave_their_meshes_out() {
         let pose = builder.pose();
         assert_eq!(pose.geometry.triangles.len(), 1);
         assert_eq!(pose.warnings.len(), 1, "{:?}", pose.warnings);
-        assert!(
-            pose.warnings[0].starts_with("test.glb: /nodes/0: "),
-            "{:?}",
-            pose.warnings
-        );
+        assert!(pose.warnings[0].starts_with("test.glb: /nodes/0: "), "{:?}", pose.warnings);
     }
 }
 
@@ -316,10 +258,7 @@ fn rich() -> Builder {
         }),
         json!({"weights": [0.5], "camera": 0}),
     );
-    builder.push(
-        "cameras",
-        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
-    );
+    builder.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}));
     builder.push("skins", json!({"joints": [1]}));
     builder.json["nodes"][node]["skin"] = 0.into();
     builder.push("nodes", json!({"translation": [1, 2, 3]}));
@@ -339,10 +278,7 @@ fn exercise(bytes: &[u8]) -> bool {
     let Ok(loaded) = Scene::from_slice(bytes, "broken.glb", None) else {
         return false;
     };
-    let request = PoseRequest {
-        time: 0.5,
-        ..PoseRequest::default()
-    };
+    let request = PoseRequest { time: 0.5, ..PoseRequest::default() };
     loaded.scene.pose(&request).is_ok()
 }
 

@@ -11,46 +11,16 @@ fn check(geometry: &Geometry, what: &str) {
     let vertices = geometry.positions.len();
     let streams = &geometry.streams;
     assert_eq!(streams.normals.len(), vertices, "{what}");
-    for length in [
-        streams.tangents.len(),
-        streams.uvs.len(),
-        streams.colors.len(),
-    ] {
+    for length in [streams.tangents.len(), streams.uvs.len(), streams.colors.len()] {
         assert!(length == 0 || length == vertices, "{what}");
     }
-    assert!(
-        geometry
-            .positions
-            .as_flattened()
-            .iter()
-            .all(|x| x.is_finite()),
-        "{what}"
-    );
+    assert!(geometry.positions.as_flattened().iter().all(|x| x.is_finite()), "{what}");
     let unit = |v: &[f32]| (v.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-4;
     assert!(streams.normals.iter().all(|n| unit(n)), "{what}: normals");
-    assert!(
-        streams
-            .tangents
-            .iter()
-            .all(|t| unit(&t[..3]) && t[3].abs() == 1.0),
-        "{what}: tangents"
-    );
-    assert!(
-        streams.uvs.as_flattened().iter().all(|x| x.is_finite()),
-        "{what}: uvs"
-    );
-    assert!(
-        streams.colors.as_flattened().iter().all(|x| x.is_finite()),
-        "{what}: colours"
-    );
-    assert!(
-        geometry
-            .triangles
-            .as_flattened()
-            .iter()
-            .all(|&v| (v as usize) < vertices),
-        "{what}"
-    );
+    assert!(streams.tangents.iter().all(|t| unit(&t[..3]) && t[3].abs() == 1.0), "{what}: tangents");
+    assert!(streams.uvs.as_flattened().iter().all(|x| x.is_finite()), "{what}: uvs");
+    assert!(streams.colors.as_flattened().iter().all(|x| x.is_finite()), "{what}: colours");
+    assert!(geometry.triangles.as_flattened().iter().all(|&v| (v as usize) < vertices), "{what}");
     let mut next = 0;
     for draw in &geometry.draws {
         assert_eq!(draw.first_triangle, next, "{what}");
@@ -72,10 +42,7 @@ fn pose(path: &Path) -> Result<(Scene, Pose, Vec<String>), SceneError> {
         for (_, used) in material.textures() {
             let texture = loaded.scene.textures[used.texture as usize];
             let image = &loaded.scene.images[texture.image as usize];
-            assert_eq!(
-                image.pixels.len(),
-                4 * image.width as usize * image.height as usize
-            );
+            assert_eq!(image.pixels.len(), 4 * image.width as usize * image.height as usize);
         }
     }
     Ok((loaded.scene, pose, loaded.warnings))
@@ -104,16 +71,13 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
         let name = entry["name"].as_str().unwrap();
         let path = folder.join(name).join(entry["main"].as_str().unwrap());
         let required = entry["stats"]["req"].as_array().unwrap();
-        let unsupported = required
-            .iter()
-            .find(|r| !supported.contains(&r.as_str().unwrap()));
+        let unsupported = required.iter().find(|r| !supported.contains(&r.as_str().unwrap()));
         match (pose(&path), unsupported) {
             (Ok((scene, pose, warnings)), None) => {
                 let info = scene.info();
                 // Points and lines consist of triangles too.
-                let of_strokes = (StrokePart::DISC_CORNERS as u64 - 2) * info.points
-                    + 2 * info.lines
-                    + joints(&pose.geometry);
+                let of_strokes =
+                    (StrokePart::DISC_CORNERS as u64 - 2) * info.points + 2 * info.lines + joints(&pose.geometry);
                 let triangles = pose.geometry.triangle_count() - of_strokes;
                 let further = INSTANCED.iter().find(|(instanced, _)| *instanced == name);
                 let expected = entry["stats"]["tri"].as_u64().unwrap() + further.map_or(0, |f| f.1);
@@ -130,10 +94,7 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
                 assert_eq!(Some(found.as_str()), expected.as_str(), "{name}");
             }
             (result, unsupported) => {
-                panic!(
-                    "{name}: {:?}, required {unsupported:?}",
-                    result.map(|_| "posed")
-                );
+                panic!("{name}: {:?}, required {unsupported:?}", result.map(|_| "posed"));
             }
         }
         checked += 1;
@@ -143,10 +104,7 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
 
 /// Number of joints of lines, each of which is filled by a triangle.
 fn joints(geometry: &Geometry) -> u64 {
-    let centres = geometry
-        .strokes
-        .iter()
-        .filter(|s| s.part == StrokePart::JointCentre);
+    let centres = geometry.strokes.iter().filter(|s| s.part == StrokePart::JointCentre);
     centres.count() as u64
 }
 
@@ -157,13 +115,7 @@ fn check_bounds(entry: &Value, pose: &Pose, name: &str) {
     let plain = stats["skins"] == 0 && stats["morph"] == false && stats["anim"] == 0;
     // The index's bounds ignore sparse replacements, are zero for compressed accessors, and smaller than the points
     // and lines themselves.
-    let plain = plain
-        && ![
-            "SimpleSparseAccessor",
-            "BoxDracoOptional",
-            "MeshPrimitiveModes",
-        ]
-        .contains(&name);
+    let plain = plain && !["SimpleSparseAccessor", "BoxDracoOptional", "MeshPrimitiveModes"].contains(&name);
     if !plain || entry["bounds"].is_null() || INSTANCED.iter().any(|(n, _)| *n == name) {
         return;
     }
@@ -187,14 +139,10 @@ fn generated_tangents_agree_with_those_of_files() {
     let folder = folder.join("FlightHelmet");
     let text = std::fs::read_to_string(folder.join("FlightHelmet.gltf")).unwrap();
     let tangents = |text: &str| {
-        let scene = Scene::from_slice(text.as_bytes(), "helmet", Some(&folder))
-            .unwrap()
-            .scene;
+        let scene = Scene::from_slice(text.as_bytes(), "helmet", Some(&folder)).unwrap().scene;
         let geometry = scene.pose(&PoseRequest::default()).unwrap().geometry;
         let corners = geometry.triangles.as_flattened().iter();
-        let tangents: Vec<[f32; 4]> = corners
-            .map(|&v| geometry.streams.tangents[v as usize])
-            .collect();
+        let tangents: Vec<[f32; 4]> = corners.map(|&v| geometry.streams.tangents[v as usize]).collect();
         tangents
     };
     let given = tangents(&text);

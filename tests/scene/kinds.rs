@@ -21,9 +21,7 @@ fn load(text: &str) -> (Loaded, Pose) {
 fn areas(pose: &Pose) -> Vec<DVec3> {
     let at = |v: u32| DVec3::from_array(pose.geometry.positions[v as usize].map(f64::from));
     let triangles = pose.geometry.triangles.iter();
-    triangles
-        .map(|&[a, b, c]| (at(b) - at(a)).cross(at(c) - at(a)) / 2.0)
-        .collect()
+    triangles.map(|&[a, b, c]| (at(b) - at(a)).cross(at(c) - at(a)) / 2.0).collect()
 }
 
 /// An OBJ file with one polygon in the plane through the axes `axes`.
@@ -31,9 +29,7 @@ fn polygon(corners: &[[f64; 2]], axes: [usize; 2]) -> String {
     let mut text = String::new();
     for corner in corners {
         let mut position = [0.0; 3];
-        axes.iter()
-            .zip(corner)
-            .for_each(|(axis, x)| position[*axis] = *x);
+        axes.iter().zip(corner).for_each(|(axis, x)| position[*axis] = *x);
         let [x, y, z] = position;
         text += &format!("v {x} {y} {z}\n");
     }
@@ -46,48 +42,11 @@ fn polygons_keep_their_area_and_side_in_every_plane() {
     let square = [[0., 0.], [4., 0.], [4., 4.], [0., 4.]];
     let concave = [[0., 0.], [4., 0.], [4., 4.], [2., 1.], [0., 4.]];
     // A hole, which a bridge from the first corner reaches and leaves.
-    let keyhole = [
-        [0., 0.],
-        [4., 0.],
-        [4., 4.],
-        [0., 4.],
-        [0., 0.],
-        [1., 1.],
-        [1., 3.],
-        [3., 3.],
-        [3., 1.],
-        [1., 1.],
-    ];
+    let keyhole = [[0., 0.], [4., 0.], [4., 4.], [0., 4.], [0., 0.], [1., 1.], [1., 3.], [3., 3.], [3., 1.], [1., 1.]];
     // A hole that touches the outline in one corner, and one that shares a part of an edge.
-    let touching = [
-        [0., 0.],
-        [4., 0.],
-        [4., 4.],
-        [0., 4.],
-        [0., 0.],
-        [1., 2.],
-        [2., 1.],
-    ];
-    let resting = [
-        [0., 0.],
-        [1., 0.],
-        [1., 2.],
-        [2., 2.],
-        [2., 0.],
-        [4., 0.],
-        [4., 4.],
-        [0., 4.],
-    ];
-    let repeated = [
-        [0., 0.],
-        [0., 0.],
-        [4., 0.],
-        [4., 4.],
-        [4., 4.],
-        [2., 1.],
-        [0., 4.],
-        [0., 0.],
-    ];
+    let touching = [[0., 0.], [4., 0.], [4., 4.], [0., 4.], [0., 0.], [1., 2.], [2., 1.]];
+    let resting = [[0., 0.], [1., 0.], [1., 2.], [2., 2.], [2., 0.], [4., 0.], [4., 4.], [0., 4.]];
+    let repeated = [[0., 0.], [0., 0.], [4., 0.], [4., 4.], [4., 4.], [2., 1.], [0., 4.], [0., 0.]];
     for (corners, expected) in [
         (&square[..], 16.0),
         (&concave, 10.0),
@@ -98,25 +57,15 @@ fn polygons_keep_their_area_and_side_in_every_plane() {
     ] {
         for axes in [[0, 1], [1, 0], [1, 2], [2, 0], [0, 2]] {
             let (loaded, pose) = load(&polygon(corners, axes));
-            assert!(
-                loaded.warnings.is_empty(),
-                "{corners:?} {:?}",
-                loaded.warnings
-            );
+            assert!(loaded.warnings.is_empty(), "{corners:?} {:?}", loaded.warnings);
             let areas = areas(&pose);
             let [i, j] = axes;
             let (mut a, mut b) = (DVec3::ZERO, DVec3::ZERO);
             (a[i], b[j]) = (1.0, 1.0);
             let normal = a.cross(b);
-            assert!(
-                areas.iter().all(|area| area.dot(normal) >= 0.0),
-                "{corners:?} {axes:?}"
-            );
+            assert!(areas.iter().all(|area| area.dot(normal) >= 0.0), "{corners:?} {axes:?}");
             let whole: f64 = areas.iter().map(|area| area.length()).sum();
-            assert!(
-                (whole - expected).abs() < 1e-5,
-                "{corners:?} {axes:?}: {whole}"
-            );
+            assert!((whole - expected).abs() < 1e-5, "{corners:?} {axes:?}: {whole}");
         }
     }
 }
@@ -124,27 +73,12 @@ fn polygons_keep_their_area_and_side_in_every_plane() {
 /// Every corner is in a triangle, so that the polygon does not come apart from its neighbours.
 #[test]
 fn corners_on_straight_edges_of_polygons_stay() {
-    let comb = [
-        [0., 0.],
-        [1., 0.],
-        [2., 0.],
-        [3., 0.],
-        [4., 0.],
-        [4., 1.],
-        [4., 4.],
-        [2., 1.],
-        [0., 4.],
-        [0., 2.],
-        [0., 1.],
-    ];
+    let comb =
+        [[0., 0.], [1., 0.], [2., 0.], [3., 0.], [4., 0.], [4., 1.], [4., 4.], [2., 1.], [0., 4.], [0., 2.], [0., 1.]];
     let (_, pose) = load(&polygon(&comb, [0, 1]));
     let [low, ..] = [pose.geometry.origin];
-    let found: std::collections::BTreeSet<_> = pose
-        .geometry
-        .positions
-        .iter()
-        .map(|p| [0, 1].map(|i| (f64::from(p[i]) + low[i]).round() as i64))
-        .collect();
+    let found: std::collections::BTreeSet<_> =
+        pose.geometry.positions.iter().map(|p| [0, 1].map(|i| (f64::from(p[i]) + low[i]).round() as i64)).collect();
     assert_eq!(found.len(), comb.len());
     assert!(areas(&pose).iter().all(|area| area.z > 0.0));
 }
@@ -158,19 +92,10 @@ fn polygons_that_cross_themselves_are_named() {
         let is_named = loaded.warnings[0].contains("1 polygons cross themselves");
         assert!(is_named, "{:?}", loaded.warnings);
     }
-    let (loaded, pose) =
-        load("v 0 0 0\nv nan 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 5\nf 1 2\n");
+    let (loaded, pose) = load("v 0 0 0\nv nan 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 5\nf 1 2\n");
     assert_eq!(areas(&pose).len(), 2);
-    assert!(
-        loaded.warnings[0].contains("1 faces have fewer than 3 corners"),
-        "{:?}",
-        loaded.warnings
-    );
-    assert!(
-        loaded.warnings[1].contains("1 corners of polygons have no position"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("1 faces have fewer than 3 corners"), "{:?}", loaded.warnings);
+    assert!(loaded.warnings[1].contains("1 corners of polygons have no position"), "{:?}", loaded.warnings);
 }
 
 /// Time does not grow with the square of what a file repeats.
@@ -192,24 +117,15 @@ fn everything_in_one_place_takes_no_longer() {
         [radius * angle.cos(), radius * angle.sin()]
     });
     let (loaded, _) = load(&polygon(&star.collect::<Vec<_>>(), [0, 1]));
-    assert!(
-        loaded.warnings[0].contains("too many corners"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("too many corners"), "{:?}", loaded.warnings);
 }
 
 #[test]
 fn vertices_of_obj_are_points_where_nothing_connects_them() {
-    let (loaded, pose) =
-        load("# points\nv 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 0 1\nv nan 0 0\nvn 0 0 1\n");
+    let (loaded, pose) = load("# points\nv 0 0 0 1 0 0\nvn 0 0 1\nv 1 0 0 0 1 0\nvn 0 0 1\nv nan 0 0\nvn 0 0 1\n");
     let info = loaded.scene.info();
     assert_eq!((info.points, info.triangles), (2, 0));
-    assert!(
-        loaded.warnings[0].contains("1 of 3 points"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("1 of 3 points"), "{:?}", loaded.warnings);
     assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
     let material = &loaded.scene.materials[pose.geometry.draws[0].material as usize];
     assert!(!material.unlit && material.base_color == [1.0; 4]);
@@ -218,11 +134,7 @@ fn vertices_of_obj_are_points_where_nothing_connects_them() {
 #[test]
 fn colours_of_obj_are_codes_of_one_or_of_a_byte() {
     let faces = "f 1 2 3\n";
-    for (largest, scale, name) in [
-        (1.0, 1.0, "one"),
-        (255.0, 255.0, "byte"),
-        (1.5, 1.0, "bright"),
-    ] {
+    for (largest, scale, name) in [(1.0, 1.0, "one"), (255.0, 255.0, "byte"), (1.5, 1.0, "bright")] {
         let code = 0.5 * scale;
         let text = format!("v 0 0 0 {largest} 0 {code}\nv 1 0 0 0 0 0\nv 0 1 0\n{faces}");
         let (_, pose) = load(&text);
@@ -240,10 +152,7 @@ fn faces_of_obj_with_normals_and_without() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert_eq!(pose.geometry.triangles.len(), 2);
     let normals = &pose.geometry.streams.normals;
-    assert!(
-        normals.contains(&[0.0, 0.0, 1.0]) && normals.len() == 6,
-        "{normals:?}"
-    );
+    assert!(normals.contains(&[0.0, 0.0, 1.0]) && normals.len() == 6, "{normals:?}");
 }
 
 /// Statements between which a part has no elements, other line ends, comments behind numbers, and absolute paths.
@@ -261,19 +170,12 @@ fn obj_with_oddities() {
         usemtl\rg a\rg b\rf 1 2 3 # a face\rusemtl \"two words\"\rf 1/1 2/1 3/1\rusemtl other\rfo 1 2 3\r";
     let (loaded, pose) = load_in(obj.as_bytes(), Some(folder.path()));
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-    let colours: Vec<_> = pose
-        .geometry
-        .draws
-        .iter()
-        .map(|draw| loaded.scene.materials[draw.material as usize].base_color)
-        .collect();
+    let colours: Vec<_> =
+        pose.geometry.draws.iter().map(|draw| loaded.scene.materials[draw.material as usize].base_color).collect();
     // BLEND surfaces are drawn last.
     let mut sorted = colours.clone();
     sorted.sort_by(|a, b| b.partial_cmp(a).unwrap());
-    assert_eq!(
-        sorted,
-        [[1., 0., 0., 1.], [0., 1., 0., 0.75], [0., 0., 1., 1.]]
-    );
+    assert_eq!(sorted, [[1., 0., 0., 1.], [0., 1., 0., 0.75], [0., 0., 1., 1.]]);
     assert_eq!(loaded.scene.images.len(), 1);
 }
 
@@ -292,74 +194,47 @@ fn opacities_of_mtl() {
         let material = loaded.scene.materials[0].clone();
         (loaded, material)
     };
-    for (statements, alpha) in [
-        ("d 0.5\n", 0.5),
-        ("Tr 0.25\n", 0.75),
-        ("Tr 0.9\nd 0.5\n", 0.5),
-        ("d 0.5\nTr 0.9\n", 0.5),
-        ("d 0\n", 0.0),
-    ] {
+    for (statements, alpha) in
+        [("d 0.5\n", 0.5), ("Tr 0.25\n", 0.75), ("Tr 0.9\nd 0.5\n", 0.5), ("d 0.5\nTr 0.9\n", 0.5), ("d 0\n", 0.0)]
+    {
         let (loaded, material) = read(statements);
         assert_eq!(material.base_color[3], alpha, "{statements}");
         assert_eq!(material.alpha_mode, AlphaMode::Blend, "{statements}");
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     }
     let (loaded, material) = read("Tr 1\n");
-    assert_eq!(
-        (material.base_color[3], material.alpha_mode),
-        (1.0, AlphaMode::Opaque)
-    );
-    assert!(
-        loaded.warnings[0].contains("newmtl m/Tr"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert_eq!((material.base_color[3], material.alpha_mode), (1.0, AlphaMode::Opaque));
+    assert!(loaded.warnings[0].contains("newmtl m/Tr"), "{:?}", loaded.warnings);
 
     let (loaded, material) = read("Kd 1 0 0\nmap_D ramp.png\nmap_kd a.tga\n");
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
     let image = &loaded.scene.images[0];
     assert_eq!([image.width, image.height], [4, 4]);
     let texels: Vec<_> = image.pixels[..16].chunks_exact(4).collect();
-    assert_eq!(
-        texels,
-        [
-            [10, 20, 30, 0],
-            [10, 20, 30, 85],
-            [10, 20, 30, 170],
-            [10, 20, 30, 255]
-        ]
-    );
+    assert_eq!(texels, [[10, 20, 30, 0], [10, 20, 30, 85], [10, 20, 30, 170], [10, 20, 30, 255]]);
     // Without one of the images, the other is used.
     let (loaded, material) = read("map_d ramp.png\nmap_Kd none.png\n");
     assert_eq!(material.base_color[..3], [1.0; 3]);
     assert_eq!(loaded.scene.images.len(), 1);
-    assert!(
-        loaded.warnings[0].contains("newmtl m/map_Kd: none.png"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("newmtl m/map_Kd: none.png"), "{:?}", loaded.warnings);
     let (loaded, material) = read("map_d none.png\nmap_Kd a.tga\n");
-    assert_eq!(
-        (loaded.scene.images.len(), material.alpha_mode),
-        (1, AlphaMode::Opaque)
-    );
-    assert!(
-        loaded.warnings[0].contains("newmtl m/map_d: none.png"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert_eq!((loaded.scene.images.len(), material.alpha_mode), (1, AlphaMode::Opaque));
+    assert!(loaded.warnings[0].contains("newmtl m/map_d: none.png"), "{:?}", loaded.warnings);
 }
 
 #[test]
 fn text_of_stl_in_any_case_and_order() {
-    let facet =
-        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+    let facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
     for (text, triangles) in [
         (format!("solid one {facet}{facet}endsolid one solid {facet}endsolid"), 3),
         (format!("\u{feff}  \r\n SOLID X\r\n{}ENDSOLID X", facet.to_uppercase()), 1),
         (format!("solid\n{facet}\nendsolid\n\nsolid\n{facet}"), 2),
-        ("solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nend loop\nend facet\n\
-            end solid a\n".to_owned(), 2),
+        (
+            "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nend loop\nend facet\n\
+            end solid a\n"
+                .to_owned(),
+            2,
+        ),
     ] {
         let (loaded, _) = load(&text);
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
@@ -369,19 +244,10 @@ fn text_of_stl_in_any_case_and_order() {
     let colours = format!("solid a\ncolor 1 0 0\n{facet}\nendsolid\nsolid b\n{facet}\nendsolid\n");
     let (_, pose) = load(&colours);
     let colours = &pose.geometry.streams.colors;
-    assert_eq!(
-        (colours[0], colours[3]),
-        ([1.0, 0.0, 0.0, 1.0], [0.8, 0.8, 0.8, 1.0])
-    );
-    let (loaded, pose) = load(&format!(
-        "solid a\n{facet}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0"
-    ));
+    assert_eq!((colours[0], colours[3]), ([1.0, 0.0, 0.0, 1.0], [0.8, 0.8, 0.8, 1.0]));
+    let (loaded, pose) = load(&format!("solid a\n{facet}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0"));
     assert_eq!(pose.geometry.triangles.len(), 1);
-    assert!(
-        loaded.warnings[0].contains("ends within a facet"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings[0].contains("ends within a facet"), "{:?}", loaded.warnings);
 }
 
 /// A binary STL file whose triangles have these attributes.
@@ -401,13 +267,7 @@ fn binary_stl(header: &[u8], attributes: &[u16]) -> Vec<u8> {
 fn colours_of_binary_stl() {
     let colours = |bytes: &[u8]| -> Vec<[f32; 4]> {
         let (_, pose) = load_in(bytes, None);
-        pose.geometry
-            .streams
-            .colors
-            .iter()
-            .step_by(3)
-            .copied()
-            .collect()
+        pose.geometry.streams.colors.iter().step_by(3).copied().collect()
     };
     let (red, blue, grey) = ([1., 0., 0., 1.], [0., 0., 1., 1.], [0.8, 0.8, 0.8, 1.]);
     let viscam = binary_stl(b"", &[0x8000 | 31 << 10, 0x8000 | 31, 0]);
@@ -417,17 +277,12 @@ fn colours_of_binary_stl() {
     let none = binary_stl(b"", &[0, 7]);
     assert!(colours(&none).is_empty());
     let (loaded, _) = load_in(&none, None);
-    assert_eq!(
-        loaded.warnings,
-        ["test: left out: attributes of triangles (1)"]
-    );
+    assert_eq!(loaded.warnings, ["test: left out: attributes of triangles (1)"]);
 }
 
 /// A PLY file of a square, with this header for its faces and these rows of them.
 fn square_ply(header: &str, rows: &str) -> String {
-    format!(
-        "ply\nformat ascii 1.0\n{header}end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n{rows}",
-    )
+    format!("ply\nformat ascii 1.0\n{header}end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n{rows}",)
 }
 
 const VERTICES: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n\
@@ -442,19 +297,11 @@ fn textures_of_ply_by_vertex_and_by_corner() {
     }
     let read = |text: &str| load_in(text.as_bytes(), Some(folder.path()));
     let faces = "element face 1\nproperty list uchar int vertex_indices\n";
-    let (loaded, pose) = read(&square_ply(
-        &format!("comment TextureFile a b.png\n{VERTICES}{faces}"),
-        "4 0 1 2 3\n",
-    ));
+    let (loaded, pose) = read(&square_ply(&format!("comment TextureFile a b.png\n{VERTICES}{faces}"), "4 0 1 2 3\n"));
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert!(loaded.scene.materials[0].base_color_texture.is_some());
     assert_eq!(loaded.scene.materials[0].base_color, [1.0; 4]);
-    for (position, uv) in pose
-        .geometry
-        .positions
-        .iter()
-        .zip(&pose.geometry.streams.uvs)
-    {
+    for (position, uv) in pose.geometry.positions.iter().zip(&pose.geometry.streams.uvs) {
         let [x, y] = [0, 1].map(|i| position[i] + pose.geometry.origin[i] as f32);
         assert_eq!([x, 1.0 - y], uv[..2]);
     }
@@ -465,10 +312,7 @@ fn textures_of_ply_by_vertex_and_by_corner() {
         &format!("comment TextureFile a b.png\ncomment TextureFile b.bmp\n{VERTICES}{faces}"),
         "3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 6 .5 .5 .5 .5 .5 .5 0\n3 0 2 3 6 0 0 0 0 0 0 -1\n",
     ));
-    assert_eq!(
-        (loaded.scene.images.len(), pose.geometry.draws.len()),
-        (2, 3)
-    );
+    assert_eq!((loaded.scene.images.len(), pose.geometry.draws.len()), (2, 3));
     let textures: Vec<Option<u32>> = pose
         .geometry
         .draws
@@ -477,20 +321,9 @@ fn textures_of_ply_by_vertex_and_by_corner() {
         .map(|used| used.map(|used| used.texture))
         .collect();
     assert_eq!(textures, [Some(0), Some(1), None]);
-    assert!(
-        pose.geometry.streams.uvs[..3]
-            .iter()
-            .all(|uv| uv[..2] == [0.5, 0.5])
-    );
-    let (loaded, _) = read(&square_ply(
-        &format!("comment TextureFile none.png\n{VERTICES}"),
-        "",
-    ));
-    assert!(
-        loaded.warnings[0].contains("comment TextureFile: none.png"),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(pose.geometry.streams.uvs[..3].iter().all(|uv| uv[..2] == [0.5, 0.5]));
+    let (loaded, _) = read(&square_ply(&format!("comment TextureFile none.png\n{VERTICES}"), ""));
+    assert!(loaded.warnings[0].contains("comment TextureFile: none.png"), "{:?}", loaded.warnings);
 }
 
 #[test]
@@ -498,18 +331,11 @@ fn colours_of_ply_by_other_names() {
     for (names, kind, codes) in [
         (["red", "green", "blue"], "uchar", "255 0 0"),
         (["r", "g", "b"], "uchar", "255 0 0"),
-        (
-            ["diffuse_red", "diffuse_green", "diffuse_blue"],
-            "float",
-            "1 0 0",
-        ),
+        (["diffuse_red", "diffuse_green", "diffuse_blue"], "float", "1 0 0"),
         (["r", "g", "b"], "float", "255.0 0 0"),
         (["red", "green", "blue"], "ushort", "65535 0 0"),
     ] {
-        let properties: String = names
-            .iter()
-            .map(|name| format!("property {kind} {name}\n"))
-            .collect();
+        let properties: String = names.iter().map(|name| format!("property {kind} {name}\n")).collect();
         let text = format!(
             "ply\nformat ascii 1.0\ncomment M\u{fc}ller\nelement vertex 3\nproperty float x\nproperty float y\n\
              property float z\n{properties}element face 1\nproperty list uchar int vertex_indices\nend_header\n\
@@ -519,11 +345,7 @@ fn colours_of_ply_by_other_names() {
         let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
         let (loaded, pose) = load_in(&latin, None);
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-        assert_eq!(
-            pose.geometry.streams.colors[0],
-            [1.0, 0.0, 0.0, 1.0],
-            "{names:?} {kind}"
-        );
+        assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0], "{names:?} {kind}");
     }
 }
 
@@ -532,12 +354,7 @@ fn colours_of_ply_by_other_names() {
 #[test]
 fn smoothing_groups_of_obj() {
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 1\nv 1 1 1\nv 0 2 0\nv 1 2 0\n";
-    for (second, is_smooth) in [
-        ("s 1", true),
-        ("g b", true),
-        ("s 2", false),
-        ("s off", false),
-    ] {
+    for (second, is_smooth) in [("s 1", true), ("g b", true), ("s 2", false), ("s off", false)] {
         let text = format!("{vertices}s 1\nf 1 2 4 3\n{second}\nf 3 4 6 5\n");
         let (loaded, pose) = load(&text);
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
@@ -546,14 +363,9 @@ fn smoothing_groups_of_obj() {
         assert_eq!(up > 0, is_smooth, "{second}: {normals:?}");
     }
     // Normals of the file come first.
-    let (_, pose) = load(&format!(
-        "{vertices}vn 0 0 -1\ns 1\nf 1//1 2//1 4//1 3//1\nf 3 4 6 5\n"
-    ));
+    let (_, pose) = load(&format!("{vertices}vn 0 0 -1\ns 1\nf 1//1 2//1 4//1 3//1\nf 3 4 6 5\n"));
     let normals = &pose.geometry.streams.normals;
-    assert!(
-        normals.contains(&[0.0, 0.0, -1.0]) && !normals.contains(&[0.0, 0.0, 1.0]),
-        "{normals:?}"
-    );
+    assert!(normals.contains(&[0.0, 0.0, -1.0]) && !normals.contains(&[0.0, 0.0, 1.0]), "{normals:?}");
 }
 
 /// Files of three.js#7943, kiss3d#228 and tinyobjloader-c#71: options of maps before their file and behind it.
@@ -563,24 +375,12 @@ fn options_of_maps_stand_before_and_behind_the_file() {
     let image = image::RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 255]));
     image.save(folder.path().join("a -b.png")).unwrap();
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
-    for map in [
-        "-s -15.0 -15.0 -3.7 a -b.png",
-        "a -b.png -s -15 -15 -3.7",
-        "-o 0 0 0 -s -15 -15 a -b.png -clamp off",
-    ] {
-        std::fs::write(
-            folder.path().join("m.mtl"),
-            format!("newmtl m\nmap_Kd {map}\n"),
-        )
-        .unwrap();
+    for map in ["-s -15.0 -15.0 -3.7 a -b.png", "a -b.png -s -15 -15 -3.7", "-o 0 0 0 -s -15 -15 a -b.png -clamp off"] {
+        std::fs::write(folder.path().join("m.mtl"), format!("newmtl m\nmap_Kd {map}\n")).unwrap();
         let (loaded, _) = load_in(obj.as_bytes(), Some(folder.path()));
         let used = loaded.scene.materials[0].base_color_texture;
         let used = used.unwrap_or_else(|| panic!("{map}: {:?}", loaded.warnings));
-        assert_eq!(
-            used.transform.0,
-            [[-15.0, 0.0, 0.0], [0.0, -15.0, 16.0]],
-            "{map}"
-        );
+        assert_eq!(used.transform.0, [[-15.0, 0.0, 0.0], [0.0, -15.0, 16.0]], "{map}");
     }
 }
 
@@ -589,14 +389,8 @@ fn options_of_maps_stand_before_and_behind_the_file() {
 fn loops_of_stl_without_facets() {
     let corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
     for text in [
-        format!(
-            "solid a\n{}endsolid\n",
-            format!("outer loop\n{corners}endloop\n").repeat(2)
-        ),
-        format!(
-            "solid a\n{}endsolid\n",
-            format!("outer loop\n{corners}").repeat(2)
-        ),
+        format!("solid a\n{}endsolid\n", format!("outer loop\n{corners}endloop\n").repeat(2)),
+        format!("solid a\n{}endsolid\n", format!("outer loop\n{corners}").repeat(2)),
     ] {
         let (loaded, _) = load(&text);
         assert_eq!(loaded.scene.info().triangles, 2, "{text}");

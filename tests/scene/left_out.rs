@@ -11,11 +11,7 @@ use crate::scene_builder::{Builder, TRIANGLE};
 fn left_out(bytes: &[u8], base: Option<&std::path::Path>) -> String {
     let loaded = Scene::from_slice(bytes, "test", base).unwrap();
     let last = loaded.warnings.last().cloned().unwrap_or_default();
-    assert!(
-        last.starts_with("test: left out: "),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(last.starts_with("test: left out: "), "{:?}", loaded.warnings);
     last
 }
 
@@ -57,59 +53,26 @@ fn every_statement_of_obj() {
         "ctech cparm 1",
         "stech cparma 1 1",
     ];
-    let more = [
-        "maplib a.map",
-        "usemap a",
-        "call a.obj",
-        "csh ls",
-        "bsp 1",
-        "bzp 1",
-        "cdc 1",
-        "cdp 1",
-        "res 1 1",
-        "unknown",
-    ];
+    let more =
+        ["maplib a.map", "usemap a", "call a.obj", "csh ls", "bsp 1", "bzp 1", "cdc 1", "cdp 1", "res 1 1", "unknown"];
     for statements in [&unused[..10], &unused[10..], &more] {
-        let text = format!(
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\np 1\no a\ng a b\ns off\n{}\n",
-            statements.join("\n")
-        );
+        let text =
+            format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\np 1\no a\ng a b\ns off\n{}\n", statements.join("\n"));
         let said = left_out(text.as_bytes(), None);
-        let words: Vec<&str> = statements
-            .iter()
-            .filter_map(|s| s.split(' ').next())
-            .collect();
+        let words: Vec<&str> = statements.iter().filter_map(|s| s.split(' ').next()).collect();
         assert_eq!(missing(&said, &words), [""; 0], "{said}");
-        assert!(
-            said.contains(&format!("OBJ statements ({}:", words.len())),
-            "{said}"
-        );
+        assert!(said.contains(&format!("OBJ statements ({}:", words.len())), "{said}");
     }
     for (text, expected) in [
-        (
-            "v 0 0 0 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-            "weights of vertices (1)",
-        ),
-        (
-            "v 0 0 0 1 1 1 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-            "seventh numbers of vertices (1)",
-        ),
-        (
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0 1\nf 1 2 3\n",
-            "third texture coordinates (1)",
-        ),
-        (
-            "v 0 0 0 nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-            "undefined colours of vertices (1)",
-        ),
+        ("v 0 0 0 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "weights of vertices (1)"),
+        ("v 0 0 0 1 1 1 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "seventh numbers of vertices (1)"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0 1\nf 1 2 3\n", "third texture coordinates (1)"),
+        ("v 0 0 0 nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "undefined colours of vertices (1)"),
         (
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\n",
             "elements that corners name and the file lacks (1: texture coordinate)",
         ),
-        (
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
-            "materials that no MTL file has (1: a)",
-        ),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "materials that no MTL file has (1: a)"),
     ] {
         let said = left_out(text.as_bytes(), None);
         assert_eq!(said, format!("test: left out: {expected}"));
@@ -159,16 +122,10 @@ fn every_statement_of_mtl() {
         "unknown",
     ];
     for statements in [&statements[..], &more] {
-        let mtl = format!(
-            "newmtl m\nKd 1 1 1\nd 1\nmap_Kd a.png\n{}\n",
-            statements.join("\n")
-        );
+        let mtl = format!("newmtl m\nKd 1 1 1\nd 1\nmap_Kd a.png\n{}\n", statements.join("\n"));
         std::fs::write(folder.path().join("m.mtl"), mtl).unwrap();
         let said = left_out(obj.as_bytes(), Some(folder.path()));
-        let words: Vec<&str> = statements
-            .iter()
-            .filter_map(|s| s.split(' ').next())
-            .collect();
+        let words: Vec<&str> = statements.iter().filter_map(|s| s.split(' ').next()).collect();
         assert_eq!(missing(&said, &words), [""; 0], "{said}");
     }
     let options = [
@@ -184,10 +141,7 @@ fn every_statement_of_mtl() {
         "-type cube_top",
         "-cc on",
     ];
-    let map = format!(
-        "newmtl m\nmap_Kd {} -s 2 2 -o 0 0 a.png\nKd spectral a.rfl\nd -halo 0.5\n",
-        options.join(" ")
-    );
+    let map = format!("newmtl m\nmap_Kd {} -s 2 2 -o 0 0 a.png\nKd spectral a.rfl\nd -halo 0.5\n", options.join(" "));
     std::fs::write(folder.path().join("m.mtl"), map).unwrap();
     let said = left_out(obj.as_bytes(), Some(folder.path()));
     let words: Vec<&str> = options.iter().filter_map(|s| s.split(' ').next()).collect();
@@ -203,10 +157,7 @@ fn every_statement_of_mtl() {
 #[test]
 fn everything_in_stl() {
     let facet = "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet red\n";
-    let said = left_out(
-        format!("solid a\n{facet}endsolid a\nmade by hand\n").as_bytes(),
-        None,
-    );
+    let said = left_out(format!("solid a\n{facet}endsolid a\nmade by hand\n").as_bytes(), None);
     let expected = "test: left out: normals that contradict the order of the corners (1); words behind endfacet (1: red); \
         words that are not of the format (3: made, by, hand)";
     assert_eq!(said, expected);
@@ -250,8 +201,7 @@ fn extensions_and_attributes_of_gltf() {
         "extras": {"extensions": {"ignored": 1}},
     });
     builder.node_with(primitive, json!({}));
-    builder.json["extensions"] =
-        json!({"KHR_xmp_json_ld": {"packets": []}, "EXT_mesh_features": {}});
+    builder.json["extensions"] = json!({"KHR_xmp_json_ld": {"packets": []}, "EXT_mesh_features": {}});
     let expected = "test: left out: attributes of morph targets (1: TEXCOORD_0); \
         extensions (3: EXT_mesh_features, KHR_xmp_json_ld); vertex attributes (3: COLOR_1, TEXCOORD_2, _HEAT)";
     assert_eq!(left_out(&builder.glb(), None), expected);

@@ -3,8 +3,7 @@
 use crate::scene_builder::{Builder, png};
 use glam::{DMat3, DVec3};
 use gpc::scene::{
-    AlphaMode, Filter, LightKind, Lobes, Material, Pose, PoseRequest, Sampler, Scene, SceneError,
-    SceneProjection, Wrap,
+    AlphaMode, Filter, LightKind, Lobes, Material, Pose, PoseRequest, Sampler, Scene, SceneError, SceneProjection, Wrap,
 };
 use serde_json::json;
 
@@ -12,10 +11,7 @@ use serde_json::json;
 fn materials_read_all_their_fields() {
     let mut builder = Builder::new();
     let texture = builder.texture([10, 20, 30]);
-    builder.push(
-        "samplers",
-        json!({"magFilter": 9728, "minFilter": 9985, "wrapS": 33071}),
-    );
+    builder.push("samplers", json!({"magFilter": 9728, "minFilter": 9985, "wrapS": 33071}));
     builder.json["textures"][texture]["sampler"] = 0.into();
     builder.push(
         "materials",
@@ -49,10 +45,7 @@ fn materials_read_all_their_fields() {
     assert_eq!(material.name.as_deref(), Some("all"));
     assert_eq!(material.base_color, [0.1, 0.2, 0.3, 0.4]);
     assert_eq!((material.metallic, material.roughness), (0.5, 0.6));
-    assert_eq!(
-        (material.normal_scale, material.occlusion_strength),
-        (0.7, 0.8)
-    );
+    assert_eq!((material.normal_scale, material.occlusion_strength), (0.7, 0.8));
     assert_eq!(material.emissive, [2.0, 0.0, 4.0]);
     assert_eq!(material.alpha_mode, AlphaMode::Mask { cutoff: 0.3 });
     assert!(material.double_sided && material.unlit);
@@ -99,10 +92,7 @@ fn broken_looks_are_warnings() {
             "emissiveTexture": {"index": good},
         }),
     );
-    builder.push(
-        "materials",
-        json!({"alphaMode": "GLASS", "doubleSided": true}),
-    );
+    builder.push("materials", json!({"alphaMode": "GLASS", "doubleSided": true}));
     builder.triangle(json!({}));
     builder.json["meshes"][0]["primitives"][0]["material"] = 77.into();
     let loaded = builder.load().unwrap();
@@ -113,10 +103,7 @@ fn broken_looks_are_warnings() {
     assert!(first.base_color_texture.is_none() && first.normal_texture.is_none());
     assert!(first.occlusion_texture.is_none());
     assert_eq!(first.emissive_texture.unwrap().texture, 0);
-    assert_eq!(
-        (second, default),
-        (&Material::default(), &Material::default())
-    );
+    assert_eq!((second, default), (&Material::default(), &Material::default()));
     let pose = loaded.scene.pose(&Default::default()).unwrap();
     assert_eq!(pose.geometry.draws[0].material, 2);
     for place in [
@@ -128,20 +115,14 @@ fn broken_looks_are_warnings() {
         "/meshes/0/primitives/0/material",
     ] {
         let expected = format!("test.glb: {place}: ");
-        assert!(
-            loaded.warnings.iter().any(|w| w.starts_with(&expected)),
-            "{place}: {:?}",
-            loaded.warnings
-        );
+        assert!(loaded.warnings.iter().any(|w| w.starts_with(&expected)), "{place}: {:?}", loaded.warnings);
     }
 }
 
 /// Bytes of a 1 x 1 WebP image.
 fn webp(rgb: [u8; 3]) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
-    image::RgbImage::from_pixel(1, 1, image::Rgb(rgb))
-        .write_to(&mut bytes, image::ImageFormat::WebP)
-        .unwrap();
+    image::RgbImage::from_pixel(1, 1, image::Rgb(rgb)).write_to(&mut bytes, image::ImageFormat::WebP).unwrap();
     bytes.into_inner()
 }
 
@@ -153,10 +134,7 @@ fn webp_is_preferred_and_has_a_fallback() {
         let preferred = builder.view(&bytes, json!({}));
         builder.push("images", json!({"bufferView": fallback}));
         builder.push("images", json!({"bufferView": preferred}));
-        builder.push(
-            "textures",
-            json!({"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}),
-        );
+        builder.push("textures", json!({"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}));
         builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
         let scene = builder.load().unwrap().scene;
         let used = scene.materials[0].emissive_texture.unwrap();
@@ -178,10 +156,7 @@ fn images_that_claim_too_much_are_left_out() {
     builder.push("textures", json!({"source": 0}));
     builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
     let warnings = builder.load().unwrap().warnings.join("\n");
-    assert!(
-        warnings.contains("claims 16384 x 16384 texels, but has"),
-        "{warnings}"
-    );
+    assert!(warnings.contains("claims 16384 x 16384 texels, but has"), "{warnings}");
 }
 
 fn crc32(bytes: &[u8]) -> u32 {
@@ -204,13 +179,7 @@ fn lights_are_placed_and_directed() {
         {"type": "point"},
         {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}},
     ]);
-    for (light, translation) in [
-        (0, [0, 0, 0]),
-        (1, [1, 2, 3]),
-        (2, [0, 0, 0]),
-        (3, [4, 0, 0]),
-        (4, [0, 0, 0]),
-    ] {
+    for (light, translation) in [(0, [0, 0, 0]), (1, [1, 2, 3]), (2, [0, 0, 0]), (3, [4, 0, 0]), (4, [0, 0, 0])] {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         builder.push(
             "nodes",
@@ -221,30 +190,17 @@ fn lights_are_placed_and_directed() {
         );
     }
     let loaded = builder.load().unwrap();
-    assert!(
-        loaded.warnings.iter().any(|w| w.contains("\"laser\"")),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings.iter().any(|w| w.contains("\"laser\"")), "{:?}", loaded.warnings);
     let lights = loaded.scene.pose(&Default::default()).unwrap().lights;
     let [sun, spot, point, hard] = lights[..] else {
         panic!("{lights:?}");
     };
-    assert_eq!(
-        (sun.kind, sun.color, sun.range),
-        (LightKind::Directional, [4., 2., 0.], None)
-    );
+    assert_eq!((sun.kind, sun.color, sun.range), (LightKind::Directional, [4., 2., 0.], None));
     // A quarter turn around x takes -z to +y.
     assert!((sun.direction - DVec3::Y).length() < 1e-9, "{sun:?}");
     assert_eq!(spot.position, DVec3::new(1., 2., 3.));
     assert_eq!(spot.range, Some(7.0));
-    assert_eq!(
-        spot.kind,
-        LightKind::Spot {
-            inner_angle: 0.2,
-            outer_angle: 0.4
-        }
-    );
+    assert_eq!(spot.kind, LightKind::Spot { inner_angle: 0.2, outer_angle: 0.4 });
     assert_eq!((point.kind, point.color), (LightKind::Point, [1.0; 3]));
     assert!(
         matches!(hard.kind, LightKind::Spot { inner_angle, outer_angle }
@@ -257,19 +213,13 @@ fn lights_are_placed_and_directed() {
 #[test]
 fn cameras_are_placed_without_scale() {
     let mut builder = Builder::new();
-    builder.push(
-        "cameras",
-        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "aspectRatio": 2}}),
-    );
+    builder.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "aspectRatio": 2}}));
     builder.push(
         "cameras",
         json!({"name": "plan", "type": "orthographic",
                "orthographic": {"xmag": 2, "ymag": 3, "znear": 0, "zfar": 9}}),
     );
-    builder.push(
-        "cameras",
-        json!({"type": "perspective", "perspective": {"yfov": 4, "znear": 1}}),
-    );
+    builder.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 4, "znear": 1}}));
     let half = std::f64::consts::FRAC_1_SQRT_2;
     builder.push(
         "nodes",
@@ -279,11 +229,7 @@ fn cameras_are_placed_without_scale() {
     builder.push("nodes", json!({"camera": 1}));
     builder.push("nodes", json!({"camera": 2}));
     let loaded = builder.load().unwrap();
-    assert!(
-        loaded.warnings.iter().any(|w| w.contains("/cameras/2/")),
-        "{:?}",
-        loaded.warnings
-    );
+    assert!(loaded.warnings.iter().any(|w| w.contains("/cameras/2/")), "{:?}", loaded.warnings);
     let cameras = loaded.scene.pose(&Default::default()).unwrap().cameras;
     let [eye, plan] = &cameras[..] else {
         panic!("{cameras:?}");
@@ -293,15 +239,7 @@ fn cameras_are_placed_without_scale() {
     // A quarter turn around y takes z to x; the scale mirrors, and the right vector follows.
     let expected = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);
     assert!(eye.axes.abs_diff_eq(expected, 1e-9), "{:?}", eye.axes);
-    assert_eq!(
-        eye.projection,
-        SceneProjection::Perspective {
-            yfov: 1.0,
-            aspect: Some(2.0),
-            near: 0.1,
-            far: None
-        }
-    );
+    assert_eq!(eye.projection, SceneProjection::Perspective { yfov: 1.0, aspect: Some(2.0), near: 0.1, far: None });
     assert_eq!(plan.name.as_deref(), Some("plan"));
     let info = loaded.scene.info();
     let kinds: Vec<_> = info.cameras.iter().map(|c| c.kind).collect();
@@ -321,10 +259,7 @@ fn required_extensions_are_refused_by_name_and_optional_ones_mentioned() {
     builder.json["extensionsUsed"] = json!(["KHR_materials_subsurface", "KHR_xmp_json_ld"]);
     let warnings = builder.load().unwrap().warnings;
     assert_eq!(warnings.len(), 1);
-    assert!(
-        warnings[0].ends_with("drawn without KHR_materials_subsurface"),
-        "{warnings:?}"
-    );
+    assert!(warnings[0].ends_with("drawn without KHR_materials_subsurface"), "{warnings:?}");
 }
 
 #[test]
@@ -338,10 +273,7 @@ fn info_serialises() {
     assert_eq!(info["version"], "2.0");
     assert_eq!(info["generator"], "test");
     assert_eq!(info["triangles"], 1);
-    assert_eq!(
-        info["materials"],
-        json!({"opaque": 0, "mask": 0, "blend": 1})
-    );
+    assert_eq!(info["materials"], json!({"opaque": 0, "mask": 0, "blend": 1}));
     assert_eq!(info["scenes"], json!({"names": [], "default": null}));
 }
 
@@ -356,9 +288,7 @@ fn relative_files_need_a_folder() {
     assert!(error.starts_with("-: /buffers/0/uri: "), "{error}");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("data file.bin"), [0; 40]).unwrap();
-    let scene = Scene::from_slice(text, "-", Some(folder.path()))
-        .unwrap()
-        .scene;
+    let scene = Scene::from_slice(text, "-", Some(folder.path())).unwrap().scene;
     assert_eq!(scene.info().triangles, 1);
 }
 
@@ -373,10 +303,7 @@ fn hidden_nodes_have_neither_meshes_nor_lights() {
     builder.push("nodes", json!({"extensions": light}));
     builder.push("nodes", json!({"children": [1, 2], "extensions": hidden}));
     builder.push("nodes", json!({"extensions": light}));
-    builder.push(
-        "cameras",
-        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
-    );
+    builder.push("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}));
     let scene = builder.load().unwrap().scene;
     let pose = scene.pose(&Default::default()).unwrap();
     assert_eq!(pose.geometry.triangles.len(), 1);
@@ -457,11 +384,7 @@ fn lobes_are_read() {
         let expected = format!("{name} is approximated: ");
         loaded.warnings.iter().any(|w| w.contains(&expected))
     };
-    let names = [
-        "KHR_materials_diffuse_transmission",
-        "KHR_materials_transmission",
-        "KHR_materials_volume",
-    ];
+    let names = ["KHR_materials_diffuse_transmission", "KHR_materials_transmission", "KHR_materials_volume"];
     assert!(names.iter().all(approximated), "{:?}", loaded.warnings);
     assert_eq!(loaded.warnings.len(), names.len(), "{:?}", loaded.warnings);
     assert_eq!(loaded.scene.materials[1].lobes, Lobes::default());
@@ -474,10 +397,7 @@ fn lobes_are_read() {
     assert!(specular.texture.is_some() && specular.color_texture.is_none());
     let coat = lobes.clearcoat.unwrap();
     assert_eq!((coat.factor, coat.roughness), (0.25, 0.75));
-    assert_eq!(
-        (coat.normal_scale, coat.normal_texture.unwrap().uv_set),
-        (3.0, 1)
-    );
+    assert_eq!((coat.normal_scale, coat.normal_texture.unwrap().uv_set), (3.0, 1));
     assert_eq!(material.tangent_uv_set(), Some(1));
     let sheen = lobes.sheen.unwrap();
     assert_eq!((sheen.color, sheen.roughness), ([0.5, 0.25, 1.0], 0.5));
@@ -516,18 +436,9 @@ fn broken_lobes_are_left_out_with_a_warning() {
     assert!(material.lobes.sheen.is_none() && material.lobes.transmission.is_none());
     assert!((material.lobes.specular.unwrap().reflectance - 0.04).abs() < 1e-6);
     assert!(material.lobes.clearcoat.unwrap().texture.is_none());
-    for place in [
-        "ior/ior",
-        "sheen",
-        "transmission",
-        "clearcoat/clearcoatTexture/index",
-    ] {
+    for place in ["ior/ior", "sheen", "transmission", "clearcoat/clearcoatTexture/index"] {
         let expected = format!("/materials/0/extensions/KHR_materials_{place}");
-        assert!(
-            loaded.warnings.iter().any(|w| w.contains(&expected)),
-            "{place}: {:?}",
-            loaded.warnings
-        );
+        assert!(loaded.warnings.iter().any(|w| w.contains(&expected)), "{place}: {:?}", loaded.warnings);
     }
 }
 
@@ -535,15 +446,9 @@ fn broken_lobes_are_left_out_with_a_warning() {
 fn lit_from_all_around(members: serde_json::Value) -> Builder {
     let mut builder = Builder::new();
     builder.triangle(json!({}));
-    let faces = [
-        [255, 0, 0, 255],
-        [0, 255, 0, 255],
-        [0, 0, 255, 255],
-        [255, 255, 255, 51],
-        [0, 0, 0, 255],
-        [0, 0, 0, 0],
-    ]
-    .map(|texel| builder.rgba(texel));
+    let faces =
+        [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 51], [0, 0, 0, 255], [0, 0, 0, 0]]
+            .map(|texel| builder.rgba(texel));
     let mut coefficients = [[0.0; 3]; 9];
     // A surface that faces up has more irradiance than one that faces down.
     coefficients[0] = [3.0, 3.0, 3.0];
@@ -563,10 +468,7 @@ fn lit_from_all_around(members: serde_json::Value) -> Builder {
 
 /// Pose of a scene of the file.
 fn scene(builder: &Builder, scene: usize) -> Pose {
-    builder.pose_at(&PoseRequest {
-        scene: Some(scene),
-        ..PoseRequest::default()
-    })
+    builder.pose_at(&PoseRequest { scene: Some(scene), ..PoseRequest::default() })
 }
 
 #[test]
@@ -601,35 +503,14 @@ fn image_based_lights_shine_from_all_around() {
 fn image_based_lights_that_are_broken_are_left_out() {
     let place = "/extensions/EXT_lights_image_based/lights/0";
     for (members, reason) in [
-        (
-            json!({"specularImageSize": 2}),
-            "/specularImages/0/0: is no image of 2 x 2 texels",
-        ),
-        (
-            json!({"specularImageSize": 3}),
-            ": a cube of 3 texels a side does not have 1 levels",
-        ),
-        (
-            json!({"specularImageSize": 0x8000_0000_u32}),
-            ": a cube of 2147483648 texels a side is larger than 4096",
-        ),
-        (
-            json!({"specularImages": []}),
-            ": a cube of 1 texels a side does not have 0 levels",
-        ),
-        (
-            json!({"specularImages": [[0, 0, 0, 0, 0, 9]]}),
-            "/specularImages/0/5: refers to 9",
-        ),
-        (
-            json!({"rotation": [0, 0, 0, 0]}),
-            ": the rotation has no direction",
-        ),
+        (json!({"specularImageSize": 2}), "/specularImages/0/0: is no image of 2 x 2 texels"),
+        (json!({"specularImageSize": 3}), ": a cube of 3 texels a side does not have 1 levels"),
+        (json!({"specularImageSize": 0x8000_0000_u32}), ": a cube of 2147483648 texels a side is larger than 4096"),
+        (json!({"specularImages": []}), ": a cube of 1 texels a side does not have 0 levels"),
+        (json!({"specularImages": [[0, 0, 0, 0, 0, 9]]}), "/specularImages/0/5: refers to 9"),
+        (json!({"rotation": [0, 0, 0, 0]}), ": the rotation has no direction"),
         (json!({"intensity": -1}), ", or the intensity is negative"),
-        (
-            json!({"irradianceCoefficients": [[1, 1, 1]]}),
-            "/irradianceCoefficients: invalid length",
-        ),
+        (json!({"irradianceCoefficients": [[1, 1, 1]]}), "/irradianceCoefficients: invalid length"),
     ] {
         let builder = lit_from_all_around(members);
         let warnings = builder.load().unwrap().warnings;

@@ -16,11 +16,7 @@ fn exercise(path: &Path) -> Result<Vec<String>, SceneError> {
         let moving = info.animations.iter().enumerate();
         let moments = moving.map(|(i, a)| (Some(i.to_string()), a.duration / 2.0));
         for (animation, time) in std::iter::once(rest).chain(moments) {
-            let request = PoseRequest {
-                scene: index,
-                animation,
-                time,
-            };
+            let request = PoseRequest { scene: index, animation, time };
             warnings.extend(loaded.scene.pose(&request)?.warnings);
         }
     }
@@ -49,10 +45,7 @@ fn every_file_ends_in_a_scene_or_an_error_with_its_name() {
         let shorten = |message: &str| message.replace(folder.to_str().unwrap(), "");
         match &result {
             Ok(warnings) => {
-                assert!(
-                    warnings.iter().all(|w| w.starts_with(&name)),
-                    "{name}: {warnings:?}"
-                );
+                assert!(warnings.iter().all(|w| w.starts_with(&name)), "{name}: {warnings:?}");
                 for warning in warnings {
                     eprintln!("warning {}", shorten(warning));
                 }
@@ -66,18 +59,11 @@ fn every_file_ends_in_a_scene_or_an_error_with_its_name() {
         }
         if reported_errors(path) == Some(0) {
             valid += 1;
-            let unsupported = matches!(
-                result,
-                Err(SceneError::Version { .. } | SceneError::Extension { .. })
-            );
+            let unsupported = matches!(result, Err(SceneError::Version { .. } | SceneError::Extension { .. }));
             assert!(result.is_ok() || unsupported, "{name}: {result:?}");
         }
     }
-    assert!(
-        errors > 40,
-        "only {errors} of {} files are refused",
-        files.len()
-    );
+    assert!(errors > 40, "only {errors} of {} files are refused", files.len());
     assert!(valid >= 40, "only {valid} reports without errors");
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }
@@ -104,11 +90,7 @@ fn uris_of_other_programs_are_read_or_named() {
         match name {
             "case" => assert_eq!(images == 0, !loaded.warnings.is_empty()),
             "data-urlsafe" => assert!(loaded.warnings[0].contains("/images/0/uri"), "{name}"),
-            _ => assert_eq!(
-                (images == 1, loaded.warnings.len()),
-                (has_images, usize::from(is_tolerated)),
-                "{name}"
-            ),
+            _ => assert_eq!((images == 1, loaded.warnings.len()), (has_images, usize::from(is_tolerated)), "{name}"),
         }
         let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
         assert!(!pose.geometry.triangles.is_empty(), "{name}");

@@ -6,11 +6,7 @@ use serde_json::{Value, json};
 
 /// Pose of the triangle at time `time` of the animation `name`, or of the first one.
 fn at(builder: &Builder, name: Option<&str>, time: f64) -> Pose {
-    builder.pose_at(&PoseRequest {
-        animation: name.map(str::to_owned),
-        time,
-        ..PoseRequest::default()
-    })
+    builder.pose_at(&PoseRequest { animation: name.map(str::to_owned), time, ..PoseRequest::default() })
 }
 
 /// A triangle of one node with one animated property.
@@ -46,7 +42,8 @@ fn pointers_move_nodes() {
     let values = [[1., 0., 0.], [3., 0., 0.]];
     let mut builder = animated(json!({}), "pointer", "LINEAR", &[0., 2.], &values);
     builder.json["extensionsRequired"] = json!(["KHR_animation_pointer"]);
-    let target = |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
+    let target =
+        |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
     let channel = |builder: &mut Builder, pointer| {
         builder.json["animations"][0]["channels"][0]["target"] = target(pointer);
     };
@@ -58,10 +55,7 @@ fn pointers_move_nodes() {
     for (pointer, reason) in [
         ("/images/0/uri", "/images/0/uri keeps its value"),
         ("/nodes/0/camera", "/nodes/0/camera keeps its value"),
-        (
-            "/materials/0/emissiveFactor",
-            "which the document does not have",
-        ),
+        ("/materials/0/emissiveFactor", "which the document does not have"),
         ("/nodes/7/translation", "which the document does not have"),
     ] {
         channel(&mut builder, pointer);
@@ -95,8 +89,7 @@ fn pointed(pointers: &[(&str, Vec<f32>)]) -> Builder {
         json!({"attributes": {"POSITION": positions}, "material": 0}),
         json!({"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}),
     );
-    builder.json["cameras"] =
-        json!([{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}}]);
+    builder.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}}]);
     builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
         {"type": "spot", "intensity": 3.0, "color": [1.0, 0.5, 0.0], "spot": {}},
     ]}});
@@ -106,24 +99,15 @@ fn pointed(pointers: &[(&str, Vec<f32>)]) -> Builder {
 
 fn quarter(builder: &Builder) -> Pose {
     let warnings = builder.load().unwrap().warnings;
-    assert!(
-        !warnings.iter().any(|w| w.contains("/animations")),
-        "{warnings:?}"
-    );
+    assert!(!warnings.iter().any(|w| w.contains("/animations")), "{warnings:?}");
     at(builder, None, 0.25)
 }
 
 #[test]
 fn pointers_change_materials() {
     let pose = quarter(&pointed(&[
-        (
-            "/materials/0/pbrMetallicRoughness/metallicFactor",
-            vec![0.0, 1.0],
-        ),
-        (
-            "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor",
-            vec![0.0, 0.8],
-        ),
+        ("/materials/0/pbrMetallicRoughness/metallicFactor", vec![0.0, 1.0]),
+        ("/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", vec![0.0, 0.8]),
         (
             "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation",
             vec![0.0, 4.0 * std::f32::consts::FRAC_PI_2],
@@ -137,42 +121,24 @@ fn pointers_change_materials() {
     assert!((coat.factor - 0.2).abs() < 1e-6 && coat.texture.is_some());
     let [u, v] = material.base_color_texture.unwrap().transform.0;
     let expected = [[0.0, 1.0, 0.5], [-1.0, 0.0, 0.0]];
-    let pairs = [u, v]
-        .into_iter()
-        .flatten()
-        .zip(expected.into_iter().flatten());
-    assert!(
-        pairs.clone().all(|(a, b)| (a - b).abs() < 1e-6),
-        "{u:?} {v:?}"
-    );
+    let pairs = [u, v].into_iter().flatten().zip(expected.into_iter().flatten());
+    assert!(pairs.clone().all(|(a, b)| (a - b).abs() < 1e-6), "{u:?} {v:?}");
 
     let pose = quarter(&pointed(&[
         ("/materials/0/emissiveFactor", vec![0., 0.4, 4., 0., 0., 0.]),
-        (
-            "/extensions/KHR_lights_punctual/lights/0/color",
-            vec![1., 0.5, 0., 0., 0.5, 1.],
-        ),
+        ("/extensions/KHR_lights_punctual/lights/0/color", vec![1., 0.5, 0., 0., 0.5, 1.]),
     ]));
     // Factors are clamped to 1 before strengths multiply them.
     let emissive = pose.materials[0].1.emissive;
-    assert!(
-        (emissive[1] - 0.6).abs() < 1e-6 && emissive[2] == 2.0,
-        "{emissive:?}"
-    );
+    assert!((emissive[1] - 0.6).abs() < 1e-6 && emissive[2] == 2.0, "{emissive:?}");
     assert_eq!(pose.lights[0].color, [2.25, 1.5, 0.75]);
 }
 
 #[test]
 fn pointers_change_lights_and_cameras() {
     let pose = quarter(&pointed(&[
-        (
-            "/extensions/KHR_lights_punctual/lights/0/intensity",
-            vec![3.0, 7.0],
-        ),
-        (
-            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
-            vec![0.5, 0.9],
-        ),
+        ("/extensions/KHR_lights_punctual/lights/0/intensity", vec![3.0, 7.0]),
+        ("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", vec![0.5, 0.9]),
         ("/cameras/0/perspective/yfov", vec![1.0, 2.0]),
     ]));
     assert_eq!(pose.lights[0].color, [4.0, 2.0, 0.0]);
@@ -205,10 +171,7 @@ fn pointers_hide_nodes_and_weigh_meshes() {
     assert!(warnings.iter().any(|w| w.contains(fault)), "{warnings:?}");
     builder.json["animations"] = json!([]);
     builder.pointers(&[("/meshes/1/weights", vec![0.0, 1.0])]);
-    builder.pointers(&[(
-        "/nodes/0/extensions/KHR_node_visibility/visible",
-        vec![1.0, 0.0],
-    )]);
+    builder.pointers(&[("/nodes/0/extensions/KHR_node_visibility/visible", vec![1.0, 0.0])]);
     let fault = "there is nothing between visible and not";
     let warnings = builder.load().unwrap().warnings;
     assert!(warnings.iter().any(|w| w.contains(fault)), "{warnings:?}");
@@ -221,34 +184,16 @@ fn pointers_hide_nodes_and_weigh_meshes() {
 #[test]
 fn pointers_to_what_cannot_change_are_named() {
     for (pointer, reason) in [
-        (
-            "/materials/0/doubleSided",
-            "/materials/0/doubleSided: invalid type",
-        ),
+        ("/materials/0/doubleSided", "/materials/0/doubleSided: invalid type"),
         ("/materials/0/alphaMode", "invalid type"),
-        (
-            "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor",
-            "has no extensions/KHR_materials_sheen",
-        ),
-        (
-            "/materials/0/emissiveFactor",
-            "emissiveFactor: invalid type",
-        ),
-        (
-            "/materials/0/extensions/KHR_materials_dispersion",
-            "by itself changes nothing that is drawn",
-        ),
-        (
-            "/cameras/7/perspective/yfov",
-            "which the document does not have",
-        ),
+        ("/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor", "has no extensions/KHR_materials_sheen"),
+        ("/materials/0/emissiveFactor", "emissiveFactor: invalid type"),
+        ("/materials/0/extensions/KHR_materials_dispersion", "by itself changes nothing that is drawn"),
+        ("/cameras/7/perspective/yfov", "which the document does not have"),
     ] {
         let builder = pointed(&[(pointer, vec![0.25, 0.75])]);
         let warnings = builder.load().unwrap().warnings;
-        assert!(
-            warnings.iter().any(|w| w.contains(reason)),
-            "{pointer}: {warnings:?}"
-        );
+        assert!(warnings.iter().any(|w| w.contains(reason)), "{pointer}: {warnings:?}");
         assert!(at(&builder, None, 0.5).warnings.is_empty());
     }
 }
@@ -272,28 +217,8 @@ fn many_pointers_into_long_descriptions_take_no_time() {
 fn linear_step_and_clamping() {
     let values = [[1., 0., 0.], [3., 0., 0.], [5., 0., 0.]];
     for (mode, samples) in [
-        (
-            "LINEAR",
-            [
-                (0.0, 1.0),
-                (1.0, 1.0),
-                (1.5, 2.0),
-                (2.0, 3.0),
-                (3.0, 4.0),
-                (9.0, 5.0),
-            ],
-        ),
-        (
-            "STEP",
-            [
-                (0.0, 1.0),
-                (1.0, 1.0),
-                (1.9, 1.0),
-                (2.0, 3.0),
-                (3.9, 3.0),
-                (4.0, 5.0),
-            ],
-        ),
+        ("LINEAR", [(0.0, 1.0), (1.0, 1.0), (1.5, 2.0), (2.0, 3.0), (3.0, 4.0), (9.0, 5.0)]),
+        ("STEP", [(0.0, 1.0), (1.0, 1.0), (1.9, 1.0), (2.0, 3.0), (3.9, 3.0), (4.0, 5.0)]),
     ] {
         let builder = animated(json!({}), "translation", mode, &[1., 2., 4.], &values);
         for (time, expected) in samples {
@@ -307,14 +232,7 @@ fn linear_step_and_clamping() {
 fn cubic_spline_scales_tangents_by_the_interval() {
     // Each keyframe has an in-tangent, a value and an out-tangent. The value goes from 0 to 4 within 2 s, starting at
     // 3 per second and ending at rest.
-    let values = [
-        [9., 0., 0.],
-        [0., 0., 0.],
-        [3., 0., 0.],
-        [0., 0., 0.],
-        [4., 0., 0.],
-        [9., 0., 0.],
-    ];
+    let values = [[9., 0., 0.], [0., 0., 0.], [3., 0., 0.], [0., 0., 0.], [4., 0., 0.], [9., 0., 0.]];
     let builder = animated(json!({}), "translation", "CUBICSPLINE", &[1., 3.], &values);
     // In the middle it is 4 * 1/2 + 2 s * 3/s * (1/8 - 1/2 + 1/2) = 2.75.
     for (time, expected) in [(0.0, 0.0), (2.0, 2.75), (3.0, 4.0), (7.0, 4.0)] {
@@ -331,27 +249,16 @@ fn rotations_take_the_short_way_at_constant_speed() {
     let builder = animated(json!({}), "rotation", "LINEAR", &[0., 3.], &values);
     let geometry = at(&builder, None, 1.0).geometry;
     let (sin, cos) = 30_f64.to_radians().sin_cos();
-    assert_near(
-        corners(&geometry, 0),
-        [[0.; 3], [cos, sin, 0.], [-sin, cos, 0.]],
-    );
+    assert_near(corners(&geometry, 0), [[0.; 3], [cos, sin, 0.], [-sin, cos, 0.]]);
 }
 
 #[test]
 fn rotations_may_be_normalised_integers() {
     let mut builder = animated(json!({}), "rotation", "LINEAR", &[0., 1.], &[[0.; 4]; 2]);
-    let output = builder.accessor(
-        "VEC4",
-        5120,
-        &[0, 0, 0, 127, 0, 0, 127, 0],
-        json!({"normalized": true}),
-    );
+    let output = builder.accessor("VEC4", 5120, &[0, 0, 0, 127, 0, 0, 127, 0], json!({"normalized": true}));
     builder.json["animations"][0]["samplers"][0]["output"] = output.into();
     let geometry = at(&builder, None, 1.0).geometry;
-    assert_near(
-        corners(&geometry, 0),
-        [[0.; 3], [-1., 0., 0.], [0., -1., 0.]],
-    );
+    assert_near(corners(&geometry, 0), [[0.; 3], [-1., 0., 0.], [0., -1., 0.]]);
 }
 
 #[test]
@@ -363,34 +270,23 @@ fn animations_are_chosen_by_name_or_index() {
     assert_eq!(x(None, 0.5), 2.0);
     assert_eq!(x(Some("move"), 0.0), 1.0);
     assert_eq!(x(Some("0"), 1.0), 3.0);
-    let request = PoseRequest {
-        animation: Some("stand".into()),
-        ..PoseRequest::default()
-    };
+    let request = PoseRequest { animation: Some("stand".into()), ..PoseRequest::default() };
     let error = builder.load().unwrap().scene.pose(&request).unwrap_err();
     assert!(matches!(error, SceneError::NoSuchAnimation { .. }));
-    assert!(
-        error.to_string().ends_with("the file has 0 \"move\""),
-        "{error}"
-    );
+    assert!(error.to_string().ends_with("the file has 0 \"move\""), "{error}");
 }
 
 #[test]
 fn broken_channels_leave_the_rest_in_motion() {
     let values = [[1., 0., 0.], [3., 0., 0.]];
     let mut builder = animated(json!({}), "translation", "LINEAR", &[0., 1.], &values);
-    let channels = builder.json["animations"][0]["channels"]
-        .as_array_mut()
-        .unwrap();
+    let channels = builder.json["animations"][0]["channels"].as_array_mut().unwrap();
     channels.push(json!({"sampler": 7, "target": {"node": 0, "path": "scale"}}));
     channels.push(json!({"sampler": 0, "target": {"node": 0, "path": "rotation"}}));
     channels.push(json!({"sampler": 0, "target": {"path": "scale"}}));
     let warnings = builder.load().unwrap().warnings;
     assert_eq!(warnings.len(), 3, "{warnings:?}");
-    assert!(
-        warnings[1].contains("/animations/0/channels/1/sampler"),
-        "{warnings:?}"
-    );
+    assert!(warnings[1].contains("/animations/0/channels/1/sampler"), "{warnings:?}");
     assert_eq!(x_of_first_corner(&builder, 1.0), 3.0);
 }
 
@@ -410,10 +306,7 @@ fn keyframes_that_repeat_a_time_are_left_out() {
     let warnings = builder.load().unwrap().warnings;
     assert_eq!(warnings.len(), 2, "{warnings:?}");
     let told = "/accessors/1: 2 of 5 keyframes repeat the time of the one before and are left out";
-    assert!(
-        warnings.iter().any(|text| text.contains(told)),
-        "{warnings:?}"
-    );
+    assert!(warnings.iter().any(|text| text.contains(told)), "{warnings:?}");
     let corners_at = |time| corners(&at(&builder, Some("move"), time).geometry, 0);
     for (time, place, scale) in [(0.5, 2., 1.5), (1., 3., 2.), (1.5, 4., 3.), (2., 5., 4.)] {
         let [a, b, _] = corners_at(time);
@@ -423,10 +316,7 @@ fn keyframes_that_repeat_a_time_are_left_out() {
     let times = [0., 2., 1.];
     let builder = animated(json!({}), "translation", "LINEAR", &times, &values[..3]);
     let warnings = builder.load().unwrap().warnings;
-    assert!(
-        warnings.iter().any(|text| text.contains("do not ascend")),
-        "{warnings:?}"
-    );
+    assert!(warnings.iter().any(|text| text.contains("do not ascend")), "{warnings:?}");
 }
 
 /// A triangle with normals and two targets: one moves it along z, the other rotates the normals.
@@ -491,18 +381,9 @@ fn skinned(weight: f32, mesh_node: Value) -> Builder {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
     let normals = builder.floats(&[[0., 0., 1.]; 3]);
-    let joints = builder.accessor(
-        "VEC4",
-        5121,
-        &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0],
-        json!({}),
-    );
+    let joints = builder.accessor("VEC4", 5121, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0], json!({}));
     // The weights add up to 2, and are scaled to 1.
-    let weights = builder.floats(&[
-        [2., 0., 0., 0.],
-        [2., 0., 0., 0.],
-        [2. - 2. * weight, 2. * weight, 0., 0.],
-    ]);
+    let weights = builder.floats(&[[2., 0., 0., 0.], [2., 0., 0., 0.], [2. - 2. * weight, 2. * weight, 0., 0.]]);
     builder.node_with(
         json!({"attributes": {
             "POSITION": positions, "NORMAL": normals, "JOINTS_0": joints, "WEIGHTS_0": weights,
@@ -514,30 +395,18 @@ fn skinned(weight: f32, mesh_node: Value) -> Builder {
     let bind = builder.floats(&[identity, down]);
     builder.push("nodes", json!({"children": [2]}));
     builder.push("nodes", json!({"translation": [0, 1, 0]}));
-    builder.push(
-        "skins",
-        json!({"joints": [1, 2], "inverseBindMatrices": bind}),
-    );
+    builder.push("skins", json!({"joints": [1, 2], "inverseBindMatrices": bind}));
     builder.json["nodes"][0]["skin"] = 0.into();
     builder
 }
 
 #[test]
 fn skins_bend_and_ignore_the_node() {
-    let mut builder = skinned(
-        1.0,
-        json!({"translation": [50, 60, 70], "scale": [-1, 1, 1]}),
-    );
-    assert_near(
-        corners(&builder.pose().geometry, 0),
-        [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
-    );
+    let mut builder = skinned(1.0, json!({"translation": [50, 60, 70], "scale": [-1, 1, 1]}));
+    assert_near(corners(&builder.pose().geometry, 0), [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
     builder.json["nodes"][2]["translation"] = json!([0, 1, 3]);
     builder.json["nodes"][1]["translation"] = json!([10, 0, 0]);
-    assert_near(
-        corners(&builder.pose().geometry, 0),
-        [[10., 0., 0.], [11., 0., 0.], [10., 1., 3.]],
-    );
+    assert_near(corners(&builder.pose().geometry, 0), [[10., 0., 0.], [11., 0., 0.], [10., 1., 3.]]);
     assert_eq!(builder.pose().geometry.streams.normals, [[0., 0., 1.]; 3]);
 }
 
@@ -545,10 +414,7 @@ fn skins_bend_and_ignore_the_node() {
 fn skin_weights_blend_matrices() {
     let mut builder = skinned(0.5, json!({}));
     builder.json["nodes"][2]["translation"] = json!([0, 1, 3]);
-    assert_near(
-        corners(&builder.pose().geometry, 0),
-        [[0., 0., 0.], [1., 0., 0.], [0., 1., 1.5]],
-    );
+    assert_near(corners(&builder.pose().geometry, 0), [[0., 0., 0.], [1., 0., 0.], [0., 1., 1.5]]);
 }
 
 #[test]
@@ -556,10 +422,7 @@ fn mirrored_skeletons_keep_their_fronts() {
     let mut builder = skinned(1.0, json!({}));
     builder.json["nodes"][1]["scale"] = json!([-1, 1, 1]);
     let geometry = builder.pose().geometry;
-    assert_near(
-        corners(&geometry, 0),
-        [[0., 0., 0.], [0., 1., 0.], [-1., 0., 0.]],
-    );
+    assert_near(corners(&geometry, 0), [[0., 0., 0.], [0., 1., 0.], [-1., 0., 0.]]);
     assert_eq!(geometry.streams.normals, [[0., 0., 1.]; 3]);
 }
 
@@ -568,10 +431,7 @@ fn joints_that_a_skin_lacks_are_an_error() {
     let mut builder = skinned(1.0, json!({}));
     builder.json["skins"][0] = json!({"joints": [1]});
     let error = builder.load().unwrap_err().to_string();
-    assert!(
-        error.contains("/nodes/0/skin: the mesh's vertices refer to joint 1, but the skin has 1"),
-        "{error}"
-    );
+    assert!(error.contains("/nodes/0/skin: the mesh's vertices refer to joint 1, but the skin has 1"), "{error}");
 }
 
 #[test]
@@ -594,14 +454,8 @@ fn instances_multiply_a_mesh() {
         json!({"TRANSLATION": translations, "ROTATION": rotations, "SCALE": scales, "_ID": 99});
     let geometry = builder.pose().geometry;
     assert_eq!(builder.load().unwrap().scene.info().triangles, 2);
-    assert_near(
-        corners(&geometry, 0),
-        [[0., 0., 5.], [2., 0., 5.], [0., 2., 5.]],
-    );
+    assert_near(corners(&geometry, 0), [[0., 0., 5.], [2., 0., 5.], [0., 2., 5.]]);
     // The instance is mirrored and then turned by half; its winding is corrected.
-    assert_near(
-        corners(&geometry, 1),
-        [[20., 0., 5.], [20., 2., 5.], [18., 0., 5.]],
-    );
+    assert_near(corners(&geometry, 1), [[20., 0., 5.], [20., 2., 5.], [18., 0., 5.]]);
     assert!(geometry.streams.normals.iter().all(|n| *n == [0., 0., 1.]));
 }

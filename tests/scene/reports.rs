@@ -47,11 +47,7 @@ fn polygons_are_what_they_are() {
     ] {
         let (loaded, pose) = load(name);
         assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
-        assert!(
-            (area(&pose) - expected).abs() < 1e-3,
-            "{name}: {}",
-            area(&pose)
-        );
+        assert!((area(&pose) - expected).abs() < 1e-3, "{name}: {}", area(&pose));
     }
 }
 
@@ -65,10 +61,7 @@ fn places_of_surveys_lose_nothing() {
             let (low, high) = pose.geometry.bounds().unwrap();
             high - low
         };
-        assert!(
-            (extents(&local) - extents(&utm)).abs().max_element() < 1e-5,
-            "{format}"
-        );
+        assert!((extents(&local) - extents(&utm)).abs().max_element() < 1e-5, "{format}");
         assert!((area(&local) - area(&utm)).abs() < 1e-4, "{format}");
     }
 }
@@ -76,21 +69,10 @@ fn places_of_surveys_lose_nothing() {
 #[test]
 #[cfg_attr(not(shared_files), ignore = "../shared is missing")]
 fn numbers_that_are_none_leave_out_no_file() {
-    for name in [
-        "ind-uv",
-        "minus-nan-normals",
-        "msvc-new-normals",
-        "nan-normals",
-        "nan-uv",
-        "qnan-normals",
-    ] {
+    for name in ["ind-uv", "minus-nan-normals", "msvc-new-normals", "nan-normals", "nan-uv", "qnan-normals"] {
         let (loaded, pose) = load(&format!("03-obj-nan/{name}.obj"));
         assert_eq!(pose.geometry.triangles.len(), 2, "{name}");
-        assert_eq!(
-            loaded.warnings.len(),
-            usize::from(name.contains("normals")),
-            "{name}"
-        );
+        assert_eq!(loaded.warnings.len(), usize::from(name.contains("normals")), "{name}");
         let normals = pose.geometry.streams.normals.iter();
         assert!(normals.into_iter().all(|n| *n == [0.0, 0.0, 1.0]), "{name}");
     }
@@ -105,10 +87,7 @@ fn mtl_files_as_programs_write_them() {
         assert_eq!(loaded.scene.images.len(), 1, "{name}");
     }
     let (loaded, _) = load("06-mtl-tr/m.obj");
-    let alphas: Vec<f32> = loaded.scene.materials[..3]
-        .iter()
-        .map(|m| m.base_color[3])
-        .collect();
+    let alphas: Vec<f32> = loaded.scene.materials[..3].iter().map(|m| m.base_color[3]).collect();
     assert_eq!(alphas, [1.0, 0.5, 1.0]);
 
     let (red, green, blue, grey) = ([0.9, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.2, 0.9], [0.8; 3]);
@@ -182,19 +161,11 @@ fn stl_files_as_programs_write_them() {
     let error = Scene::load(&path("11-stl-text-variants/comma.stl")).unwrap_err();
     assert!(error.to_string().contains("has a decimal comma"), "{error}");
     let (_, pose) = load("12-stl-colours/magics.stl");
-    let mut colours: Vec<String> = pose
-        .geometry
-        .streams
-        .colors
-        .iter()
-        .map(|[r, g, b, _]| format!("{r:.2} {g:.2} {b:.2}"))
-        .collect();
+    let mut colours: Vec<String> =
+        pose.geometry.streams.colors.iter().map(|[r, g, b, _]| format!("{r:.2} {g:.2} {b:.2}")).collect();
     colours.sort();
     colours.dedup();
-    assert_eq!(
-        colours,
-        ["0.00 1.00 0.00", "1.00 0.00 0.00", "1.00 0.22 0.01"]
-    );
+    assert_eq!(colours, ["0.00 1.00 0.00", "1.00 0.00 0.00", "1.00 0.22 0.01"]);
 }
 
 #[test]
@@ -224,25 +195,14 @@ fn ply_files_as_programs_write_them() {
     let (red, blue) = ([1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]);
     for triangle in &pose.geometry.triangles {
         let corners = triangle.map(|v| v as usize);
-        let is_right = corners
-            .iter()
-            .any(|&v| f64::from(pose.geometry.positions[v][0]) + pose.geometry.origin[0] > 1.5);
+        let is_right =
+            corners.iter().any(|&v| f64::from(pose.geometry.positions[v][0]) + pose.geometry.origin[0] > 1.5);
         let expected = if is_right { blue } else { red };
-        assert!(
-            corners
-                .iter()
-                .all(|&v| pose.geometry.streams.colors[v] == expected)
-        );
+        assert!(corners.iter().all(|&v| pose.geometry.streams.colors[v] == expected));
     }
     let (loaded, pose) = load("13-ply-face-colours/alpha.ply");
     let material = &loaded.scene.materials[pose.geometry.draws[0].material as usize];
     assert_eq!(material.alpha_mode, AlphaMode::Blend);
-    let alphas: Vec<f32> = pose
-        .geometry
-        .streams
-        .colors
-        .iter()
-        .map(|color| color[3])
-        .collect();
+    let alphas: Vec<f32> = pose.geometry.streams.colors.iter().map(|color| color[3]).collect();
     assert!(alphas.contains(&0.0) && alphas.contains(&1.0), "{alphas:?}");
 }

@@ -3,14 +3,12 @@
 use crate::command::{Run, asset, files, gpc};
 use crate::difference::rmse;
 use glam::DVec2;
-use gpc::bench::{
-    Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force,
-};
+use gpc::bench::{Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force};
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
-    EngineError, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, RenderError,
-    SceneRequest, Settings, SuperpixelOptions,
+    EngineError, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, RenderError, SceneRequest, Settings,
+    SuperpixelOptions,
 };
 use gpc::scene::{PoseRequest, Scene};
 use serde_json::Value;
@@ -29,18 +27,14 @@ fn stage(name: &str) -> (Headless, PreparedScene, Camera) {
 }
 
 fn settings(method: MethodKind, samples: u32) -> Settings {
-    Settings::new(SIZE, SIZE)
-        .background(Some([0.8; 3]))
-        .method(method.with_samples(samples))
+    Settings::new(SIZE, SIZE).background(Some([0.8; 3])).method(method.with_samples(samples))
 }
 
 /// A shift of the image plane by whole pixels moves the picture by these pixels.
 #[test]
 fn a_shift_of_the_film_moves_the_picture_the_other_way() {
     let (mut headless, scene, camera) = stage("letters.glb");
-    let mut frame = headless
-        .prepare(&scene, &settings(MethodKind::None, 1))
-        .unwrap();
+    let mut frame = headless.prepare(&scene, &settings(MethodKind::None, 1)).unwrap();
     let mut render = |shift| {
         let camera = Camera { shift, ..camera };
         headless.render(&mut frame, &camera).unwrap().colors
@@ -56,16 +50,9 @@ fn a_shift_of_the_film_moves_the_picture_the_other_way() {
     }
     let same = |(a, b): &&([f32; 4], [f32; 4])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3);
     let equal = pairs.iter().filter(same).count();
-    assert!(
-        equal * 100 >= pairs.len() * 99,
-        "{equal} of {}",
-        pairs.len()
-    );
+    assert!(equal * 100 >= pairs.len() * 99, "{equal} of {}", pairs.len());
     let unmoved = still.iter().zip(&moved).filter(|(a, b)| a == b).count();
-    assert!(
-        unmoved * 100 < still.len() * 95,
-        "the picture is too plain to tell"
-    );
+    assert!(unmoved * 100 < still.len() * 95, "the picture is too plain to tell");
 }
 
 /// The reference differs from its parts less than images with fewer samples do.
@@ -73,15 +60,8 @@ fn a_shift_of_the_film_moves_the_picture_the_other_way() {
 fn the_reference_lies_beyond_supersampling() {
     let (mut headless, scene, camera) = stage("letters.glb");
     let mut calls = 0;
-    let reference = brute_force(
-        &mut headless,
-        &scene,
-        &camera,
-        &settings(MethodKind::None, 1),
-        1024,
-        || calls += 1,
-    )
-    .unwrap();
+    let reference =
+        brute_force(&mut headless, &scene, &camera, &settings(MethodKind::None, 1), 1024, || calls += 1).unwrap();
     assert_eq!(calls, 4);
     let errors = [1, 16, 256].map(|samples| {
         let settings = settings(MethodKind::Ssaa, samples);
@@ -89,10 +69,7 @@ fn the_reference_lies_beyond_supersampling() {
         let image = headless.render(&mut frame, &camera).unwrap();
         rmse(&image.colors, &reference)
     });
-    assert!(
-        errors[0] > 3.0 * errors[1] && errors[1] > 2.0 * errors[2],
-        "{errors:?}"
-    );
+    assert!(errors[0] > 3.0 * errors[1] && errors[1] > 2.0 * errors[2], "{errors:?}");
     assert!(errors[2] > 0.0, "the grid was not moved");
 }
 
@@ -102,10 +79,7 @@ fn a_reference_is_made_of_whole_renderings() {
     for samples in [0, 100, 257] {
         let settings = settings(MethodKind::None, 1);
         let asked = brute_force(&mut headless, &scene, &camera, &settings, samples, || {});
-        assert!(
-            matches!(asked, Err(RenderError::Engine(EngineError::Samples { .. }))),
-            "{samples}"
-        );
+        assert!(matches!(asked, Err(RenderError::Engine(EngineError::Samples { .. }))), "{samples}");
     }
 }
 
@@ -120,18 +94,15 @@ fn unseen_wires_are_not_missed() {
         headless.render(&mut frame, &camera).unwrap().colors
     };
     let one = render(&plain);
-    let [with, without] = [true, false].map(|thin| {
-        settings(MethodKind::Superpixel, 16).map_superpixels(|options| options.thin(thin))
-    });
+    let [with, without] =
+        [true, false].map(|thin| settings(MethodKind::Superpixel, 16).map_superpixels(|options| options.thin(thin)));
     let images = [&with, &without].map(&mut render);
     let size = [SIZE; 2];
     let picture = |pixels| Picture::new(size, pixels).unwrap();
     let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
     let looks = PixelTriangles::new(&mut headless, &scene, &camera, &plain, || {}).unwrap();
     let [with, without] = [(with, &images[0]), (without, &images[1])].map(|(settings, image)| {
-        let causes = looks
-            .causes(&mut headless, &scene, &camera, &settings)
-            .unwrap();
+        let causes = looks.causes(&mut headless, &scene, &camera, &settings).unwrap();
         yardstick.split(&picture(image), &causes).unwrap().unseen
     });
     assert!(with < 0.02, "{with} of the error was missed");
@@ -142,8 +113,8 @@ fn unseen_wires_are_not_missed() {
 #[test]
 fn textures_follow_the_footprint_asked_for() {
     let (mut headless, scene, camera) = stage("foliage.glb");
-    let settings = [Footprint::Pixel, Footprint::Sample]
-        .map(|footprint| settings(MethodKind::Ssaa, 64).footprint(footprint));
+    let settings =
+        [Footprint::Pixel, Footprint::Sample].map(|footprint| settings(MethodKind::Ssaa, 64).footprint(footprint));
     let images = settings.clone().map(|settings| {
         let mut frame = headless.prepare(&scene, &settings).unwrap();
         headless.render(&mut frame, &camera).unwrap().colors
@@ -153,10 +124,7 @@ fn textures_follow_the_footprint_asked_for() {
     let [_, sample] = settings;
     let asked = sample.footprint(Footprint::Side(2.0));
     let refused = headless.prepare(&scene, &asked);
-    assert!(matches!(
-        refused,
-        Err(RenderError::Engine(EngineError::Footprint(_)))
-    ));
+    assert!(matches!(refused, Err(RenderError::Engine(EngineError::Footprint(_)))));
 }
 
 /// The scenes of the growth benchmark have the stated quantities.
@@ -167,34 +135,21 @@ fn what_grows_is_what_is_said_to() {
     let pixels = f64::from(size[0] * size[1]);
     for index in 0..Growth::Superpixels.steps() {
         let step = Growth::Superpixels.step(index, size).unwrap();
-        let prepared = headless
-            .upload(SceneRequest::new(&step.scene, &step.pose))
-            .unwrap();
-        let settings = Settings::new(size[0], size[1])
-            .background(Some([0.8; 3]))
-            .method(SuperpixelOptions::new(4));
+        let prepared = headless.upload(SceneRequest::new(&step.scene, &step.pose)).unwrap();
+        let settings = Settings::new(size[0], size[1]).background(Some([0.8; 3])).method(SuperpixelOptions::new(4));
         let mut frame = headless.prepare(&prepared, &settings).unwrap();
         let image = headless.render(&mut frame, &step.camera).unwrap();
         let percent = 100.0 * image.statistics.superpixels as f64 / pixels;
-        assert!(
-            (percent - step.value).abs() < 2.0,
-            "{percent} at {}",
-            step.value
-        );
-        assert!(
-            step.value > 0.0 || percent == 0.0,
-            "{percent} without an edge"
-        );
+        assert!((percent - step.value).abs() < 2.0, "{percent} at {}", step.value);
+        assert!(step.value > 0.0 || percent == 0.0, "{percent} without an edge");
     }
     for index in 0..3 {
         let step = Growth::Triangles.step(index, size).unwrap();
         let found = step.pose.geometry.triangles.len() as f64;
         assert!((found / step.value - 1.0).abs() < 0.05, "{found}");
     }
-    let layers: Vec<_> = (0..Growth::Depth.steps())
-        .filter_map(|index| Growth::Depth.step(index, size))
-        .map(|step| step.value)
-        .collect();
+    let layers: Vec<_> =
+        (0..Growth::Depth.steps()).filter_map(|index| Growth::Depth.step(index, size)).map(|step| step.value).collect();
     assert!(layers.is_sorted() && layers.last() == Some(&64.0));
     assert!(Growth::Depth.step(layers.len(), size).is_none());
     let sizes = (0..).map_while(|index| Growth::Pixels.step(index, size));
@@ -229,10 +184,7 @@ fn bench(folder: &Path) -> Value {
 
 /// Number at a JSON path of a value.
 fn number(value: &Value, path: &str) -> f64 {
-    value
-        .pointer(path)
-        .and_then(Value::as_f64)
-        .unwrap_or_else(|| panic!("no {path} in {value}"))
+    value.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("no {path} in {value}"))
 }
 
 /// Summary of a run whose scenes have no textures.
@@ -240,10 +192,7 @@ fn results_of_untextured(results: &Value) -> &Value {
     let [summary] = results["summary"].as_array().unwrap().as_slice() else {
         panic!("{}", results["summary"]);
     };
-    assert_eq!(
-        (&summary["textured"], &summary["scenes"]),
-        (&false.into(), &1.into())
-    );
+    assert_eq!((&summary["textured"], &summary["scenes"]), (&false.into(), &1.into()));
     summary
 }
 
@@ -258,24 +207,10 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
             .find(|row| row["method"] == method && row["samples"] == samples)
             .unwrap_or_else(|| panic!("no {method} {samples} in {scene}"))
     };
-    let expected = [
-        ("none", 1),
-        ("msaa", 4),
-        ("ssaa", 4),
-        ("ssaa", 16),
-        ("superpixel", 4),
-        ("superpixel", 8),
-        ("superpixel", 16),
-    ];
-    let found: Vec<_> = rows
-        .iter()
-        .map(|row| {
-            (
-                row["method"].as_str().unwrap(),
-                row["samples"].as_u64().unwrap(),
-            )
-        })
-        .collect();
+    let expected =
+        [("none", 1), ("msaa", 4), ("ssaa", 4), ("ssaa", 16), ("superpixel", 4), ("superpixel", 8), ("superpixel", 16)];
+    let found: Vec<_> =
+        rows.iter().map(|row| (row["method"].as_str().unwrap(), row["samples"].as_u64().unwrap())).collect();
     assert_eq!(found, expected, "msaa is 4x on the software driver");
     let notes = scene["notes"].to_string();
     assert!(notes.contains("msaa") && notes.contains("16"), "{notes}");
@@ -297,10 +232,7 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     assert!(number(row("superpixel", 16), "/superpixel_fraction") > 0.0);
     for method in ["ssaa", "superpixel"] {
         let [few, many] = [4, 16].map(|samples| number(row(method, samples), "/accuracy/removed"));
-        assert!(
-            0.5 < few && few < many && many < 1.0,
-            "{method}: {few} {many}"
-        );
+        assert!(0.5 < few && few < many && many < 1.0, "{method}: {few} {many}");
     }
     for row in rows {
         let left = row["left"].as_object().unwrap();
@@ -337,17 +269,11 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     let compared = summary["at"].as_array().unwrap();
     assert_eq!(compared.len(), 3);
     assert!(compared[1]["rmse_ratio"].is_null(), "ssaa has no 8 samples");
-    assert_eq!(
-        summary["at"][0]["rmse_ratio"],
-        summary["at"][0]["geometry_ratio"]
-    );
+    assert_eq!(summary["at"][0]["rmse_ratio"], summary["at"][0]["geometry_ratio"]);
 
     let again = bench(folder.path());
     let scene = &again["scenes"][0];
-    assert!(
-        scene["reference_seconds"].is_null(),
-        "it was rendered again"
-    );
+    assert!(scene["reference_seconds"].is_null(), "it was rendered again");
     for (row, before) in scene["rows"].as_array().unwrap().iter().zip(rows) {
         assert_eq!(row["accuracy"], before["accuracy"]);
     }
@@ -385,14 +311,8 @@ fn writes_a_report_that_needs_no_other_file() {
     // Base 64 may contain any word.
     let mut parts = page.split(";base64,");
     let mut text = parts.next().unwrap().to_owned();
-    text.extend(
-        parts
-            .filter_map(|part| part.split_once('"'))
-            .map(|(_, rest)| rest),
-    );
-    for outside in [
-        "http:", "https:", "<link", "<script", "url(", "NaN", "inf\"",
-    ] {
+    text.extend(parts.filter_map(|part| part.split_once('"')).map(|(_, rest)| rest));
+    for outside in ["http:", "https:", "<link", "<script", "url(", "NaN", "inf\""] {
         assert!(!text.contains(outside), "{outside}");
     }
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
@@ -406,22 +326,14 @@ fn wrong_use_is_told_before_anything_is_measured() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("letters.glb");
     let with = |arguments: &[&str]| {
-        let all: Vec<_> = ["bench", &scene, "--out", "out"]
-            .iter()
-            .chain(arguments)
-            .copied()
-            .collect();
+        let all: Vec<_> = ["bench", &scene, "--out", "out"].iter().chain(arguments).copied().collect();
         gpc(folder.path(), &all).exits(2)
     };
     with(&["--reference", "1000"]).says(&["multiple of 256"]);
     with(&["--samples", "2000"]).says(&["1024"]);
     with(&["--methods", "taa"]).says(&["superpixel"]);
-    gpc(folder.path(), &["bench", "--out", "out"])
-        .exits(2)
-        .says(&["SCENE"]);
-    gpc(folder.path(), &["bench", "-", "--out", "out"])
-        .exits(2)
-        .says(&["standard input"]);
+    gpc(folder.path(), &["bench", "--out", "out"]).exits(2).says(&["SCENE"]);
+    gpc(folder.path(), &["bench", "-", "--out", "out"]).exits(2).says(&["standard input"]);
     assert!(files(folder.path()).is_empty());
 }
 
@@ -440,17 +352,13 @@ fn measured(folder: &Path, scenes: &[&str], arguments: &str) -> (Run, Value) {
 fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("letters.glb");
-    let arguments =
-        "--size 64x64 --methods none --reference 256 --repeat 2 --variants --cache cache --out out";
+    let arguments = "--size 64x64 --methods none --reference 256 --repeat 2 --variants --cache cache --out out";
     let (run, results) = measured(folder.path(), &[&scene], arguments);
     let out = folder.path().join("out");
     let timed = &results["variants"][0];
     assert_eq!(timed["name"], "letters");
     let rows = timed["rows"].as_array().unwrap();
-    let names: Vec<_> = rows
-        .iter()
-        .map(|row| row["variant"].as_str().unwrap())
-        .collect();
+    let names: Vec<_> = rows.iter().map(|row| row["variant"].as_str().unwrap()).collect();
     let expected = Variant::ALL.map(|variant| variant.to_string());
     assert_eq!(names, expected);
     let pixels = f64::from(SIZE * SIZE);
@@ -469,16 +377,10 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
         for clock in ["gpu", "wall"] {
             let of = |row: &Value, what: &str| number(row, &format!("/{clock}_{what}"));
             assert_eq!(of(row, "ms/count"), 2.0);
-            assert!(
-                0.0 < of(row, "ms/min") && of(row, "ms/min") <= of(row, "ms/median"),
-                "{row}"
-            );
+            assert!(0.0 < of(row, "ms/min") && of(row, "ms/min") <= of(row, "ms/median"), "{row}");
             let each = 1e6 * of(row, "ms/median") / samples;
             assert!((of(row, "ns") / each - 1.0).abs() < 1e-12, "{row}");
-            assert!(
-                (of(row, "ratio") / (each / of(raster, "ns")) - 1.0).abs() < 1e-12,
-                "{row}"
-            );
+            assert!((of(row, "ratio") / (each / of(raster, "ns")) - 1.0).abs() < 1e-12, "{row}");
         }
     }
     let csv = std::fs::read_to_string(out.join("variants.csv")).unwrap();
@@ -487,10 +389,7 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();
     for variant in Variant::ALL {
-        assert!(
-            page.contains(variant.about()) && printed.contains(&variant.to_string()),
-            "{variant}"
-        );
+        assert!(page.contains(variant.about()) && printed.contains(&variant.to_string()), "{variant}");
     }
 }
 
@@ -498,14 +397,11 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
 fn choices_change_one_option_of_superpixels() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("checker.glb");
-    let arguments =
-        "--size 64x64 --methods none --reference 256 --repeat 2 --choices --cache cache --out out";
+    let arguments = "--size 64x64 --methods none --reference 256 --repeat 2 --choices --cache cache --out out";
     let (run, results) = measured(folder.path(), &[&scene], arguments);
     let rows = results["choices"][0]["rows"].as_array().unwrap();
     let find = |option: &str, value: &str| {
-        let row = rows
-            .iter()
-            .find(|row| row["option"] == option && row["value"] == value);
+        let row = rows.iter().find(|row| row["option"] == option && row["value"] == value);
         row.unwrap_or_else(|| panic!("no {option} {value}"))
     };
     // The default among the thresholds is the default among the shadings.
@@ -531,22 +427,11 @@ fn choices_change_one_option_of_superpixels() {
 #[test]
 fn a_variant_that_a_camera_can_not_have_says_why() {
     let (mut headless, scene, camera) = stage("letters.glb");
-    let camera = Camera {
-        projection: Projection::Orthographic {
-            half_height: 1.0,
-            near: 0.0,
-            far: 100.0,
-        },
-        ..camera
-    };
+    let camera = Camera { projection: Projection::Orthographic { half_height: 1.0, near: 0.0, far: 100.0 }, ..camera };
     let settings = settings(MethodKind::None, 1);
-    let mut warm_up =
-        |variant| VariantContender::warm_up(variant, &mut headless, &scene, &camera, &settings);
+    let mut warm_up = |variant| VariantContender::warm_up(variant, &mut headless, &scene, &camera, &settings);
     assert!(warm_up(Variant::Planar).is_ok());
-    assert!(matches!(
-        warm_up(Variant::Rig),
-        Err(VariantError::Panorama(_))
-    ));
+    assert!(matches!(warm_up(Variant::Rig), Err(VariantError::Panorama(_))));
 }
 
 /// Results have each method in motion, and superpixels with as many samples as supersampling.
@@ -558,51 +443,31 @@ fn motion_is_measured_against_the_truth_of_each_frame() {
     let (run, results) = measured(folder.path(), &["--motion", &scene], arguments);
     let out = folder.path().join("out");
     let moved = &results["motion"][0];
-    assert_eq!(
-        (&moved["name"], &moved["textured"]),
-        (&"letters".into(), &false.into())
-    );
+    assert_eq!((&moved["name"], &moved["textured"]), (&"letters".into(), &false.into()));
     assert_eq!(moved["size"], serde_json::json!([48, 32]));
     let rows = moved["rows"].as_array().unwrap();
     for motion in ["pan", "turn"] {
         let find = |method: &str, samples: u32| {
-            let mine = |row: &&Value| {
-                row["motion"] == motion && row["method"] == method && row["samples"] == samples
-            };
-            rows.iter()
-                .find(mine)
-                .unwrap_or_else(|| panic!("no {method} {samples}"))
+            let mine = |row: &&Value| row["motion"] == motion && row["method"] == method && row["samples"] == samples;
+            rows.iter().find(mine).unwrap_or_else(|| panic!("no {method} {samples}"))
         };
         let cells = [("none", 1), ("msaa", 4), ("ssaa", 16), ("ssaa", 64)];
         for of in ["rmse", "flicker"] {
-            let values =
-                cells.map(|(method, samples)| number(find(method, samples), &format!("/{of}")));
-            assert!(
-                values.is_sorted_by(|a, b| *a > 1.4 * b),
-                "{motion} {of} {values:?}"
-            );
+            let values = cells.map(|(method, samples)| number(find(method, samples), &format!("/{of}")));
+            assert!(values.is_sorted_by(|a, b| *a > 1.4 * b), "{motion} {of} {values:?}");
             let none = values[0];
             for samples in [16, 64] {
                 let superpixel = number(find("superpixel", samples), &format!("/{of}"));
-                assert!(
-                    0.0 < superpixel && superpixel < 0.3 * none,
-                    "{motion} {of} {superpixel}"
-                );
+                assert!(0.0 < superpixel && superpixel < 0.3 * none, "{motion} {of} {superpixel}");
             }
         }
         // An error that is the same in every frame does not flicker.
         for row in rows {
-            assert!(
-                number(row, "/flicker") <= number(row, "/rmse") * 1.05,
-                "{row}"
-            );
+            assert!(number(row, "/flicker") <= number(row, "/rmse") * 1.05, "{row}");
         }
     }
     let summary = results["motion_summary"].as_array().unwrap();
-    assert_eq!(
-        summary.iter().map(|at| &at["samples"]).collect::<Vec<_>>(),
-        [16, 64]
-    );
+    assert_eq!(summary.iter().map(|at| &at["samples"]).collect::<Vec<_>>(), [16, 64]);
     let csv = std::fs::read_to_string(out.join("motion.csv")).unwrap();
     let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
     assert_eq!(columns, vec![9; rows.len() + 1]);

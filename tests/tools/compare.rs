@@ -4,19 +4,13 @@ use gpc::compare::{CompareError, compare, heatmap};
 use gpc::output::DecodedImage;
 
 fn grey(value: f32) -> DecodedImage {
-    DecodedImage {
-        size: [32, 24],
-        pixels: vec![[value, value, value, 1.0]; 32 * 24],
-    }
+    DecodedImage { size: [32, 24], pixels: vec![[value, value, value, 1.0]; 32 * 24] }
 }
 
 #[test]
 fn identical_images_are_identical() {
     let comparison = compare(&grey(0.4), &grey(0.4)).unwrap();
-    assert_eq!(
-        (comparison.rmse, comparison.max, comparison.flip),
-        (0.0, 0.0, 0.0)
-    );
+    assert_eq!((comparison.rmse, comparison.max, comparison.flip), (0.0, 0.0, 0.0));
     assert_eq!(comparison.psnr, None);
 }
 
@@ -76,10 +70,7 @@ fn alpha_counts_where_it_is_not_opaque() {
 fn images_of_different_size_are_refused() {
     let mut image = grey(0.4);
     image.size = [24, 32];
-    let expected = CompareError::Size {
-        first: [32, 24],
-        second: [24, 32],
-    };
+    let expected = CompareError::Size { first: [32, 24], second: [24, 32] };
     assert_eq!(compare(&grey(0.4), &image), Err(expected));
     assert_eq!(heatmap(&grey(0.4), &image), Err(expected));
 }

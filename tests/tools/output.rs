@@ -1,13 +1,13 @@
 //! Image files: readers find what was written.
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, ReadChannels, ReadLayers, Vec2, WritableImage, f16, read as read_exr,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+    ReadChannels, ReadLayers, Vec2, WritableImage, f16, read as read_exr,
 };
 use gpc::color::srgb;
 use gpc::output::{
-    Aov, AovKind, Format, OutputError, Picture, bound_light, decode, decode_light, decode_linear,
-    encode, encode_aov, read, write_atomically,
+    Aov, AovKind, Format, OutputError, Picture, bound_light, decode, decode_light, decode_linear, encode, encode_aov,
+    read, write_atomically,
 };
 use gpc::render::PixelAttributes;
 use std::io::Cursor;
@@ -94,9 +94,7 @@ fn all_aovs(pixels: usize) -> Vec<Aov> {
         padding: 0,
     };
     let attributes: Vec<_> = (0..pixels).map(attribute).collect();
-    AovKind::ALL
-        .map(|kind| Aov::from_attributes(kind, &attributes))
-        .into()
+    AovKind::ALL.map(|kind| Aov::from_attributes(kind, &attributes)).into()
 }
 
 #[test]
@@ -115,9 +113,7 @@ fn exr_holds_the_very_floats_and_ids() {
     let channels = &image.layer_data.channel_data.list;
     let find = |name: &str| {
         let found = channels.iter().find(|channel| channel.name.eq(name));
-        &found
-            .unwrap_or_else(|| panic!("no channel {name}"))
-            .sample_data
+        &found.unwrap_or_else(|| panic!("no channel {name}")).sample_data
     };
     for (i, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
         let expected: Vec<_> = pixels.iter().map(|p| p[i]).collect();
@@ -126,10 +122,7 @@ fn exr_holds_the_very_floats_and_ids() {
     assert_eq!(*find("id.Y"), FlatSamples::U32(vec![0, 1, 2]));
     assert_eq!(*find("samples.Y"), FlatSamples::U32(vec![0, 512, 1024]));
     assert_eq!(*find("superpixels.Y"), FlatSamples::U32(vec![0, 1, 0]));
-    assert_eq!(
-        *find("depth.Z"),
-        FlatSamples::F32(vec![f32::INFINITY, 0.5, 1.0])
-    );
+    assert_eq!(*find("depth.Z"), FlatSamples::F32(vec![f32::INFINITY, 0.5, 1.0]));
     assert_eq!(*find("normal.Y"), FlatSamples::F32(vec![0.0, 1.0, 1.0]));
     assert_eq!(channels.len(), 11);
 }
@@ -146,10 +139,7 @@ fn exr_file(channels: &[(&str, FlatSamples)], start: [i32; 2], size: [usize; 2])
     layer.attributes.layer_position = Vec2(start[0], start[1]);
     let window = IntegerBounds::new((3, 4), (size[0], size[1]));
     let mut bytes = Cursor::new(Vec::new());
-    Image::new(ImageAttributes::new(window), layer)
-        .write()
-        .to_buffered(&mut bytes)
-        .unwrap();
+    Image::new(ImageAttributes::new(window), layer).write().to_buffered(&mut bytes).unwrap();
     bytes.into_inner()
 }
 
@@ -187,10 +177,7 @@ fn exr_channels_are_read_or_named() {
         names.iter().enumerate().map(named).collect::<Vec<_>>()
     };
     let with_names = |named: &[(String, FlatSamples)]| {
-        let channels: Vec<_> = named
-            .iter()
-            .map(|(name, s)| (name.as_str(), s.clone()))
-            .collect();
+        let channels: Vec<_> = named.iter().map(|(name, s)| (name.as_str(), s.clone())).collect();
         read(&channels)
     };
     let beauty = with_names(&of(&layer("beauty"))).unwrap();
@@ -209,11 +196,7 @@ fn exr_channels_are_read_or_named() {
 fn infinite_light_is_bounded() {
     let halves = |a: f32, b: f32| FlatSamples::F16(vec![f16::from_f32(a), f16::from_f32(b)]);
     let red = ("R", halves(f32::INFINITY, 2.0));
-    let half = exr_file(
-        &[red, ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))],
-        [3, 4],
-        [2, 1],
-    );
+    let half = exr_file(&[red, ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))], [3, 4], [2, 1]);
     let (_, mut colors) = decode_light(&half, "x").unwrap();
     assert_eq!(bound_light(&mut colors), (1, 65_504.0));
     assert_eq!(colors, [[65_504.0, 1.0, 1.0], [2.0, 3.0, 3.0]]);
@@ -227,10 +210,7 @@ fn infinite_light_is_bounded() {
 fn aovs_can_be_looked_at() {
     let grey = |aov: &Aov| {
         let bytes = encode_aov([3, 1], aov).unwrap();
-        image::load_from_memory(&bytes)
-            .unwrap()
-            .into_luma16()
-            .into_raw()
+        image::load_from_memory(&bytes).unwrap().into_luma16().into_raw()
     };
     let [depth, id, normal, superpixels, samples] = all_aovs(3).try_into().unwrap();
     assert_eq!(grey(&depth), [0, 65_535, 1]);
@@ -270,12 +250,7 @@ fn every_format_reads_back() {
 
 #[test]
 fn a_count_of_pixels_that_does_not_fit_is_refused() {
-    let wrong = |size| {
-        matches!(
-            Picture::new(size, &[[0.0; 4]; 6]),
-            Err(OutputError::PixelCount { .. })
-        )
-    };
+    let wrong = |size| matches!(Picture::new(size, &[[0.0; 4]; 6]), Err(OutputError::PixelCount { .. }));
     assert!(wrong([2, 2]) && wrong([0, 0]) && !wrong([3, 2]));
     let pixels = [[0.0; 4]; 6];
     let picture = Picture::new([3, 2], &pixels).unwrap();
@@ -300,10 +275,7 @@ fn an_exr_that_is_not_a_number_names_the_pixel() {
     pixels[16 + 3][2] = f32::NAN;
     let bytes = encoded(Format::Exr, &pixels, [16, 16]);
     let error = decode(&bytes, "a.exr").unwrap_err();
-    assert!(
-        matches!(error, OutputError::NotANumber { x: 3, y: 1, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, OutputError::NotANumber { x: 3, y: 1, .. }), "{error}");
 }
 
 #[test]

@@ -14,10 +14,7 @@ fn photograph(light: impl Fn(u32, u32) -> f64) -> Photograph {
         let v = encode(light(i % SIZE, i / SIZE));
         [v, v, v, 1.0]
     };
-    Photograph::from(&DecodedImage {
-        size: [SIZE, SIZE],
-        pixels: (0..SIZE * SIZE).map(pixel).collect(),
-    })
+    Photograph::from(&DecodedImage { size: [SIZE, SIZE], pixels: (0..SIZE * SIZE).map(pixel).collect() })
 }
 
 fn scaled(step: f64) -> DMat2 {

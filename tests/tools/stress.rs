@@ -79,11 +79,7 @@ fn far_away(offset: f32) -> (Scene, Camera) {
         corner(0.0625, -2.125, -3.75),
         corner(2.25, 1.0, -4.0),
     ];
-    let bytes: Vec<u8> = positions
-        .as_flattened()
-        .iter()
-        .flat_map(|v| v.to_le_bytes())
-        .collect();
+    let bytes: Vec<u8> = positions.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
     let [low, high] = [f32::min as fn(f32, f32) -> f32, f32::max].map(|pick| {
         let mut corners = positions.into_iter();
         let first = corners.next().unwrap();
@@ -128,13 +124,7 @@ fn a_file_far_from_the_origin_is_the_same_picture() {
 /// Neither a value above its bound nor NaN is accepted.
 #[test]
 fn a_finding_can_fail() {
-    let finding = |measured, allowed| Finding {
-        case: String::new(),
-        checked: 1,
-        unit: "",
-        measured,
-        allowed,
-    };
+    let finding = |measured, allowed| Finding { case: String::new(), checked: 1, unit: "", measured, allowed };
     assert!(finding(1.0, Some(1.0)).holds() && finding(9.0, None).holds());
     assert!(!finding(1.1, Some(1.0)).holds() && !finding(f64::NAN, Some(1.0)).holds());
 }

@@ -2,13 +2,10 @@
 
 use crate::difference::rmse;
 use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
-use gpc::bench::{
-    Half, PixelTriangles, Random, Stripped, Suspects, Within, Yardstick, brute_force,
-};
+use gpc::bench::{Half, PixelTriangles, Random, Stripped, Suspects, Within, Yardstick, brute_force};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
-    Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, SceneRequest,
-    Settings, Shading,
+    Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
@@ -21,13 +18,7 @@ fn noisy(material: Material) -> (Scene, Pose) {
     let mut random = Random::new(7);
     let mut stage = Stage::new(vec![material]);
     stage.texture = Some((
-        Image {
-            width: side,
-            height: side,
-            pixels: (0..side * side * 4)
-                .map(|_| random.below(256) as u8)
-                .collect(),
-        },
+        Image { width: side, height: side, pixels: (0..side * side * 4).map(|_| random.below(256) as u8).collect() },
         Sampler::default(),
     ));
     let half = f64::from(side);
@@ -47,10 +38,7 @@ fn headless() -> Headless {
 }
 
 fn settings(method: MethodKind, samples: u32, footprint: Footprint) -> Settings {
-    Settings::new(SIZE[0], SIZE[1])
-        .footprint(footprint)
-        .background(Some([0.8; 3]))
-        .method(method.with_samples(samples))
+    Settings::new(SIZE[0], SIZE[1]).footprint(footprint).background(Some([0.8; 3])).method(method.with_samples(samples))
 }
 
 fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<[f32; 4]> {
@@ -58,11 +46,7 @@ fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -
     headless.render(&mut frame, &camera()).unwrap().colors
 }
 
-fn reference(
-    headless: &mut Headless,
-    scene: &PreparedScene,
-    footprint: Footprint,
-) -> Vec<[f32; 4]> {
+fn reference(headless: &mut Headless, scene: &PreparedScene, footprint: Footprint) -> Vec<[f32; 4]> {
     let settings = settings(MethodKind::None, 1, footprint);
     brute_force(headless, scene, &camera(), &settings, 1024, || {}).unwrap()
 }
@@ -84,10 +68,7 @@ fn only_textures_read_for_samples_come_to_the_truth() {
     assert!(errors.is_sorted_by(|a, b| *a > 2.0 * b), "{errors:?}");
     let blurred = error(Footprint::Pixel, 1024);
     let apart = rmse(&truth, &geometry);
-    assert!(
-        (blurred / apart - 1.0).abs() < 0.05 && apart > 5.0 * errors[2],
-        "{blurred} {apart} {errors:?}"
-    );
+    assert!((blurred / apart - 1.0).abs() < 0.05 && apart > 5.0 * errors[2], "{blurred} {apart} {errors:?}");
 }
 
 /// Error that is left if no pixel is a superpixel, or if all are.
@@ -97,9 +78,7 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let plain = settings(MethodKind::None, 1, Footprint::Sample);
     let shown = |colors: &[[f32; 4]]| DecodedImage::from(&Picture::new(SIZE, colors).unwrap());
     let halves = Stripped::ALL.map(|stripped| {
-        let scene = headless
-            .upload(SceneRequest::new(&stripped.of(scene), pose))
-            .unwrap();
+        let scene = headless.upload(SceneRequest::new(&stripped.of(scene), pose)).unwrap();
         let truth = reference(&mut headless, &scene, Footprint::Sample);
         (scene, shown(&truth))
     });
@@ -107,31 +86,19 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let one = render(&mut headless, &whole, &plain);
     let picture = |colors| Picture::new(SIZE, colors).unwrap();
     let yardstick = Yardstick::new(&picture(&truth), &picture(&one)).unwrap();
-    let settings =
-        settings(MethodKind::Superpixel, 4, Footprint::Sample).map_superpixels(|options| {
-            options.detection(if superpixels {
-                Detection::Every
-            } else {
-                Detection::Edges
-            })
-        });
+    let settings = settings(MethodKind::Superpixel, 4, Footprint::Sample)
+        .map_superpixels(|options| options.detection(if superpixels { Detection::Every } else { Detection::Edges }));
     let image = render(&mut headless, &whole, &settings);
     let looks = PixelTriangles::new(&mut headless, &whole, &camera(), &plain, || {}).unwrap();
-    let causes = looks
-        .causes(&mut headless, &whole, &camera(), &settings)
-        .unwrap();
+    let causes = looks.causes(&mut headless, &whole, &camera(), &settings).unwrap();
     let suspects = Suspects {
         scene: &whole,
-        halves: halves
-            .each_ref()
-            .map(|(scene, truth)| Half { scene, truth }),
+        halves: halves.each_ref().map(|(scene, truth)| Half { scene, truth }),
         camera: &camera(),
         looks: &looks,
     };
     let image = picture(&image);
-    let faults = suspects
-        .faults(&mut headless, &settings, &yardstick, &image, &causes)
-        .unwrap();
+    let faults = suspects.faults(&mut headless, &settings, &yardstick, &image, &causes).unwrap();
     yardstick.split_within(&image, &causes, &faults).unwrap()
 }
 
@@ -140,20 +107,9 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
 #[test]
 fn paint_and_light_are_told_apart() {
     let noise = textured(AlphaMode::Opaque).base_color_texture;
-    let lit = Material {
-        unlit: false,
-        metallic: 0.0,
-        roughness: 0.4,
-        ..flat([0.8; 4], AlphaMode::Opaque)
-    };
-    let painted = Material {
-        base_color_texture: noise,
-        ..lit.clone()
-    };
-    let bumpy = Material {
-        normal_texture: noise,
-        ..lit
-    };
+    let lit = Material { unlit: false, metallic: 0.0, roughness: 0.4, ..flat([0.8; 4], AlphaMode::Opaque) };
+    let painted = Material { base_color_texture: noise, ..lit.clone() };
+    let bumpy = Material { normal_texture: noise, ..lit };
     for (name, material) in [("painted", painted), ("bumpy", bumpy)] {
         let (scene, pose) = noisy(material);
         for superpixels in [false, true] {
@@ -181,13 +137,9 @@ fn a_grid_of_shaded_samples_is_brute_force() {
     let scene = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     for samples in [16, 64] {
         let brute_force = settings(MethodKind::Ssaa, samples, Footprint::Sample);
-        let superpixels = settings(MethodKind::Superpixel, samples, Footprint::Sample)
-            .map_superpixels(|options| {
-                options
-                    .detection(Detection::Every)
-                    .shading(Shading::Sample)
-                    .pattern(Pattern::Grid)
-            });
+        let superpixels = settings(MethodKind::Superpixel, samples, Footprint::Sample).map_superpixels(|options| {
+            options.detection(Detection::Every).shading(Shading::Sample).pattern(Pattern::Grid)
+        });
         let [brute_force, superpixels] =
             [brute_force, superpixels].map(|settings| render(&mut headless, &scene, &settings));
         let error = rmse(&superpixels, &brute_force);

@@ -33,10 +33,7 @@ fn assert_pixels(display: &Display, size: [usize; 2], wrong: impl Fn(&[[u8; 3]])
         if count == 0 {
             return;
         }
-        assert!(
-            Instant::now() < until,
-            "{count} pixels of {size:?} are others"
-        );
+        assert!(Instant::now() < until, "{count} pixels of {size:?} are others");
         std::thread::sleep(Duration::from_millis(200));
     }
 }
@@ -47,9 +44,7 @@ fn assert_shows(display: &Display, size: [usize; 2], file: &[u8]) {
     assert_eq!([image.width() as usize, image.height() as usize], size);
     assert_pixels(display, size, |pixels| {
         let pairs = pixels.iter().zip(image.pixels());
-        pairs
-            .filter(|(shown, expected)| differ(shown, expected))
-            .count()
+        pairs.filter(|(shown, expected)| differ(shown, expected)).count()
     });
 }
 
@@ -58,10 +53,7 @@ fn assert_writes(viewer: &mut Viewer, folder: &Path, expected: &[u8]) {
     viewer.key("F12");
     let line = viewer.wait_for("wrote ");
     let written = std::fs::read(folder.join(line.strip_prefix("wrote ").unwrap())).unwrap();
-    assert!(
-        written == expected,
-        "the file has other bytes than the command's"
-    );
+    assert!(written == expected, "the file has other bytes than the command's");
 }
 
 fn differ(shown: &[u8; 3], expected: &image::Rgb<u8>) -> bool {
@@ -79,24 +71,10 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     // The view is turned, moved sideways and zoomed; the pointer ends outside of the window.
     viewer.drag("1", ["200", "80"]);
     viewer.drag("2", ["150", "110"]);
-    display.input(&[
-        "mousemove",
-        "100",
-        "60",
-        "click",
-        "4",
-        "click",
-        "4",
-        "mousemove",
-        "600",
-        "400",
-    ]);
+    display.input(&["mousemove", "100", "60", "click", "4", "click", "4", "mousemove", "600", "400"]);
     viewer.wait_for("at rest");
     let command = viewer.command();
-    assert!(
-        command.iter().any(|word| word.starts_with("--eye=")),
-        "{command:?}"
-    );
+    assert!(command.iter().any(|word| word.starts_with("--eye=")), "{command:?}");
     let rendered = render(folder.path(), &command, "direct.png");
     assert_shows(&display, [320, 200], &rendered);
 
@@ -104,10 +82,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     viewer.key("F12");
     viewer.wait_for("wrote letters.png");
     let written = std::fs::read(folder.path().join("letters.png")).unwrap();
-    assert!(
-        written == rendered,
-        "the screenshot has other bytes than the command's image"
-    );
+    assert!(written == rendered, "the screenshot has other bytes than the command's image");
 
     // The window gets another size, and the picture another method.
     display.input(&["search", "--name", "gpc$", "windowsize", "400", "240"]);
@@ -117,11 +92,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     let command = viewer.command();
     assert!(command.iter().any(|word| word == "400x240"), "{command:?}");
     assert!(command.iter().any(|word| word == "none"), "{command:?}");
-    assert_shows(
-        &display,
-        [400, 240],
-        &render(folder.path(), &command, "resized.png"),
-    );
+    assert_shows(&display, [400, 240], &render(folder.path(), &command, "resized.png"));
     viewer.close();
 }
 
@@ -184,19 +155,10 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
     let command = viewer.command();
     assert_eq!(command[0], "zoom");
     for word in ["--center=160,100", "40,40"] {
-        assert!(
-            command.iter().any(|found| found == word),
-            "{word} in {command:?}"
-        );
+        assert!(command.iter().any(|found| found == word), "{word} in {command:?}");
     }
-    let multiplicity = 1 + command
-        .iter()
-        .position(|word| word == "--multiplicity")
-        .unwrap();
-    assert!(
-        command[multiplicity].parse::<f64>().unwrap() < 0.5,
-        "{command:?}"
-    );
+    let multiplicity = 1 + command.iter().position(|word| word == "--multiplicity").unwrap();
+    assert!(command[multiplicity].parse::<f64>().unwrap() < 0.5, "{command:?}");
     let zoomed = render(folder.path(), &command, "zoom.png");
     assert_shows(&display, [320, 200], &zoomed);
     assert_writes(&mut viewer, folder.path(), &zoomed);
@@ -220,14 +182,10 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
 fn an_environment_is_seen_behind_the_scene_at_rest() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let sky = |x: u32, y: u32| image::Rgb([0.2 + 0.05 * x as f32, 0.4, 0.1 * y as f32]);
-    image::Rgb32FImage::from_fn(16, 8, sky)
-        .save(folder.path().join("sky.hdr"))
-        .unwrap();
+    image::Rgb32FImage::from_fn(16, 8, sky).save(folder.path().join("sky.hdr")).unwrap();
     let scene = asset("letters.glb");
     let options = "--size 320x200 --samples 16 --environment sky.hdr --background environment";
-    let arguments: Vec<_> = std::iter::once(scene.as_str())
-        .chain(options.split(' '))
-        .collect();
+    let arguments: Vec<_> = std::iter::once(scene.as_str()).chain(options.split(' ')).collect();
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
     viewer.wait_for("at rest");
     viewer.show_picture_alone();
@@ -245,16 +203,7 @@ fn an_environment_is_seen_behind_the_scene_at_rest() {
         assert_shows(&display, [320, 200], &expected);
     }
     // A lens enlarges only the scene.
-    display.input(&[
-        "mousemove",
-        "120",
-        "90",
-        "key",
-        "z",
-        "mousemove",
-        "600",
-        "400",
-    ]);
+    display.input(&["mousemove", "120", "90", "key", "z", "mousemove", "600", "400"]);
     viewer.wait_for("at rest");
     let command = viewer.command();
     assert_eq!(command[0], "zoom");
@@ -268,10 +217,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
     let arguments = ["render", &asset("letters.glb"), "-o", "photo.png"];
     let options = "--size 320x200 --samples 16 --background #708090".split(' ');
     let options: Vec<_> = options.collect();
-    let ordinary = arguments
-        .iter()
-        .chain(&options)
-        .map(|word| (*word).to_owned());
+    let ordinary = arguments.iter().chain(&options).map(|word| (*word).to_owned());
     let photo = render(folder.path(), &ordinary.collect::<Vec<_>>(), "photo.png");
     let arguments = ["photo.png", "--size", "320x200"];
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
@@ -286,10 +232,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
     display.input(&["mousemove", "600", "400"]);
     let command = viewer.command();
     let centers = command.iter().filter(|word| word.starts_with("--center="));
-    assert_eq!(
-        centers.collect::<Vec<_>>(),
-        ["--center=100,90", "--center=250,120"]
-    );
+    assert_eq!(centers.collect::<Vec<_>>(), ["--center=100,90", "--center=250,120"]);
     let zoomed = render(folder.path(), &command, "zoomed.png");
     assert_shows(&display, [320, 200], &zoomed);
     // Transitions are coloured, and nothing else.
@@ -364,9 +307,7 @@ fn overlays_count_triangles_and_show_errors() {
     let counts: Vec<_> = (0..320 * 200).map(count).collect();
     assert!(counts.iter().filter(|count| **count > 1).count() > 1000);
     assert_pixels(&display, [320, 200], |pixels| {
-        let expected = counts
-            .iter()
-            .map(|count| heat((*count as f64).log2() / 4.0));
+        let expected = counts.iter().map(|count| heat((*count as f64).log2() / 4.0));
         let pairs = pixels.iter().zip(expected);
         pairs.filter(|(shown, expected)| *shown != expected).count()
     });
@@ -382,8 +323,7 @@ fn overlays_count_triangles_and_show_errors() {
     });
     assert_pixels(&display, [320, 200], |pixels| {
         let pairs = picture.pixels().zip(brute.pixels());
-        let errors =
-            pairs.map(|(a, b)| (0..3).map(|channel| a[channel].abs_diff(b[channel])).max());
+        let errors = pairs.map(|(a, b)| (0..3).map(|channel| a[channel].abs_diff(b[channel])).max());
         let expected = errors.map(|error| heat(f64::from(error.unwrap()) / 16.0));
         let pairs = pixels.iter().zip(expected);
         pairs.filter(|(shown, expected)| *shown != expected).count()
@@ -410,14 +350,7 @@ fn slow_file(folder: &Path) -> PathBuf {
 fn loading_is_stopped_and_blocks_nothing() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let pipe = slow_file(folder.path());
-    let arguments = [
-        &asset("checker.glb"),
-        "slow.glb",
-        "--size",
-        "320x200",
-        "--samples",
-        "4",
-    ];
+    let arguments = [&asset("checker.glb"), "slow.glb", "--size", "320x200", "--samples", "4"];
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
     viewer.wait_for("at rest");
     viewer.show_picture_alone();
@@ -443,10 +376,7 @@ fn loading_is_stopped_and_blocks_nothing() {
 
 /// Closes the window in the middle of work, and expects the process to end at once. The validation layer is off,
 /// because the viewer would wait for its messages.
-fn assert_closes_at_once(
-    arguments: &[&str],
-    begin: impl FnOnce(&mut Viewer, &Path),
-) -> Vec<String> {
+fn assert_closes_at_once(arguments: &[&str], begin: impl FnOnce(&mut Viewer, &Path)) -> Vec<String> {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let variables = [("GPC_VALIDATION", Path::new(""))];
     slow_file(folder.path());
@@ -459,11 +389,7 @@ fn assert_closes_at_once(
     viewer.read_to_end();
     assert!(status.success(), "{status}: {:#?}", viewer.said);
     // On a busy machine it may take another second or two.
-    assert!(
-        took < Duration::from_secs(3),
-        "{took:?}: {:#?}",
-        viewer.said
-    );
+    assert!(took < Duration::from_secs(3), "{took:?}: {:#?}", viewer.said);
     std::mem::take(&mut viewer.said)
 }
 
@@ -509,10 +435,7 @@ fn at_twice_the_density_the_panel_is_twice_as_large_and_pixels_are_the_windows()
     display.input(&["mousemove", "420", "300", "key", "z"]);
     viewer.wait_for("at rest");
     let command = viewer.command();
-    assert!(
-        command.contains(&"--center=420,300".to_owned()),
-        "{command:?}"
-    );
+    assert!(command.contains(&"--center=420,300".to_owned()), "{command:?}");
     viewer.close();
 }
 
@@ -554,25 +477,10 @@ fn a_window_goes_to_another_monitor_and_fills_it() {
     viewer.wait_for("at rest");
     let window = "[title=\"gpc$\"]";
     for (orders, monitor, size, corner) in [
-        (
-            "move absolute position 20 30",
-            Monitor::Left,
-            [600, 400],
-            [20, 30],
-        ),
-        (
-            "move absolute position 650 10",
-            Monitor::Right,
-            [1200, 800],
-            [20, 20],
-        ),
+        ("move absolute position 20 30", Monitor::Left, [600, 400], [20, 30]),
+        ("move absolute position 650 10", Monitor::Right, [1200, 800], [20, 20]),
         ("fullscreen enable", Monitor::Right, [1280, 960], [0, 0]),
-        (
-            "fullscreen disable, move absolute position 20 30",
-            Monitor::Left,
-            [600, 400],
-            [20, 30],
-        ),
+        ("fullscreen disable, move absolute position 20 30", Monitor::Left, [600, 400], [20, 30]),
     ] {
         monitors.order(&format!("{window} {orders}"));
         let asked = format!("{}x{}", size[0], size[1]);
@@ -594,10 +502,7 @@ fn a_window_goes_to_another_monitor_and_fills_it() {
             if count == 0 {
                 break;
             }
-            assert!(
-                Instant::now() < until,
-                "{count} pixels of {asked} are others"
-            );
+            assert!(Instant::now() < until, "{count} pixels of {asked} are others");
             std::thread::sleep(Duration::from_millis(200));
         }
     }
@@ -624,18 +529,11 @@ fn closing_stops_pictures_that_are_made() {
     // Each scene takes many seconds.
     let (fence, spheres) = (asset("fence.glb"), asset("spheres.glb"));
     let size = ["--size", "640x480"];
-    let said = assert_closes_at_once(
-        &[&[fence.as_str()][..], &size].concat(),
-        |viewer, folder| {
-            viewer.repeat_until("writing ", |display| display.input(&["key", "F12"]));
-            assert!(!folder.join("fence.png").exists());
-        },
-    );
-    assert!(
-        said.iter()
-            .any(|line| line.contains("closed before fence.png was written")),
-        "{said:#?}"
-    );
+    let said = assert_closes_at_once(&[&[fence.as_str()][..], &size].concat(), |viewer, folder| {
+        viewer.repeat_until("writing ", |display| display.input(&["key", "F12"]));
+        assert!(!folder.join("fence.png").exists());
+    });
+    assert!(said.iter().any(|line| line.contains("closed before fence.png was written")), "{said:#?}");
     assert_closes_at_once(&[&[fence.as_str()][..], &size].concat(), |viewer, _| {
         for _ in 0..7 {
             viewer.key("o");
@@ -644,12 +542,9 @@ fn closing_stops_pictures_that_are_made() {
         std::thread::sleep(Duration::from_secs(3));
     });
     let shadows = ["--shadows", "exact"];
-    assert_closes_at_once(
-        &[&[spheres.as_str()][..], &size, &shadows].concat(),
-        |_, _| {
-            std::thread::sleep(Duration::from_secs(2));
-        },
-    );
+    assert_closes_at_once(&[&[spheres.as_str()][..], &size, &shadows].concat(), |_, _| {
+        std::thread::sleep(Duration::from_secs(2));
+    });
 }
 
 #[test]
@@ -732,11 +627,7 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
     viewer.wait_for("error: nothing has no scene file");
     viewer.wait_for("error: broken.glb");
     let until = Instant::now() + PATIENCE;
-    while display
-        .pixels([320, 200])
-        .iter()
-        .all(|pixel| *pixel == [0; 3])
-    {
+    while display.pixels([320, 200]).iter().all(|pixel| *pixel == [0; 3]) {
         assert!(Instant::now() < until, "the window says nothing");
         std::thread::sleep(Duration::from_millis(100));
     }
@@ -805,7 +696,8 @@ fn files_and_folders_that_are_dropped_are_opened() {
 #[test]
 fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
-    let options = "--size 320x200 --samples 16 --eye=0.5,2,6 --target=0,1,0 --fov 50 --edges 1.5,#204060 --exposure=0.5";
+    let options =
+        "--size 320x200 --samples 16 --eye=0.5,2,6 --target=0,1,0 --fov 50 --edges 1.5,#204060 --exposure=0.5";
     let scene = asset("letters.glb");
     let mut arguments = vec![scene.as_str()];
     arguments.extend(options.split(' '));
@@ -814,31 +706,19 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
     viewer.show_picture_alone();
     let command = viewer.command();
     for word in ["--target=0,1,0", "50", "--exposure=0.5"] {
-        assert!(
-            command.iter().any(|found| found == word),
-            "{word} in {command:?}"
-        );
+        assert!(command.iter().any(|found| found == word), "{word} in {command:?}");
     }
     let ordinary = ["render", &scene, "-o", "ordinary.png"].into_iter();
-    let ordinary = ordinary
-        .chain(["--background", "#2b2f36"])
-        .chain(options.split(' '));
+    let ordinary = ordinary.chain(["--background", "#2b2f36"]).chain(options.split(' '));
     let asked: Vec<_> = ordinary.map(str::to_owned).collect();
-    assert_shows(
-        &display,
-        [320, 200],
-        &render(folder.path(), &asked, "ordinary.png"),
-    );
+    assert_shows(&display, [320, 200], &render(folder.path(), &asked, "ordinary.png"));
 
     // The eye moves forward while the key is down, then looks to the side.
     viewer.key("f");
     viewer.wait_for("flying");
     let eye = |command: &[String]| {
         let word = command.iter().find_map(|word| word.strip_prefix("--eye="));
-        let numbers = word
-            .unwrap()
-            .split(',')
-            .map(|number| number.parse().unwrap());
+        let numbers = word.unwrap().split(',').map(|number| number.parse().unwrap());
         DVec3::from_slice(&numbers.collect::<Vec<f64>>())
     };
     let start = eye(&command);
@@ -853,30 +733,16 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
     let flown = viewer.command();
     let forward = (DVec3::new(0.0, 1.0, 0.0) - start).normalize();
     let moved = eye(&flown) - start;
-    assert!(
-        moved.normalize().dot(forward) > 0.999,
-        "{moved} is not {forward}"
-    );
+    assert!(moved.normalize().dot(forward) > 0.999, "{moved} is not {forward}");
     viewer.key("Escape");
 
     // A hidden window is drawn again when it becomes visible. A key that went down meanwhile was meant for another
     // window.
     let window = display.window().to_string();
     display.input(&["windowunmap", "--sync", &window, "keydown", "q"]);
-    display.input(&[
-        "windowmap",
-        "--sync",
-        &window,
-        "windowfocus",
-        "--sync",
-        &window,
-    ]);
+    display.input(&["windowmap", "--sync", &window, "windowfocus", "--sync", &window]);
     display.input(&["mousemove", "600", "400", "keyup", "q"]);
-    assert_shows(
-        &display,
-        [320, 200],
-        &render(folder.path(), &flown, "flown.png"),
-    );
+    assert_shows(&display, [320, 200], &render(folder.path(), &flown, "flown.png"));
     viewer.close();
 }
 
@@ -900,11 +766,7 @@ fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
     viewer.wait_for("at rest");
     // The view is unchanged.
     assert_eq!(viewer.command(), command);
-    assert_shows(
-        &display,
-        [320, 200],
-        &render(folder.path(), &command, "again.png"),
-    );
+    assert_shows(&display, [320, 200], &render(folder.path(), &command, "again.png"));
 
     loss.always();
     viewer.key("n");
@@ -912,10 +774,7 @@ fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
     viewer.read_to_end();
     assert_eq!(status.code(), Some(4), "{:#?}", viewer.said);
     let last = viewer.said.last().unwrap();
-    assert_eq!(
-        last,
-        "error: the device was lost; its driver may have reset it"
-    );
+    assert_eq!(last, "error: the device was lost; its driver may have reset it");
 }
 
 /// Duration of random input in seconds: `GPC_SOAK`, or a few.
@@ -987,10 +846,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % end
     }
 }

@@ -27,12 +27,7 @@ pub fn build() -> Vec<u8> {
     strip_and_columns(&mut file);
     mountains(&mut file);
     file.daylight();
-    file.perspective(
-        "horizon",
-        dvec3(0.0, 1.7, 6.0),
-        dvec3(0.0, 1.05, -6.0),
-        42.0,
-    );
+    file.perspective("horizon", dvec3(0.0, 1.7, 6.0), dvec3(0.0, 1.05, -6.0), 42.0);
     file.perspective("low", dvec3(-2.6, 0.55, 5.0), dvec3(-0.6, 0.75, -4.0), 50.0);
     file.finish("Checker floor")
 }
@@ -57,11 +52,7 @@ fn geometry_floor(file: &mut Builder, light: usize, dark: usize) {
         // This number of patches fills a picture of 16:9 at this distance.
         let columns = row * 3 / 4 + 2;
         for column in 1..=columns {
-            let corner = dvec3(
-                -STRIP - side * f64::from(column),
-                0.0,
-                8.0 - side * f64::from(row + 1),
-            );
+            let corner = dvec3(-STRIP - side * f64::from(column), 0.0, 8.0 - side * f64::from(row + 1));
             file.place(patch, Placement::at(corner));
         }
     }
@@ -83,12 +74,7 @@ fn textured_floor(file: &mut Builder) {
     let depth = f64::from(PATCH * ROWS);
     // The texture holds two tiles in each direction.
     let corner = |x: f64, z: f64| (dvec3(STRIP + x, 0.0, 8.0 - z), dvec2(x / 2.0, -z / 2.0));
-    let [a, b, c, d] = [
-        corner(0.0, 0.0),
-        corner(depth * 0.8, 0.0),
-        corner(depth * 0.8, depth),
-        corner(0.0, depth),
-    ];
+    let [a, b, c, d] = [corner(0.0, 0.0), corner(depth * 0.8, 0.0), corner(depth * 0.8, depth), corner(0.0, depth)];
     floor.textured_quad([a.0, b.0, c.0, d.0], [a.1, b.1, c.1, d.1]);
     let surface = file.surface(&floor);
     let mesh = file.mesh(&[(surface, material)]);

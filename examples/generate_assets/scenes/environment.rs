@@ -16,10 +16,7 @@ const LEVELS: u32 = 4;
 pub fn build() -> Vec<u8> {
     let mut file = Builder::default();
     let ball = file.surface(&globe(32, 18));
-    for (row, (metallic, color)) in [(1.0, [230, 226, 220]), (0.0, [190, 60, 50])]
-        .into_iter()
-        .enumerate()
-    {
+    for (row, (metallic, color)) in [(1.0, [230, 226, 220]), (0.0, [190, 60, 50])].into_iter().enumerate() {
         for index in 0..COUNT {
             let [r, g, b] = color.map(linear);
             let material = file.material(json!({ "pbrMetallicRoughness": {
@@ -84,11 +81,7 @@ fn rgbd(radiance: DVec3) -> [u8; 4] {
     let divisor = (255.0 / radiance.max_element().max(1.0)).floor().max(1.0);
     let code = |x: f64| {
         let x = (x * divisor / 255.0).clamp(0.0, 1.0);
-        let encoded = if x <= 0.003_130_8 {
-            12.92 * x
-        } else {
-            1.055 * x.powf(1.0 / 2.4) - 0.055
-        };
+        let encoded = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
         (255.0 * encoded).round() as u8
     };
     let [r, g, b] = radiance.to_array().map(code);
@@ -125,6 +118,5 @@ fn irradiance() -> Vec<[f32; 3]> {
     let sums = sums.into_iter().enumerate();
     // Three decimals are the same on all processors.
     let round = |x: f64| ((1e3 * x).round() / 1e3) as f32;
-    sums.map(|(i, sum)| (sum * scale * band(i)).to_array().map(round))
-        .collect()
+    sums.map(|(i, sum)| (sum * scale * band(i)).to_array().map(round)).collect()
 }

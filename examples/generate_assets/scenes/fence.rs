@@ -21,18 +21,8 @@ pub fn build() -> Vec<u8> {
     overhead_line(&mut file);
     cottage(&mut file);
     file.daylight();
-    file.perspective(
-        "lane",
-        dvec3(0.35, 1.55, 5.0),
-        dvec3(-0.15, 1.75, -8.0),
-        44.0,
-    );
-    file.perspective(
-        "pickets",
-        dvec3(1.2, 1.3, 3.0),
-        dvec3(-3.2, 0.8, -9.0),
-        32.0,
-    );
+    file.perspective("lane", dvec3(0.35, 1.55, 5.0), dvec3(-0.15, 1.75, -8.0), 44.0);
+    file.perspective("pickets", dvec3(1.2, 1.3, 3.0), dvec3(-3.2, 0.8, -9.0), 32.0);
     file.finish("Fences and wires")
 }
 
@@ -55,11 +45,7 @@ fn ground(file: &mut Builder) {
     let mut hills = Mesh::default();
     let mut random = Random::new(11);
     for i in -6..=6 {
-        let centre = dvec3(
-            f64::from(i) * 38.0,
-            -4.0,
-            -250.0 + random.range(-15.0, 15.0),
-        );
+        let centre = dvec3(f64::from(i) * 38.0, -4.0, -250.0 + random.range(-15.0, 15.0));
         let [width, height] = [random.range(30.0, 60.0), random.range(12.0, 26.0)];
         let peak = centre + dvec3(random.range(-8.0, 8.0), height, 0.0);
         let rim = |k: i32| {
@@ -78,13 +64,7 @@ fn picket_fence(file: &mut Builder) {
     let mut panel = Mesh::default();
     for i in 0..16 {
         let x = 0.03 + f64::from(i) * PANEL / 16.0;
-        let picket = [
-            [0.0, 0.06],
-            [0.07, 0.06],
-            [0.07, 0.95],
-            [0.035, 1.03],
-            [0.0, 0.95],
-        ];
+        let picket = [[0.0, 0.06], [0.07, 0.06], [0.07, 0.95], [0.035, 1.03], [0.0, 0.95]];
         let outline = picket.map(|[dx, y]| dvec2(x + dx, y));
         panel.prism(&outline, 0.0, 0.022);
     }
@@ -135,32 +115,15 @@ fn overhead_line(file: &mut Builder) {
     let wood = file.paint("pole", [112, 86, 66], 0.9);
     let copper = file.paint("wire", [58, 52, 50], 0.6);
     let span = 16.0;
-    let insulators = [
-        [-1.0, 5.75],
-        [-0.55, 5.75],
-        [0.55, 5.75],
-        [1.0, 5.75],
-        [-0.7, 5.05],
-        [0.7, 5.05],
-    ];
+    let insulators = [[-1.0, 5.75], [-0.55, 5.75], [0.55, 5.75], [1.0, 5.75], [-0.7, 5.05], [0.7, 5.05]];
     let pole_x = -3.4;
     let mut poles = Mesh::default();
     let mut wires = Mesh::default();
     for i in 0..9 {
         let z = -6.0 - span * f64::from(i);
-        poles.tube(
-            &[dvec3(pole_x, 0.0, z), dvec3(pole_x, 6.1, z)],
-            [0.13, 0.09],
-            10,
-        );
-        poles.cuboid(
-            dvec3(pole_x - 1.15, 5.6, z - 0.05),
-            dvec3(pole_x + 1.15, 5.7, z + 0.05),
-        );
-        poles.cuboid(
-            dvec3(pole_x - 0.85, 4.9, z - 0.05),
-            dvec3(pole_x + 0.85, 5.0, z + 0.05),
-        );
+        poles.tube(&[dvec3(pole_x, 0.0, z), dvec3(pole_x, 6.1, z)], [0.13, 0.09], 10);
+        poles.cuboid(dvec3(pole_x - 1.15, 5.6, z - 0.05), dvec3(pole_x + 1.15, 5.7, z + 0.05));
+        poles.cuboid(dvec3(pole_x - 0.85, 4.9, z - 0.05), dvec3(pole_x + 0.85, 5.0, z + 0.05));
         for (k, [x, y]) in insulators.into_iter().enumerate() {
             let start = dvec3(pole_x + x, y, z + span);
             let end = dvec3(pole_x + x, y, z);

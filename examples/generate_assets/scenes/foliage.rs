@@ -18,12 +18,7 @@ pub fn build() -> Vec<u8> {
     let bark = file.paint("bark", [122, 94, 72], 0.95);
     let mut wood = Mesh::default();
     let mut tips = Vec::new();
-    let trunk = Branch {
-        from: DVec3::ZERO,
-        along: DVec3::Y * 1.25,
-        radius: 0.17,
-        level: 0,
-    };
+    let trunk = Branch { from: DVec3::ZERO, along: DVec3::Y * 1.25, radius: 0.17, level: 0 };
     grow(&mut wood, &mut tips, &mut random, &trunk);
     place(&mut file, &wood, bark);
 
@@ -33,18 +28,9 @@ pub fn build() -> Vec<u8> {
     for &tip in &tips {
         for _ in 0..3 {
             let spread = |random: &mut Random| random.range(-0.18, 0.18);
-            let at = tip
-                + dvec3(
-                    spread(&mut random),
-                    spread(&mut random),
-                    spread(&mut random),
-                );
+            let at = tip + dvec3(spread(&mut random), spread(&mut random), spread(&mut random));
             let outward = ((at - centre).normalize() + DVec3::Y * 0.35).normalize();
-            let lean = dvec3(
-                random.range(-0.8, 0.8),
-                random.range(-0.4, 0.8),
-                random.range(-0.8, 0.8),
-            );
+            let lean = dvec3(random.range(-0.8, 0.8), random.range(-0.4, 0.8), random.range(-0.8, 0.8));
             // The back of a card is shaded as if its normal were reversed; both cameras are at +z.
             let mut facing = (outward + lean).normalize();
             facing.z = facing.z.abs();
@@ -63,12 +49,7 @@ pub fn build() -> Vec<u8> {
         let (turn_sin, turn_cos) = random.range(-0.5 * PI, 0.5 * PI).sin_cos();
         let across = dvec3(turn_cos, 0.0, turn_sin) * random.range(0.2, 0.34);
         let up = DVec3::Y * random.range(0.22, 0.46);
-        let corners = [
-            foot - across,
-            foot + across,
-            foot + across + up,
-            foot - across + up,
-        ];
+        let corners = [foot - across, foot + across, foot + across + up, foot - across + up];
         grass.card(corners, DVec3::Y);
     }
     place(&mut file, &grass, blades);
@@ -127,36 +108,23 @@ fn grow(wood: &mut Mesh, tips: &mut Vec<DVec3>, random: &mut Random, branch: &Br
     if branch.level == 5 {
         return;
     }
-    let count = if branch.level == 0 {
-        4
-    } else {
-        2 + u32::from(branch.level == 2)
-    };
+    let count = if branch.level == 0 { 4 } else { 2 + u32::from(branch.level == 2) };
     let phase = random.range(0.0, TAU);
     let across = branch.along.normalize().any_orthonormal_vector();
     let other = branch.along.normalize().cross(across);
     for i in 0..count {
         let (sin, cos) = (phase + TAU * f64::from(i) / f64::from(count)).sin_cos();
         let bend = random.range(0.5, 0.95);
-        let direction =
-            branch.along.normalize() + (across * cos + other * sin) * bend + DVec3::Y * 0.12;
+        let direction = branch.along.normalize() + (across * cos + other * sin) * bend + DVec3::Y * 0.12;
         let length = branch.along.length() * random.range(0.62, 0.8);
-        let child = Branch {
-            from: end,
-            along: direction.normalize() * length,
-            radius: thin * 0.8,
-            level: branch.level + 1,
-        };
+        let child =
+            Branch { from: end, along: direction.normalize() * length, radius: thin * 0.8, level: branch.level + 1 };
         grow(wood, tips, random, &child);
     }
 }
 
 fn wander(random: &mut Random, size: f64) -> DVec3 {
-    dvec3(
-        random.range(-size, size),
-        random.range(-size, size),
-        random.range(-size, size),
-    )
+    dvec3(random.range(-size, size), random.range(-size, size), random.range(-size, size))
 }
 
 fn card(centre: DVec3, facing: DVec3, size: f64, turn: f64) -> [DVec3; 4] {
@@ -164,12 +132,7 @@ fn card(centre: DVec3, facing: DVec3, size: f64, turn: f64) -> [DVec3; 4] {
     let u = facing.any_orthonormal_vector();
     let v = facing.cross(u);
     let [across, up] = [(u * cos + v * sin) * size, (v * cos - u * sin) * size];
-    [
-        centre - across - up,
-        centre + across - up,
-        centre + across + up,
-        centre - across + up,
-    ]
+    [centre - across - up, centre + across - up, centre + across + up, centre - across + up]
 }
 
 /// Mixes two sRGB colours.
@@ -227,11 +190,7 @@ fn grass_tuft(u: f64, v: f64) -> [u8; 4] {
         let centre = foot + (foot - 0.5) * 0.5 * t * t + 0.08 * (i * 1.7).sin() * t * t;
         let cover = coverage((u - centre).abs() - 0.02 * (1.0 - t), TEXELS);
         if cover > 0.0 {
-            color = mix(
-                [84.0, 122.0, 52.0],
-                [182.0, 202.0, 104.0],
-                t * 0.8 + 0.2 * (i * 3.1).sin(),
-            );
+            color = mix([84.0, 122.0, 52.0], [182.0, 202.0, 104.0], t * 0.8 + 0.2 * (i * 3.1).sin());
             alpha = alpha.max(cover);
         }
     }

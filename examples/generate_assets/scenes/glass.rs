@@ -6,13 +6,7 @@ use glam::{DQuat, DVec3, dvec3};
 use serde_json::json;
 use std::f64::consts::PI;
 
-const TINTS: [[u8; 3]; 5] = [
-    [232, 92, 78],
-    [246, 190, 74],
-    [74, 168, 120],
-    [58, 134, 200],
-    [148, 96, 190],
-];
+const TINTS: [[u8; 3]; 5] = [[232, 92, 78], [246, 190, 74], [74, 168, 120], [58, 134, 200], [148, 96, 190]];
 
 /// Builds the scene.
 pub fn build() -> Vec<u8> {
@@ -37,10 +31,7 @@ pub fn build() -> Vec<u8> {
         let mesh = file.mesh(&[(leaf, material)]);
         file.place(
             mesh,
-            Placement {
-                rotation: DQuat::from_rotation_y(PI * (i as f64 + 0.35) / 5.0),
-                ..Placement::at(fan)
-            },
+            Placement { rotation: DQuat::from_rotation_y(PI * (i as f64 + 0.35) / 5.0), ..Placement::at(fan) },
         );
     }
     // The row has framed panes behind one another.
@@ -61,22 +52,12 @@ pub fn build() -> Vec<u8> {
     }
     behind(&mut file);
     file.perspective("front", dvec3(0.9, 1.75, 6.6), dvec3(0.15, 1.0, 0.0), 36.0);
-    file.perspective(
-        "corner",
-        dvec3(-4.6, 2.3, 4.4),
-        dvec3(-0.4, 0.9, -0.2),
-        38.0,
-    );
+    file.perspective("corner", dvec3(-4.6, 2.3, 4.4), dvec3(-0.4, 0.9, -0.2), 38.0);
     file.finish("Glass panes")
 }
 
 fn rectangle(left: f64, right: f64, bottom: f64, top: f64) -> [DVec3; 4] {
-    [
-        dvec3(left, bottom, 0.0),
-        dvec3(right, bottom, 0.0),
-        dvec3(right, top, 0.0),
-        dvec3(left, top, 0.0),
-    ]
+    [dvec3(left, bottom, 0.0), dvec3(right, bottom, 0.0), dvec3(right, top, 0.0), dvec3(left, top, 0.0)]
 }
 
 /// Thin bars around a pane of the row, and its feet.
@@ -84,16 +65,10 @@ fn frame() -> Mesh {
     let mut mesh = Mesh::default();
     let depth = dvec3(0.0, 0.0, 0.012);
     for x in [-0.82, 0.8] {
-        mesh.cuboid(
-            dvec3(x, 0.0, 0.0) - depth,
-            dvec3(x + 0.02, 1.92, 0.0) + depth,
-        );
+        mesh.cuboid(dvec3(x, 0.0, 0.0) - depth, dvec3(x + 0.02, 1.92, 0.0) + depth);
     }
     for y in [0.08, 1.9] {
-        mesh.cuboid(
-            dvec3(-0.8, y, 0.0) - depth,
-            dvec3(0.8, y + 0.02, 0.0) + depth,
-        );
+        mesh.cuboid(dvec3(-0.8, y, 0.0) - depth, dvec3(0.8, y + 0.02, 0.0) + depth);
     }
     mesh
 }
@@ -117,13 +92,7 @@ fn behind(file: &mut Builder) {
     ] {
         let paint = file.paint("ball", color, 0.4);
         let mesh = file.mesh(&[(ball, paint)]);
-        file.place(
-            mesh,
-            Placement {
-                scale: DVec3::splat(size),
-                ..Placement::at(place)
-            },
-        );
+        file.place(mesh, Placement { scale: DVec3::splat(size), ..Placement::at(place) });
     }
     let dark = file.paint("blinds", [84, 92, 104], 0.7);
     let mut blinds = Mesh::default();

@@ -31,11 +31,7 @@ pub struct Placement {
 impl Placement {
     /// Placement at a point, without rotation or scale.
     pub fn at(translation: DVec3) -> Self {
-        Self {
-            translation,
-            rotation: DQuat::IDENTITY,
-            scale: DVec3::ONE,
-        }
+        Self { translation, rotation: DQuat::IDENTITY, scale: DVec3::ONE }
     }
 }
 
@@ -70,11 +66,7 @@ impl Builder {
     }
 
     fn floats<const N: usize>(&mut self, values: &[[f32; N]], bounds: bool) -> usize {
-        let bytes: Vec<_> = values
-            .iter()
-            .flatten()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
+        let bytes: Vec<_> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
         let view = self.view(&bytes, Some(ARRAY_BUFFER));
         let mut accessor = json!({
             "bufferView": view, "componentType": FLOAT, "count": values.len(), "type": format!("VEC{N}"),
@@ -105,10 +97,7 @@ impl Builder {
         };
         let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
         let count = indices.len();
-        self.push(
-            "accessors",
-            json!({ "bufferView": view, "componentType": kind, "count": count, "type": "SCALAR" }),
-        )
+        self.push("accessors", json!({ "bufferView": view, "componentType": kind, "count": count, "type": "SCALAR" }))
     }
 
     /// Stores the vertices and indices of a mesh.
@@ -130,8 +119,7 @@ impl Builder {
         let primitives: Vec<_> = parts
             .iter()
             .map(|(surface, material)| {
-                let mut attributes =
-                    json!({ "POSITION": surface.positions, "NORMAL": surface.normals });
+                let mut attributes = json!({ "POSITION": surface.positions, "NORMAL": surface.normals });
                 if let Some(uvs) = surface.uvs {
                     attributes["TEXCOORD_0"] = json!(uvs);
                 }
@@ -142,11 +130,7 @@ impl Builder {
     }
 
     /// A mesh of a surface with a material for each variant; the first one is also the default.
-    pub fn mesh_of_variants(
-        &mut self,
-        surface: Surface,
-        materials: &[(&'static str, usize)],
-    ) -> usize {
+    pub fn mesh_of_variants(&mut self, surface: Surface, materials: &[(&'static str, usize)]) -> usize {
         const NAME: &str = "KHR_materials_variants";
         let mesh = self.mesh(&[(surface, materials[0].1)]);
         let mut mappings = Vec::new();
@@ -157,8 +141,7 @@ impl Builder {
             let variant = self.variants.iter().position(|known| *known == name);
             mappings.push(json!({ "material": material, "variants": [variant] }));
         }
-        self.lists["meshes"][mesh]["primitives"][0]["extensions"] =
-            json!({ NAME: { "mappings": mappings } });
+        self.lists["meshes"][mesh]["primitives"][0]["extensions"] = json!({ NAME: { "mappings": mappings } });
         self.extensions.insert(NAME.to_owned());
         mesh
     }
@@ -166,8 +149,7 @@ impl Builder {
     /// Adds a material, given as its glTF object.
     pub fn material(&mut self, material: Value) -> usize {
         let extensions = material.get("extensions").and_then(Value::as_object);
-        self.extensions
-            .extend(extensions.into_iter().flat_map(Map::keys).cloned());
+        self.extensions.extend(extensions.into_iter().flat_map(Map::keys).cloned());
         self.push("materials", material)
     }
 
@@ -185,10 +167,7 @@ impl Builder {
     /// Adds an image, given as an encoded PNG.
     pub fn image(&mut self, png: &[u8]) -> usize {
         let view = self.view(png, None);
-        self.push(
-            "images",
-            json!({ "bufferView": view, "mimeType": "image/png" }),
-        )
+        self.push("images", json!({ "bufferView": view, "mimeType": "image/png" }))
     }
 
     /// Sets the environment, given as its object of `EXT_lights_image_based`.
@@ -208,19 +187,12 @@ impl Builder {
             samplers.push(json!({ "input": times, "output": output }));
         }
         self.extensions.insert("KHR_animation_pointer".to_owned());
-        self.push(
-            "animations",
-            json!({ "name": name, "channels": channels, "samplers": samplers }),
-        );
+        self.push("animations", json!({ "name": name, "channels": channels, "samplers": samplers }));
     }
 
     /// Adds an accessor with values for each of three keyframes.
     fn keyframes(&mut self, values: &[Vec<f32>; 3]) -> usize {
-        let bytes: Vec<_> = values
-            .iter()
-            .flatten()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
+        let bytes: Vec<_> = values.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
         let view = self.view(&bytes, None);
         let kind = match values[0].len() {
             1 => "SCALAR".to_owned(),
@@ -241,10 +213,8 @@ impl Builder {
     pub fn texture(&mut self, png: &[u8], repeat: bool) -> usize {
         let image = self.image(png);
         let wrap = if repeat { 10497 } else { 33071 };
-        let sampler = self.push(
-            "samplers",
-            json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap }),
-        );
+        let sampler =
+            self.push("samplers", json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap }));
         self.push("textures", json!({ "source": image, "sampler": sampler }))
     }
 
@@ -274,10 +244,13 @@ impl Builder {
 
     fn camera(&mut self, name: &str, eye: DVec3, target: DVec3, camera: Value) {
         let camera = self.push("cameras", camera);
-        self.push("nodes", json!({
-            "name": name, "camera": camera,
-            "translation": narrow(&eye.to_array()), "rotation": narrow(&look(target - eye).to_array()),
-        }));
+        self.push(
+            "nodes",
+            json!({
+                "name": name, "camera": camera,
+                "translation": narrow(&eye.to_array()), "rotation": narrow(&look(target - eye).to_array()),
+            }),
+        );
     }
 
     /// Adds a perspective camera with an infinite far plane; `fov` is its vertical field of view in degrees.
@@ -321,12 +294,7 @@ impl Builder {
 
     /// Adds late-morning light: a warm sun over the right shoulder, and cool light from the sky and the ground.
     pub fn daylight(&mut self) {
-        self.sun(
-            "sun",
-            DVec3::new(-0.55, -0.75, -0.5),
-            [1.0, 0.94, 0.84],
-            3.1,
-        );
+        self.sun("sun", DVec3::new(-0.55, -0.75, -0.5), [1.0, 0.94, 0.84], 3.1);
         self.sun("sky", DVec3::new(0.5, -0.8, 0.3), [0.72, 0.84, 1.0], 1.15);
         self.sun("bounce", DVec3::new(0.3, 0.5, -0.8), [1.0, 0.96, 0.9], 0.6);
     }
@@ -350,27 +318,14 @@ impl Builder {
             self.extensions.insert(NAME.to_owned());
         }
         document.insert("scenes".into(), json!([scene]));
-        document.insert(
-            "buffers".into(),
-            json!([{ "byteLength": self.binary.len() }]),
-        );
+        document.insert("buffers".into(), json!([{ "byteLength": self.binary.len() }]));
         if !self.lights.is_empty() {
             self.extensions.insert("KHR_lights_punctual".to_owned());
-            extensions.insert(
-                "KHR_lights_punctual".into(),
-                json!({ "lights": self.lights }),
-            );
+            extensions.insert("KHR_lights_punctual".into(), json!({ "lights": self.lights }));
         }
         if !self.variants.is_empty() {
-            let variants: Vec<_> = self
-                .variants
-                .iter()
-                .map(|name| json!({ "name": name }))
-                .collect();
-            extensions.insert(
-                "KHR_materials_variants".into(),
-                json!({ "variants": variants }),
-            );
+            let variants: Vec<_> = self.variants.iter().map(|name| json!({ "name": name })).collect();
+            extensions.insert("KHR_materials_variants".into(), json!({ "variants": variants }));
         }
         if !extensions.is_empty() {
             document.insert("extensions".into(), extensions.into());
@@ -406,11 +361,7 @@ fn narrow(values: &[f64]) -> Value {
 /// Rotation that turns a node's -z axis to `direction`, with its y axis upwards.
 fn look(direction: DVec3) -> DQuat {
     let back = -direction.normalize();
-    let helper = if back.y.abs() > 0.999 {
-        DVec3::X
-    } else {
-        DVec3::Y
-    };
+    let helper = if back.y.abs() > 0.999 { DVec3::X } else { DVec3::Y };
     let right = helper.cross(back).normalize();
     DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back))
 }
@@ -418,10 +369,6 @@ fn look(direction: DVec3) -> DQuat {
 /// Linear value of an sRGB code (IEC 61966-2-1), rounded to three digits, which is finer than a byte needs.
 pub fn linear(value: u8) -> f64 {
     let v = f64::from(value) / 255.0;
-    let linear = if v <= 0.040_45 {
-        v / 12.92
-    } else {
-        ((v + 0.055) / 1.055).powf(2.4)
-    };
+    let linear = if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     (linear * 1000.0).round() / 1000.0
 }

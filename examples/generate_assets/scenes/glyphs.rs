@@ -14,9 +14,7 @@ const DEPTH: f64 = 0.9;
 fn strokes(glyph: char) -> &'static str {
     match glyph {
         'A' => "M0,0 L2,6 L4,0 M.8,2 L3.2,2",
-        'B' => {
-            "M0,0 L0,6 L2,6 Q3.7,6 3.7,4.6 Q3.7,3.2 2,3.2 L0,3.2 M2,3.2 Q4,3.2 4,1.6 Q4,0 2,0 L0,0"
-        }
+        'B' => "M0,0 L0,6 L2,6 Q3.7,6 3.7,4.6 Q3.7,3.2 2,3.2 L0,3.2 M2,3.2 Q4,3.2 4,1.6 Q4,0 2,0 L0,0",
         'C' => "M4,4.6 Q3.6,6 2,6 Q0,6 0,3 Q0,0 2,0 Q3.6,0 4,1.4",
         'D' => "M0,0 L0,6 L1.4,6 Q4,6 4,3 Q4,0 1.4,0 L0,0",
         'E' => "M4,6 L0,6 L0,0 L4,0 M0,3.1 L3.2,3.1",
@@ -47,16 +45,12 @@ fn strokes(glyph: char) -> &'static str {
         '3' => "M.2,6 L3.8,6 L1.8,3.6 Q4,3.6 4,1.8 Q4,0 2,0 Q.4,0 .1,1.3",
         '4' => "M3,0 L3,6 L0,1.8 L4,1.8",
         '5' => "M3.7,6 L.5,6 L.3,3.3 Q1,3.8 2,3.8 Q4,3.8 4,1.9 Q4,0 2,0 Q.5,0 .1,1.2",
-        '6' => {
-            "M3.5,5.4 Q2.8,6 2.2,6 Q.2,6 .2,2.4 Q.2,0 2.1,0 Q4,0 4,1.8 Q4,3.6 2.1,3.6 Q.6,3.6 .2,2.2"
-        }
+        '6' => "M3.5,5.4 Q2.8,6 2.2,6 Q.2,6 .2,2.4 Q.2,0 2.1,0 Q4,0 4,1.8 Q4,3.6 2.1,3.6 Q.6,3.6 .2,2.2",
         '7' => "M0,6 L4,6 L1.4,0",
         '8' => {
             "M2,3.2 Q.4,3.2 .4,4.6 Q.4,6 2,6 Q3.6,6 3.6,4.6 Q3.6,3.2 2,3.2 Q0,3.2 0,1.6 Q0,0 2,0 Q4,0 4,1.6 Q4,3.2 2,3.2"
         }
-        '9' => {
-            "M.5,.6 Q1.2,0 1.8,0 Q3.8,0 3.8,3.6 Q3.8,6 1.9,6 Q0,6 0,4.2 Q0,2.4 1.9,2.4 Q3.4,2.4 3.8,3.8"
-        }
+        '9' => "M.5,.6 Q1.2,0 1.8,0 Q3.8,0 3.8,3.6 Q3.8,6 1.9,6 Q0,6 0,4.2 Q0,2.4 1.9,2.4 Q3.4,2.4 3.8,3.8",
         '.' => "M1.8,.2 L2.3,.2",
         other => panic!("the font has no {other:?}"),
     }
@@ -119,16 +113,9 @@ fn ribbon(mesh: &mut Mesh, line: &[DVec2]) {
         // The mitre of a sharp corner is limited to twice the width.
         across * (STROKE / 2.0 / across.dot(after.perp()).max(0.5))
     };
-    let edges: Vec<_> = (0..=last)
-        .map(|i| (line[i] + mitre(i), line[i] - mitre(i)))
-        .collect();
+    let edges: Vec<_> = (0..=last).map(|i| (line[i] + mitre(i), line[i] - mitre(i))).collect();
     let wall = |mesh: &mut Mesh, a: DVec2, b: DVec2| {
-        mesh.polygon(&[
-            a.extend(0.0),
-            b.extend(0.0),
-            b.extend(DEPTH),
-            a.extend(DEPTH),
-        ]);
+        mesh.polygon(&[a.extend(0.0), b.extend(0.0), b.extend(DEPTH), a.extend(DEPTH)]);
     };
     for pair in edges.windows(2) {
         let [(left, right), (next_left, next_right)] = [pair[0], pair[1]];

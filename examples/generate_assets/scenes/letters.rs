@@ -40,30 +40,15 @@ pub fn build() -> Vec<u8> {
             if glyph == ' ' {
                 continue;
             }
-            let surface = *surfaces
-                .entry(glyph)
-                .or_insert_with(|| file.surface(&glyphs::solid(glyph)));
-            let mesh = *meshes
-                .entry((glyph, material))
-                .or_insert_with(|| file.mesh(&[(surface, material)]));
+            let surface = *surfaces.entry(glyph).or_insert_with(|| file.surface(&glyphs::solid(glyph)));
+            let mesh = *meshes.entry((glyph, material)).or_insert_with(|| file.mesh(&[(surface, material)]));
             let place = dvec3(-width / 2.0 + i as f64 * ADVANCE * scale, baseline, 0.0);
-            file.place(
-                mesh,
-                Placement {
-                    scale: DVec3::splat(scale),
-                    ..Placement::at(place)
-                },
-            );
+            file.place(mesh, Placement { scale: DVec3::splat(scale), ..Placement::at(place) });
         }
         baseline -= height * 0.55 + 0.012;
     }
     file.daylight();
-    file.perspective(
-        "reader",
-        dvec3(0.62, 1.25, 2.85),
-        dvec3(0.02, 1.12, 0.0),
-        40.0,
-    );
+    file.perspective("reader", dvec3(0.62, 1.25, 2.85), dvec3(0.02, 1.12, 0.0), 40.0);
     file.orthographic("front", dvec3(0.0, 1.12, 6.0), dvec3(0.0, 1.12, 0.0), 2.0);
     file.finish("Letters")
 }
@@ -77,20 +62,13 @@ fn board(file: &mut Builder) {
     sheet.cuboid(dvec3(left, bottom, -0.04), dvec3(right, top, 0.0));
     let mut frame = Mesh::default();
     for x in [left - 0.04, right] {
-        frame.cuboid(
-            dvec3(x, bottom - 0.04, -0.06),
-            dvec3(x + 0.04, top + 0.04, 0.03),
-        );
+        frame.cuboid(dvec3(x, bottom - 0.04, -0.06), dvec3(x + 0.04, top + 0.04, 0.03));
     }
     for y in [bottom - 0.04, top] {
         frame.cuboid(dvec3(left, y, -0.06), dvec3(right, y + 0.04, 0.03));
     }
     for [foot, head] in [[-1.0, -0.25], [1.0, 0.25]] {
-        frame.tube(
-            &[dvec3(foot, -0.2, -0.1), dvec3(head, 2.4, -0.1)],
-            [0.03, 0.02],
-            8,
-        );
+        frame.tube(&[dvec3(foot, -0.2, -0.1), dvec3(head, 2.4, -0.1)], [0.03, 0.02], 8);
     }
     for (mesh, material) in [(sheet, paper), (frame, wood)] {
         let surface = file.surface(&mesh);

@@ -9,12 +9,7 @@ const COUNT: usize = 5;
 
 /// `KHR_materials_ior`: index of refraction from 1 to 3.
 pub fn ior() -> Vec<u8> {
-    row(
-        "Index of refraction",
-        [36, 60, 110],
-        0.2,
-        |share| json!({ "KHR_materials_ior": { "ior": 1.0 + 2.0 * share } }),
-    )
+    row("Index of refraction", [36, 60, 110], 0.2, |share| json!({ "KHR_materials_ior": { "ior": 1.0 + 2.0 * share } }))
 }
 
 /// `KHR_materials_specular`: from no reflection to a strong, golden one.
@@ -103,22 +98,11 @@ fn row(title: &str, color: [u8; 3], roughness: f64, extensions: impl Fn(f64) -> 
 }
 
 /// A row of metal spheres, as [`row`] makes dielectric ones.
-fn metal(
-    title: &str,
-    color: [u8; 3],
-    roughness: f64,
-    extensions: impl Fn(f64) -> Value,
-) -> Vec<u8> {
+fn metal(title: &str, color: [u8; 3], roughness: f64, extensions: impl Fn(f64) -> Value) -> Vec<u8> {
     spheres(title, color, 1.0, roughness, extensions)
 }
 
-fn spheres(
-    title: &str,
-    color: [u8; 3],
-    metallic: f64,
-    roughness: f64,
-    extensions: impl Fn(f64) -> Value,
-) -> Vec<u8> {
+fn spheres(title: &str, color: [u8; 3], metallic: f64, roughness: f64, extensions: impl Fn(f64) -> Value) -> Vec<u8> {
     let mut file = Builder::default();
     let [r, g, b] = color.map(linear);
     let ball = file.surface(&globe(32, 18));
@@ -148,12 +132,7 @@ fn floor(file: &mut Builder) {
         for stripe in (first..28).step_by(2) {
             let x = -7.0 + 0.5 * f64::from(stripe);
             let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
-            stripes.polygon(&[
-                corner(x, 2.5),
-                corner(x + 0.5, 2.5),
-                corner(x + 0.5, -4.0),
-                corner(x, -4.0),
-            ]);
+            stripes.polygon(&[corner(x, 2.5), corner(x + 0.5, 2.5), corner(x + 0.5, -4.0), corner(x, -4.0)]);
         }
         let surface = file.surface(&stripes);
         let mesh = file.mesh(&[(surface, paint)]);

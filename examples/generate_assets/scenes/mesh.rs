@@ -24,9 +24,7 @@ impl Mesh {
 
     /// Adds a flat convex polygon with counter-clockwise corners.
     pub fn polygon(&mut self, corners: &[DVec3]) {
-        let normal = (corners[1] - corners[0])
-            .cross(corners[2] - corners[0])
-            .normalize();
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
         let first = self.positions.len() as u32;
         for &corner in corners {
             self.vertex(corner, normal);
@@ -54,20 +52,9 @@ impl Mesh {
     pub fn cuboid(&mut self, low: DVec3, high: DVec3) {
         let corner = |i: usize| {
             let pick = |bit: usize, a: f64, b: f64| if i & bit == 0 { a } else { b };
-            DVec3::new(
-                pick(1, low.x, high.x),
-                pick(2, low.y, high.y),
-                pick(4, low.z, high.z),
-            )
+            DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
         };
-        let faces = [
-            [4, 5, 7, 6],
-            [1, 0, 2, 3],
-            [5, 1, 3, 7],
-            [0, 4, 6, 2],
-            [6, 7, 3, 2],
-            [0, 1, 5, 4],
-        ];
+        let faces = [[4, 5, 7, 6], [1, 0, 2, 3], [5, 1, 3, 7], [0, 4, 6, 2], [6, 7, 3, 2], [0, 1, 5, 4]];
         for face in faces {
             self.polygon(&face.map(corner));
         }
@@ -82,12 +69,7 @@ impl Mesh {
         self.polygon(&back_face);
         for (i, a) in outline.iter().enumerate() {
             let b = outline[(i + 1) % outline.len()];
-            self.polygon(&[
-                a.extend(back),
-                b.extend(back),
-                b.extend(front),
-                a.extend(front),
-            ]);
+            self.polygon(&[a.extend(back), b.extend(back), b.extend(front), a.extend(front)]);
         }
     }
 
@@ -97,11 +79,7 @@ impl Mesh {
         let last = path.len() - 1;
         for (i, &centre) in path.iter().enumerate() {
             let along = (path[(i + 1).min(last)] - path[i.saturating_sub(1)]).normalize();
-            let helper = if along.y.abs() > 0.9 {
-                DVec3::X
-            } else {
-                DVec3::Y
-            };
+            let helper = if along.y.abs() > 0.9 { DVec3::X } else { DVec3::Y };
             let across = along.cross(helper).normalize();
             let other = along.cross(across);
             let radius = radii[0] + (radii[1] - radii[0]) * i as f64 / last as f64;
@@ -115,8 +93,7 @@ impl Mesh {
             for side in 0..sides {
                 let next = (side + 1) % sides;
                 let [a, b] = [first + ring * sides + side, first + ring * sides + next];
-                self.indices
-                    .extend([a, b, b + sides, a, b + sides, a + sides]);
+                self.indices.extend([a, b, b + sides, a, b + sides, a + sides]);
             }
         }
     }
@@ -127,10 +104,7 @@ pub fn globe(meridians: u32, parallels: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for row in 0..=parallels {
         for column in 0..=meridians {
-            let uv = DVec2::new(
-                f64::from(column) / f64::from(meridians),
-                f64::from(row) / f64::from(parallels),
-            );
+            let uv = DVec2::new(f64::from(column) / f64::from(meridians), f64::from(row) / f64::from(parallels));
             let ((sin, cos), (radius, height)) = ((TAU * uv.x).sin_cos(), (PI * uv.y).sin_cos());
             let direction = DVec3::new(radius * cos, height, -radius * sin);
             mesh.vertex(direction, direction);
@@ -158,12 +132,7 @@ pub fn globe(meridians: u32, parallels: u32) -> Mesh {
 pub fn icosphere(levels: u32, radius: impl Fn(DVec3) -> f64) -> Mesh {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut points: Vec<DVec3> = Vec::new();
-    for (a, b) in [
-        (-1.0, golden),
-        (1.0, golden),
-        (-1.0, -golden),
-        (1.0, -golden),
-    ] {
+    for (a, b) in [(-1.0, golden), (1.0, golden), (-1.0, -golden), (1.0, -golden)] {
         points.push(DVec3::new(a, b, 0.0).normalize());
         points.push(DVec3::new(0.0, a, b).normalize());
         points.push(DVec3::new(b, 0.0, a).normalize());
@@ -191,10 +160,8 @@ pub fn icosphere(levels: u32, radius: impl Fn(DVec3) -> f64) -> Mesh {
         const STEP: f64 = 1e-4;
         let u = direction.any_orthonormal_vector();
         let v = direction.cross(u);
-        let slope = |d: DVec3| {
-            surface((direction + d * STEP).normalize())
-                - surface((direction - d * STEP).normalize())
-        };
+        let slope =
+            |d: DVec3| surface((direction + d * STEP).normalize()) - surface((direction - d * STEP).normalize());
         slope(u).cross(slope(v)).normalize()
     };
     Mesh {

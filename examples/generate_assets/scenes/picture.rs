@@ -13,13 +13,9 @@ pub fn paint(size: u32, paint: impl Fn(f64, f64) -> [u8; 4]) -> Vec<u8> {
         }
     }
     let mut bytes = Vec::new();
-    png::PngEncoder::new_with_quality(
-        &mut bytes,
-        png::CompressionType::Best,
-        png::FilterType::Adaptive,
-    )
-    .write_image(&pixels, size, size, ExtendedColorType::Rgba8)
-    .expect("writing to memory succeeds");
+    png::PngEncoder::new_with_quality(&mut bytes, png::CompressionType::Best, png::FilterType::Adaptive)
+        .write_image(&pixels, size, size, ExtendedColorType::Rgba8)
+        .expect("writing to memory succeeds");
     bytes
 }
 

@@ -48,46 +48,28 @@ pub fn build() -> Vec<u8> {
     file.sun("sun", dvec3(-0.4, -0.7, -0.6), [1.0, 1.0, 1.0], 3.0);
     file.perspective("front", dvec3(0.0, 2.6, 13.5), dvec3(0.0, 0.9, 0.0), 27.0);
     let light = "/extensions/KHR_lights_punctual/lights/0";
-    let there_and_back =
-        |first: &[f32], middle: &[f32]| [first, middle, first].map(<[f32]>::to_vec);
+    let there_and_back = |first: &[f32], middle: &[f32]| [first, middle, first].map(<[f32]>::to_vec);
     let base = "pbrMetallicRoughness";
     let red = [r, g, b, 1.0].map(|x| x as f32);
     let channels = [
-        (
-            format!("/materials/0/{base}/baseColorFactor"),
-            there_and_back(&red, &[0.05, 0.3, 0.6, 1.0]),
-        ),
-        (
-            format!("/materials/1/{base}/roughnessFactor"),
-            there_and_back(&[0.9], &[0.1]),
-        ),
-        (
-            "/materials/2/extensions/KHR_materials_clearcoat/clearcoatFactor".to_owned(),
-            there_and_back(&[0.0], &[1.0]),
-        ),
+        (format!("/materials/0/{base}/baseColorFactor"), there_and_back(&red, &[0.05, 0.3, 0.6, 1.0])),
+        (format!("/materials/1/{base}/roughnessFactor"), there_and_back(&[0.9], &[0.1])),
+        ("/materials/2/extensions/KHR_materials_clearcoat/clearcoatFactor".to_owned(), there_and_back(&[0.0], &[1.0])),
         (
             "/materials/3/extensions/KHR_materials_emissive_strength/emissiveStrength".to_owned(),
             there_and_back(&[0.0], &[3.0]),
         ),
         (
-            format!(
-                "/materials/4/{base}/baseColorTexture/extensions/KHR_texture_transform/rotation"
-            ),
+            format!("/materials/4/{base}/baseColorTexture/extensions/KHR_texture_transform/rotation"),
             there_and_back(&[0.0], &[1.2]),
         ),
         (
             format!("/materials/4/{base}/baseColorTexture/extensions/KHR_texture_transform/scale"),
             there_and_back(&[1.0, 1.0], &[2.0, 2.0]),
         ),
-        (
-            format!("{light}/color"),
-            there_and_back(&[1.0; 3], &[0.6, 0.8, 1.0]),
-        ),
+        (format!("{light}/color"), there_and_back(&[1.0; 3], &[0.6, 0.8, 1.0])),
         (format!("{light}/intensity"), there_and_back(&[3.0], &[1.5])),
-        (
-            "/cameras/0/perspective/yfov".to_owned(),
-            there_and_back(&[0.471_239], &[0.4]),
-        ),
+        ("/cameras/0/perspective/yfov".to_owned(), there_and_back(&[0.471_239], &[0.4])),
     ];
     file.animate("changes", &channels);
     file.finish("Animation pointers")

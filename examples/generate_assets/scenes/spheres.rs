@@ -32,15 +32,8 @@ pub fn build() -> Vec<u8> {
     });
     let plain = file.surface(&icosphere(3, |_| 1.0));
     let bumpy = file.surface(&icosphere(3, bumps));
-    let meshes: Vec<_> = materials
-        .iter()
-        .map(|&material| {
-            [
-                file.mesh(&[(plain, material)]),
-                file.mesh(&[(bumpy, material)]),
-            ]
-        })
-        .collect();
+    let meshes: Vec<_> =
+        materials.iter().map(|&material| [file.mesh(&[(plain, material)]), file.mesh(&[(bumpy, material)])]).collect();
     let mut random = Random::new(3);
     // Sunflower packing: each sphere is a golden angle further around, at a radius that keeps the density even.
     let golden_angle = TAU * (1.0 - 1.0 / ((1.0 + 5.0_f64.sqrt()) / 2.0));
@@ -49,8 +42,7 @@ pub fn build() -> Vec<u8> {
         let (sin, cos) = (index * golden_angle).sin_cos();
         let distance = 0.98 * (index + 0.4).sqrt();
         let size = random.range(0.5, 0.82);
-        let mesh =
-            meshes[(i as usize * 5 + i as usize / 8) % PALETTE.len()][usize::from(i % 3 == 1)];
+        let mesh = meshes[(i as usize * 5 + i as usize / 8) % PALETTE.len()][usize::from(i % 3 == 1)];
         file.place(
             mesh,
             Placement {
@@ -61,12 +53,7 @@ pub fn build() -> Vec<u8> {
         );
     }
     floor(&mut file);
-    file.perspective(
-        "overview",
-        dvec3(4.4, 6.2, 12.6),
-        dvec3(-0.1, 0.1, 0.5),
-        36.0,
-    );
+    file.perspective("overview", dvec3(4.4, 6.2, 12.6), dvec3(-0.1, 0.1, 0.5), 36.0);
     file.perspective("close", dvec3(1.6, 2.4, 7.4), dvec3(-0.4, 0.5, 0.0), 40.0);
     file.finish("Spheres")
 }

@@ -3,21 +3,13 @@
 /// sRGB-encoded value, 0 to 1, of linear light. Light outside of 0 to 1 is clamped.
 pub fn encode(linear: f64) -> f64 {
     let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// Linear light, 0 to 1, of an sRGB-encoded value. A value outside of 0 to 1 is clamped.
 pub fn decode(encoded: f64) -> f64 {
     let encoded = encoded.clamp(0.0, 1.0);
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Nearest 8-bit sRGB code of linear light, which is clamped to 0 to 1.

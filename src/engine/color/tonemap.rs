@@ -16,11 +16,7 @@ const DESATURATION: f64 = 0.15;
 /// negative.
 pub fn neutral(colour: [f64; 3]) -> [f64; 3] {
     let darkest = colour.into_iter().fold(f64::INFINITY, f64::min);
-    let offset = if darkest < 2.0 * REFLECTION {
-        darkest - darkest * darkest / (4.0 * REFLECTION)
-    } else {
-        REFLECTION
-    };
+    let offset = if darkest < 2.0 * REFLECTION { darkest - darkest * darkest / (4.0 * REFLECTION) } else { REFLECTION };
     let colour = colour.map(|channel| channel - offset);
     let peak = colour.into_iter().fold(0.0, f64::max);
     if peak < START {

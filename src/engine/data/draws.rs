@@ -33,19 +33,12 @@ impl Draws {
         let capacity = u64::from(capacity);
         Ok(Self {
             table: storage("draws", capacity * size_of::<HostDraw>() as u64)?,
-            matrices: has_matrices
-                .then(|| storage("matrices of draws", capacity * 64))
-                .transpose()?,
+            matrices: has_matrices.then(|| storage("matrices of draws", capacity * 64)).transpose()?,
         })
     }
 
     /// Records the upload of draws, which must not exceed the capacity.
-    pub fn record_upload(
-        &self,
-        recorder: &Recorder<'_>,
-        draws: &[HostDraw],
-        matrices: &[[[f32; 4]; 4]],
-    ) {
+    pub fn record_upload(&self, recorder: &Recorder<'_>, draws: &[HostDraw], matrices: &[[[f32; 4]; 4]]) {
         recorder.update(&self.table, 0, bytemuck::cast_slice(draws));
         if let Some(buffer) = &self.matrices {
             recorder.update(buffer, 0, bytemuck::cast_slice(matrices));

@@ -21,10 +21,7 @@ impl HostImage {
     /// If the driver refuses the sets.
     pub fn new(layout: &FrameLayout, encoded: bool) -> Result<Self, VulkanError> {
         let shaders = [spirv::Take::INTERFACE, spirv::Resolve::INTERFACE];
-        Ok(Self {
-            sets: Arc::new(layout.own_sets(&shaders, 1)?.remove(0)),
-            encoded,
-        })
+        Ok(Self { sets: Arc::new(layout.own_sets(&shaders, 1)?.remove(0)), encoded })
     }
 
     /// Sets the image that the descriptor sets show. The image must have the layout `SHADER_READ_ONLY_OPTIMAL` when
@@ -34,10 +31,7 @@ impl HostImage {
     /// No commands that use the sets are pending, and the view outlives the commands that are recorded from now on.
     pub unsafe fn show(&self, view: vk::ImageView) {
         // SAFETY: guaranteed by the caller; the binding is that of an image.
-        unsafe {
-            self.sets
-                .write_images(take_set::HOST_IMAGE, &[read_image(view)])
-        };
+        unsafe { self.sets.write_images(take_set::HOST_IMAGE, &[read_image(view)]) };
     }
 
     /// Whether the image holds sRGB codes as plain numbers.

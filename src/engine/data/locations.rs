@@ -69,8 +69,7 @@ impl LocationSizes {
     /// Number of bytes of the buffers that locations need in addition to those of pixels, over `tiles` tiles.
     #[must_use]
     pub fn bytes(&self, tiles: u64) -> u64 {
-        let [locations, cells, places, groups] =
-            [self.locations, self.cells, self.places, self.groups].map(u64::from);
+        let [locations, cells, places, groups] = [self.locations, self.cells, self.places, self.groups].map(u64::from);
         let listed = if self.lent { 0 } else { locations };
         32 * (listed + cells) + 4 * places + 16 * groups + (16 + 4 * LocationBuffers::LOAD) * tiles
     }
@@ -111,11 +110,7 @@ impl CellSizes {
             Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(members),
             Cells::Superpixels | Cells::Pixels => 1,
         };
-        Self {
-            in_cell,
-            in_group: members,
-            samples,
-        }
+        Self { in_cell, in_group: members, samples }
     }
 
     /// Largest number of cells that `locations` locations make in a region of `tiles` tiles.
@@ -149,11 +144,7 @@ impl LocationBuffers {
     /// Number of words of a tile in `loads`: see `shaders/include/tile_locations.glsl`.
     const LOAD: u64 = LOAD_WORDS as u64;
 
-    pub(crate) fn new(
-        memory: &Memory,
-        sizes: &LocationSizes,
-        tiles: u64,
-    ) -> Result<Self, VulkanError> {
+    pub(crate) fn new(memory: &Memory, sizes: &LocationSizes, tiles: u64) -> Result<Self, VulkanError> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let texels = |name, count: u32, format, place| {
             let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | storage;
@@ -169,12 +160,7 @@ impl LocationBuffers {
         };
         Ok(Self {
             locations: (!sizes.lent).then(listed).transpose()?,
-            order: texels(
-                "order of locations",
-                sizes.places,
-                vk::Format::R32_UINT,
-                MemoryUse::Device,
-            )?,
+            order: texels("order of locations", sizes.places, vk::Format::R32_UINT, MemoryUse::Device)?,
             cells: vectors("cells of locations", 2 * sizes.cells)?,
             groups: vectors("groups of cells", sizes.groups)?,
             tile_loads: words("cells and samples of tiles", 4 * tiles)?,
@@ -206,14 +192,7 @@ impl Resources {
 
     /// Buffers that `distribute` reads and writes.
     pub(crate) fn location_buffers(&self, locations: Texels) -> [BoundDescriptor; 10] {
-        let LocationBuffers {
-            order,
-            cells,
-            groups,
-            tile_loads,
-            loads,
-            ..
-        } = &self.locations;
+        let LocationBuffers { order, cells, groups, tile_loads, loads, .. } = &self.locations;
         [
             (distribute_set::LOADS, loads.into()),
             // The buffer is free, because nothing has been shaded yet.
@@ -230,10 +209,8 @@ impl Resources {
     }
 }
 
-const UNMAPPED: VulkanError = VulkanError::Call {
-    call: "mapping locations",
-    result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-};
+const UNMAPPED: VulkanError =
+    VulkanError::Call { call: "mapping locations", result: vk::Result::ERROR_MEMORY_MAP_FAILED };
 
 fn mapped(buffer: &mut Buffer, bytes: usize) -> Result<&mut [u8], VulkanError> {
     buffer.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)

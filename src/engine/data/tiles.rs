@@ -20,8 +20,5 @@ pub const fn tile_count(size: [u32; 2]) -> u64 {
 /// Index of the tile of pixel (`x`, `y`) in an image of `width` pixels, and the pixel's bit in the tile's mask.
 pub const fn mask_bit([x, y]: [u32; 2], width: u32) -> (usize, u32) {
     let [columns, _] = tiles([width, 0]);
-    (
-        (y / HEIGHT * columns + x / WIDTH) as usize,
-        1 << (y % HEIGHT * WIDTH + x % WIDTH),
-    )
+    ((y / HEIGHT * columns + x / WIDTH) as usize, 1 << (y % HEIGHT * WIDTH + x % WIDTH))
 }

@@ -12,17 +12,8 @@ pub(crate) struct Upload {
 }
 
 impl Upload {
-    pub(crate) fn new(
-        memory: &Memory,
-        name: &str,
-        to: &Buffer,
-        bytes: &[u8],
-    ) -> Result<Self, VulkanError> {
-        Ok(Self {
-            from: memory.upload(name, bytes)?,
-            to: to.raw,
-            size: bytes.len() as u64,
-        })
+    pub(crate) fn new(memory: &Memory, name: &str, to: &Buffer, bytes: &[u8]) -> Result<Self, VulkanError> {
+        Ok(Self { from: memory.upload(name, bytes)?, to: to.raw, size: bytes.len() as u64 })
     }
 
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
@@ -40,10 +31,7 @@ pub(crate) struct Uploader<'a> {
 
 impl<'a> Uploader<'a> {
     pub(crate) fn new(memory: &'a Memory) -> Self {
-        Self {
-            memory,
-            uploads: Vec::new(),
-        }
+        Self { memory, uploads: Vec::new() }
     }
 
     fn fill(&mut self, name: &str, buffer: &mut Buffer, bytes: &[u8]) -> Result<(), VulkanError> {
@@ -67,9 +55,7 @@ impl<'a> Uploader<'a> {
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST
             | vk::BufferUsageFlags::TRANSFER_SRC;
-        let mut view =
-            self.memory
-                .texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
+        let mut view = self.memory.texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
         self.fill(name, &mut view.buffer, bytemuck::cast_slice(data))?;
         Ok(view)
     }
@@ -80,9 +66,7 @@ impl<'a> Uploader<'a> {
             | vk::BufferUsageFlags::TRANSFER_DST
             | vk::BufferUsageFlags::TRANSFER_SRC;
         let size = bytes.len() as u64;
-        let mut buffer = self
-            .memory
-            .storage_buffer(name, size, usage, MemoryUse::Device)?;
+        let mut buffer = self.memory.storage_buffer(name, size, usage, MemoryUse::Device)?;
         self.fill(name, &mut buffer, bytes)?;
         Ok(buffer)
     }

@@ -45,23 +45,14 @@ impl Resources {
             (gpc_visibility_set::GPC_FRAME, uniform.into()),
             (gpc_visibility_set::GPC_KEYS, (&self.bins).into()),
             (gpc_visibility_set::GPC_ORDER, (&self.shade_order).into()),
-            (
-                gpc_visibility_set::GPC_RECORDS,
-                (&self.records.buffer).into(),
-            ),
+            (gpc_visibility_set::GPC_RECORDS, (&self.records.buffer).into()),
             (gpc_visibility_set::GPC_TRIANGLES, geometry.triangles.into()),
             (gpc_visibility_set::GPC_POSITIONS, geometry.positions.into()),
             (gpc_visibility_set::GPC_SHADED, (&self.shaded.buffer).into()),
-            (
-                gpc_visibility_set::GPC_DRAWS,
-                (&geometry.draws.table).into(),
-            ),
+            (gpc_visibility_set::GPC_DRAWS, (&geometry.draws.table).into()),
             (gpc_visibility_set::GPC_DRAW_OF, draw_of),
             // Without a list, shaders don't read this binding.
-            (
-                gpc_visibility_set::GPC_LOCATIONS,
-                geometry.locations.map_or(draw_of, Descriptor::from),
-            ),
+            (gpc_visibility_set::GPC_LOCATIONS, geometry.locations.map_or(draw_of, Descriptor::from)),
         ];
         // SAFETY: the set is new; the caller guarantees the host's buffers, and the others live as long as the frame.
         unsafe { own.write(&buffers) };

@@ -115,8 +115,7 @@ impl Adoption {
         if placed.triangles == 0 {
             return;
         }
-        self.draws
-            .record_upload(recorder, &placed.draws, &placed.matrices);
+        self.draws.record_upload(recorder, &placed.draws, &placed.matrices);
         self.record_vertices(recorder, placed);
         let limits = self.shared.gpu.limits();
         for run in &placed.runs {
@@ -161,9 +160,7 @@ impl Adoption {
         if let Some(transform) = &self.transform {
             for &(mesh, positions) in &parts {
                 let lent = &self.geometry.meshes[mesh];
-                let before = lent
-                    .lent_positions(self.geometry.position_space, limits)
-                    .before;
+                let before = lent.lent_positions(self.geometry.position_space, limits).before;
                 if let Some(set) = &self.sets[mesh].transform {
                     let counts = counts(positions, before, lent.position_stride);
                     recorder.show(set);

@@ -23,27 +23,16 @@ impl LentBytes {
 
     fn aligned(buffer: vk::Buffer, offset: u64, bytes: u64, alignment: u64) -> Self {
         let before = offset % alignment;
-        Self {
-            buffer,
-            offset: offset - before,
-            before: before as u32,
-            bytes: before + bytes,
-        }
+        Self { buffer, offset: offset - before, before: before as u32, bytes: before + bytes }
     }
 
     /// The same range, extended to whole words of 4 bytes.
     pub fn in_words(self) -> Self {
-        Self {
-            bytes: self.bytes.next_multiple_of(4),
-            ..self
-        }
+        Self { bytes: self.bytes.next_multiple_of(4), ..self }
     }
 
     pub fn info(&self) -> vk::DescriptorBufferInfo {
-        vk::DescriptorBufferInfo::default()
-            .buffer(self.buffer)
-            .offset(self.offset)
-            .range(self.bytes)
+        vk::DescriptorBufferInfo::default().buffer(self.buffer).offset(self.offset).range(self.bytes)
     }
 }
 
@@ -66,11 +55,7 @@ pub(super) fn check_layout(
         return Err(HostError::Stride { what, found, least });
     }
     if offset % alignment != 0 {
-        return Err(HostError::Alignment {
-            what: offset_name,
-            offset,
-            alignment,
-        });
+        return Err(HostError::Alignment { what: offset_name, offset, alignment });
     }
     VulkanError::check_limit(buffer_name, lent.bytes, "bytes", limits.max_storage_bytes)?;
     Ok(())

@@ -4,15 +4,12 @@ use super::HostError;
 use super::content::HostContent;
 use super::geometry::Geometry;
 use crate::engine::data::alpha_flags::{
-    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
-    TEXTURED, beyond,
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT, TEXTURED, beyond,
 };
 use crate::engine::passes::alpha_map::{self, AlphaLevel};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv;
-use crate::vulkan::{
-    DescriptorSets, Memory, MemoryUse, Recorder, Specialized, TexelBuffer, VulkanError,
-};
+use crate::vulkan::{DescriptorSets, Memory, MemoryUse, Recorder, Specialized, TexelBuffer, VulkanError};
 use ash::vk;
 
 /// Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
@@ -74,17 +71,10 @@ impl AlphaMap {
         for (name, filter) in [
             ("mag_filter", self.mag_filter),
             ("min_filter", self.min_filter),
-            (
-                "mipmap_mode",
-                vk::Filter::from_raw(self.mipmap_mode.as_raw()),
-            ),
+            ("mipmap_mode", vk::Filter::from_raw(self.mipmap_mode.as_raw())),
         ] {
             if !matches!(filter, vk::Filter::LINEAR | vk::Filter::NEAREST) {
-                return Err(HostError::Filter {
-                    map,
-                    name,
-                    found: filter.as_raw(),
-                });
+                return Err(HostError::Filter { map, name, found: filter.as_raw() });
             }
         }
         if !self.cutoff.is_finite() {
@@ -101,10 +91,7 @@ impl AlphaMap {
         let optional = [
             (NEAREST_MAG, self.mag_filter == vk::Filter::NEAREST),
             (NEAREST_MIN, self.min_filter == vk::Filter::NEAREST),
-            (
-                NEAREST_MIP,
-                self.mipmap_mode == vk::SamplerMipmapMode::NEAREST,
-            ),
+            (NEAREST_MIP, self.mipmap_mode == vk::SamplerMipmapMode::NEAREST),
             (NO_MIP, self.levels == 1),
         ];
         let set = optional.into_iter().filter(|(_, set)| *set);
@@ -158,10 +145,7 @@ struct Places {
 
 impl Places {
     fn new(maps: &[AlphaMap]) -> Self {
-        let mut places = Self {
-            words: maps.iter().map(|map| u64::from(map.levels)).sum(),
-            ..Self::default()
-        };
+        let mut places = Self { words: maps.iter().map(|map| u64::from(map.levels)).sum(), ..Self::default() };
         for map in maps {
             let table = places.tables.len() as u32;
             places.rows.extend(map.row(table));
@@ -194,19 +178,13 @@ impl Alpha {
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
             | vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST;
-        let texels = |name, elements, format| {
-            memory.texel_buffer(name, elements, format, usage, MemoryUse::Device)
-        };
+        let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
         let limit = memory.gpu().limits().max_storage_bytes;
         VulkanError::check_limit("alpha maps", 4 * places.words, "bytes", limit)?;
         let positions = u64::from(geometry.position_capacity());
         Ok(Self {
             atlas: texels("alpha maps", places.words, vk::Format::R32_UINT)?,
-            rows: texels(
-                "rows of alpha maps",
-                places.rows.len() as u64,
-                vk::Format::R32G32B32A32_UINT,
-            )?,
+            rows: texels("rows of alpha maps", places.rows.len() as u64, vk::Format::R32G32B32A32_UINT)?,
             coordinates: texels("texture coordinates", positions, vk::Format::R32G32_SFLOAT)?,
             places,
         })
@@ -222,11 +200,7 @@ pub(super) struct AlphaReading {
 impl AlphaReading {
     /// # Safety
     /// The views of the alpha maps outlive the returned value.
-    pub unsafe fn new(
-        layout: &FrameLayout,
-        geometry: &Geometry,
-        content: &HostContent,
-    ) -> Result<Self, VulkanError> {
+    pub unsafe fn new(layout: &FrameLayout, geometry: &Geometry, content: &HostContent) -> Result<Self, VulkanError> {
         let set = |alpha: &Alpha, map: &AlphaMap| {
             // SAFETY: passed on to the caller.
             unsafe { alpha_map::set(layout, map.view, &alpha.atlas.buffer) }
@@ -234,11 +208,7 @@ impl AlphaReading {
         let sets = |alpha| geometry.alpha_maps.iter().map(move |map| set(alpha, map));
         Ok(Self {
             kernel: alpha_map::kernel(layout)?,
-            sets: content
-                .alpha()
-                .into_iter()
-                .flat_map(sets)
-                .collect::<Result<_, _>>()?,
+            sets: content.alpha().into_iter().flat_map(sets).collect::<Result<_, _>>()?,
         })
     }
 
@@ -276,10 +246,7 @@ mod tests {
             mag_filter: vk::Filter::LINEAR,
             min_filter: vk::Filter::LINEAR,
             mipmap_mode: vk::SamplerMipmapMode::LINEAR,
-            address: [
-                vk::SamplerAddressMode::REPEAT,
-                vk::SamplerAddressMode::CLAMP_TO_EDGE,
-            ],
+            address: [vk::SamplerAddressMode::REPEAT, vk::SamplerAddressMode::CLAMP_TO_EDGE],
             cutoff: 0.5,
         }
     }
@@ -301,31 +268,13 @@ mod tests {
     fn maps_that_can_not_be_read_are_named() {
         let refused = |map: AlphaMap| map.check(3).unwrap_err().to_string();
         assert!(map([4, 4], 3).check(0).is_ok());
-        assert_eq!(
-            refused(map([0, 4], 1)),
-            "the width of an alpha map is 0; it can be 1 to 65535"
-        );
-        assert_eq!(
-            refused(map([4, 4], 4)),
-            "levels of an alpha map is 4; it can be 1 to 3"
-        );
-        let border = AlphaMap {
-            address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2],
-            ..map([4, 4], 1)
-        };
+        assert_eq!(refused(map([0, 4], 1)), "the width of an alpha map is 0; it can be 1 to 65535");
+        assert_eq!(refused(map([4, 4], 4)), "levels of an alpha map is 4; it can be 1 to 3");
+        let border = AlphaMap { address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2], ..map([4, 4], 1) };
         assert!(refused(border).starts_with("alpha map 3 has the address mode CLAMP_TO_BORDER"));
-        let cubic = AlphaMap {
-            min_filter: vk::Filter::CUBIC_EXT,
-            ..map([4, 4], 1)
-        };
-        assert_eq!(
-            refused(cubic),
-            "alpha map 3 has the min_filter 1000015000; it can be NEAREST (0) or LINEAR (1)"
-        );
-        let broken = AlphaMap {
-            cutoff: f32::NAN,
-            ..map([4, 4], 1)
-        };
+        let cubic = AlphaMap { min_filter: vk::Filter::CUBIC_EXT, ..map([4, 4], 1) };
+        assert_eq!(refused(cubic), "alpha map 3 has the min_filter 1000015000; it can be NEAREST (0) or LINEAR (1)");
+        let broken = AlphaMap { cutoff: f32::NAN, ..map([4, 4], 1) };
         assert_eq!(refused(broken), "the cutoff of alpha map 3 is not finite");
     }
 }

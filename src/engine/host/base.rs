@@ -42,15 +42,11 @@ impl Base {
         let raster = |filters| Raster::new(layout, single, content, filters);
         let colors = match image {
             Some(image) => Colors::Drawn(take::pass(layout, image, output)?),
-            None => Colors::Shaded {
-                centres: Centres::new(layout, output)?,
-                sort: sort::pass(layout, content, false)?,
-            },
+            None => {
+                Colors::Shaded { centres: Centres::new(layout, output)?, sort: sort::pass(layout, content, false)? }
+            }
         };
-        Ok(Self {
-            raster: filters.map(raster).transpose()?,
-            colors,
-        })
+        Ok(Self { raster: filters.map(raster).transpose()?, colors })
     }
 
     /// Records the passes for `placed`, whose uniform block the descriptor set shows. IDs and depth go to `targets` unless the host
@@ -85,10 +81,7 @@ impl Base {
 
 /// Runs of the draws that are not blended. Neighbouring draws with the same culling and alpha test become one run.
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
-    let push = RasterPush {
-        matrix: *transform,
-        instance: [0, placed.triangles, 0, 0],
-    };
+    let push = RasterPush { matrix: *transform, instance: [0, placed.triangles, 0, 0] };
     let mut runs: Vec<RasterRun> = Vec::new();
     let solid = |draw: &HostDraw| draw.first_triangle < placed.solid;
     for (draw, triangle_count) in placed.counted().filter(|(draw, _)| solid(draw)) {

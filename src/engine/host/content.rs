@@ -4,19 +4,14 @@ use super::Geometry;
 use super::alpha::Alpha;
 use crate::engine::data::Content;
 use crate::engine::spirv::frame_set;
-use crate::vulkan::{
-    BoundDescriptor, Buffer, Gpu, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError,
-};
+use crate::vulkan::{BoundDescriptor, Buffer, Gpu, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Positions in clip space.
 enum Positions {
     /// Positions in the host's buffer, read in place.
-    Lent {
-        texels: TexelView,
-        info: vk::DescriptorBufferInfo,
-    },
+    Lent { texels: TexelView, info: vk::DescriptorBufferInfo },
     /// Positions that `transform` writes.
     Made(TexelBuffer),
 }
@@ -38,18 +33,11 @@ pub(super) struct HostContent {
 impl HostContent {
     /// # Safety
     /// The host's buffer of positions is as [`Geometry`] says, and outlives the returned value.
-    pub unsafe fn new(
-        gpu: &Arc<Gpu>,
-        memory: &Memory,
-        geometry: &Geometry,
-    ) -> Result<Self, VulkanError> {
+    pub unsafe fn new(gpu: &Arc<Gpu>, memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let usage =
-            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
-        let texels = |name, elements, format| {
-            memory.texel_buffer(name, elements, format, usage, MemoryUse::Device)
-        };
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
+        let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
         let triangles = u64::from(geometry.triangle_capacity);
         let limits = gpu.limits();
         let read_in_place = geometry.meshes.first();
@@ -68,16 +56,9 @@ impl HostContent {
         };
         Ok(Self {
             triangles: texels("triangles", triangles, uint4)?,
-            draw_of: memory.storage_buffer(
-                "draws of triangles",
-                4 * triangles,
-                usage,
-                MemoryUse::Device,
-            )?,
+            draw_of: memory.storage_buffer("draws of triangles", 4 * triangles, usage, MemoryUse::Device)?,
             positions,
-            alpha: (!geometry.alpha_maps.is_empty())
-                .then(|| Alpha::new(memory, geometry))
-                .transpose()?,
+            alpha: (!geometry.alpha_maps.is_empty()).then(|| Alpha::new(memory, geometry)).transpose()?,
             unread_floats: texels("unread vectors", 1, float4)?,
             unread_words: texels("unread words", 1, uint4)?,
             triangle_capacity: geometry.triangle_capacity,
@@ -104,9 +85,9 @@ impl HostContent {
     pub fn positions_info(&self) -> vk::DescriptorBufferInfo {
         match &self.positions {
             Positions::Lent { info, .. } => *info,
-            Positions::Made(made) => vk::DescriptorBufferInfo::default()
-                .buffer(made.buffer.handle())
-                .range(vk::WHOLE_SIZE),
+            Positions::Made(made) => {
+                vk::DescriptorBufferInfo::default().buffer(made.buffer.handle()).range(vk::WHOLE_SIZE)
+            }
         }
     }
 
@@ -133,14 +114,8 @@ impl HostContent {
             (frame_set::NORMALS, floats),
             (frame_set::UVS, coordinates),
             (frame_set::COLORS, coordinates),
-            (
-                frame_set::MATERIALS,
-                alpha.map_or(words, |alpha| alpha.rows.texels()),
-            ),
-            (
-                frame_set::ALPHA_ATLAS,
-                alpha.map_or(words, |alpha| alpha.atlas.texels()),
-            ),
+            (frame_set::MATERIALS, alpha.map_or(words, |alpha| alpha.rows.texels())),
+            (frame_set::ALPHA_ATLAS, alpha.map_or(words, |alpha| alpha.atlas.texels())),
             (frame_set::INSTANCE_OF, words),
             (frame_set::INSTANCES, words),
         ]

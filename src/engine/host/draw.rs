@@ -53,9 +53,7 @@ impl Default for Draw {
             topology: Topology::List,
             vertex_offset: 0,
             vertex_count: 0,
-            to_clip: std::array::from_fn(|column| {
-                std::array::from_fn(|row| if row == column { 1.0 } else { 0.0 })
-            }),
+            to_clip: std::array::from_fn(|column| std::array::from_fn(|row| if row == column { 1.0 } else { 0.0 })),
             alpha_map: None,
             key: 0,
             material: 0,
@@ -102,30 +100,19 @@ impl PlacedDraws {
     /// # Errors
     /// If a draw is invalid, or the draws exceed a capacity; the error names the first such draw.
     pub fn new(geometry: &Geometry, draws: &[Draw]) -> Result<Self, HostError> {
-        let capacity = |what, found, capacity| HostError::Capacity {
-            what,
-            found,
-            capacity,
-        };
+        let capacity = |what, found, capacity| HostError::Capacity { what, found, capacity };
         if draws.len() > geometry.draw_capacity as usize {
             let found = draws.len() as u64;
             return Err(capacity("draws", found, geometry.draw_capacity));
         }
         let in_clip = geometry.position_space == PositionSpace::Clip;
-        let mut placed = Self {
-            draws: Vec::with_capacity(draws.len()),
-            ..Self::default()
-        };
+        let mut placed = Self { draws: Vec::with_capacity(draws.len()), ..Self::default() };
         // First positions of the meshes, if positions are in clip space.
         let firsts: Vec<u32> = geometry.first_positions().collect();
         let mut made = 0;
         for (number, draw) in draws.iter().enumerate() {
             let mesh = draw.check(geometry, number)?;
-            let vertices = if in_clip || draw.triangle_count == 0 {
-                0
-            } else {
-                draw.vertex_count
-            };
+            let vertices = if in_clip || draw.triangle_count == 0 { 0 } else { draw.vertex_count };
             let triangles = u64::from(placed.triangles) + u64::from(draw.triangle_count);
             let positions = u64::from(made) + u64::from(vertices);
             if triangles > u64::from(geometry.triangle_capacity) {
@@ -218,30 +205,15 @@ impl Draw {
     fn check<'a>(&self, geometry: &'a Geometry, draw: usize) -> Result<&'a Mesh, HostError> {
         let meshes = geometry.meshes.len();
         let found = geometry.meshes.get(self.mesh as usize);
-        let mesh = found.ok_or(HostError::NoMesh {
-            draw,
-            mesh: self.mesh,
-            meshes,
-        })?;
+        let mesh = found.ok_or(HostError::NoMesh { draw, mesh: self.mesh, meshes })?;
         let end = u64::from(self.first_index) + self.topology.corners(self.triangle_count);
         if let Some(indices) = mesh.indices.filter(|lent| end > u64::from(lent.capacity)) {
-            return Err(HostError::Indices {
-                draw,
-                end,
-                indices: indices.capacity,
-            });
+            return Err(HostError::Indices { draw, end, indices: indices.capacity });
         }
         if self.key >= geometry.keys {
-            return Err(HostError::Key {
-                draw,
-                key: self.key,
-                keys: geometry.keys,
-            });
+            return Err(HostError::Key { draw, key: self.key, keys: geometry.keys });
         }
-        if !matches!(
-            self.front_face,
-            vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE
-        ) {
+        if !matches!(self.front_face, vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE) {
             let found = self.front_face;
             return Err(HostError::FrontFace { draw, found });
         }
@@ -287,12 +259,7 @@ impl Draw {
         let end = first + i64::from(self.vertex_count);
         let exist = first >= 0 && end <= i64::from(mesh.vertex_capacity);
         if !exist || self.vertex_count == 0 {
-            return Err(HostError::Vertices {
-                draw,
-                first,
-                end,
-                vertices: mesh.vertex_capacity,
-            });
+            return Err(HostError::Vertices { draw, first, end, vertices: mesh.vertex_capacity });
         }
         if !self.to_clip.as_flattened().iter().all(|n| n.is_finite()) {
             return Err(HostError::Matrix { draw });
@@ -348,27 +315,15 @@ mod tests {
     }
 
     fn in_object_space() -> Geometry {
-        Geometry {
-            position_space: PositionSpace::Object { capacity: 40 },
-            ..geometry()
-        }
+        Geometry { position_space: PositionSpace::Object { capacity: 40 }, ..geometry() }
     }
 
     fn draw(first_index: u32, triangle_count: u32, key: u32) -> Draw {
-        Draw {
-            first_index,
-            triangle_count,
-            key,
-            ..Draw::default()
-        }
+        Draw { first_index, triangle_count, key, ..Draw::default() }
     }
 
     fn with_vertices(vertex_offset: i32, vertex_count: u32) -> Draw {
-        Draw {
-            vertex_offset,
-            vertex_count,
-            ..draw(0, 1, 0)
-        }
+        Draw { vertex_offset, vertex_count, ..draw(0, 1, 0) }
     }
 
     #[test]
@@ -376,11 +331,7 @@ mod tests {
         let draws = [draw(30, 4, 1), draw(0, 0, 0), draw(0, 7, 0)];
         let placed = PlacedDraws::new(&geometry(), &draws).unwrap();
         assert_eq!(placed.triangles, 11);
-        let firsts: Vec<_> = placed
-            .draws
-            .iter()
-            .map(|d| (d.first_triangle, d.first_index))
-            .collect();
+        let firsts: Vec<_> = placed.draws.iter().map(|d| (d.first_triangle, d.first_index)).collect();
         assert_eq!(firsts, [(0, 30), (4, 0), (4, 0)]);
         assert_eq!(placed.draws[0].word, 1 << 16);
         let counts: Vec<_> = placed.counted().map(|(_, triangles)| triangles).collect();
@@ -390,13 +341,7 @@ mod tests {
 
     #[test]
     fn flags_and_numbers_have_bits_of_their_own() {
-        let all = Draw {
-            material: u16::MAX,
-            double_sided: true,
-            detailed: true,
-            vertex_offset: -1,
-            ..draw(0, 1, 1)
-        };
+        let all = Draw { material: u16::MAX, double_sided: true, detailed: true, vertex_offset: -1, ..draw(0, 1, 1) };
         let placed = PlacedDraws::new(&geometry(), &[all]).unwrap();
         assert_eq!(placed.draws[0].word, 0xffff | 1 << 16 | 1 << 30 | 1 << 31);
         assert_eq!(placed.draws[0].vertex_offset, u32::MAX);
@@ -404,16 +349,8 @@ mod tests {
 
     #[test]
     fn draws_in_object_space_have_positions_of_their_own() {
-        let draws = [
-            with_vertices(60, 20),
-            draw(0, 0, 0),
-            with_vertices(3, 5),
-            with_vertices(60, 15),
-        ];
-        let geometry = Geometry {
-            draw_capacity: 4,
-            ..in_object_space()
-        };
+        let draws = [with_vertices(60, 20), draw(0, 0, 0), with_vertices(3, 5), with_vertices(60, 15)];
+        let geometry = Geometry { draw_capacity: 4, ..in_object_space() };
         let placed = PlacedDraws::new(&geometry, &draws).unwrap();
         let run = DrawRun {
             mesh: 0,
@@ -441,26 +378,11 @@ mod tests {
             let placed = PlacedDraws::new(&geometry(), draws);
             placed.err().unwrap().to_string()
         };
-        assert_eq!(
-            refused(&[draw(0, 1, 0), draw(30, 11, 0)]),
-            "draw 1 reads indices up to 63, and there are 60"
-        );
-        assert_eq!(
-            refused(&[draw(u32::MAX, 1, 0)]),
-            "draw 0 reads indices up to 4294967298, and there are 60"
-        );
-        assert_eq!(
-            refused(&[draw(0, 1, 2)]),
-            "draw 0 has shading key 2, and there are 2"
-        );
-        assert_eq!(
-            refused(&[draw(0, 10, 0), draw(0, 3, 0)]),
-            "13 triangles; the frame was prepared for 12"
-        );
-        assert_eq!(
-            refused(&[draw(0, 1, 0); 4]),
-            "4 draws; the frame was prepared for 3"
-        );
+        assert_eq!(refused(&[draw(0, 1, 0), draw(30, 11, 0)]), "draw 1 reads indices up to 63, and there are 60");
+        assert_eq!(refused(&[draw(u32::MAX, 1, 0)]), "draw 0 reads indices up to 4294967298, and there are 60");
+        assert_eq!(refused(&[draw(0, 1, 2)]), "draw 0 has shading key 2, and there are 2");
+        assert_eq!(refused(&[draw(0, 10, 0), draw(0, 3, 0)]), "13 triangles; the frame was prepared for 12");
+        assert_eq!(refused(&[draw(0, 1, 0); 4]), "4 draws; the frame was prepared for 3");
     }
 
     #[test]
@@ -475,24 +397,10 @@ mod tests {
             address: [vk::SamplerAddressMode::REPEAT; 2],
             cutoff: 0.5,
         };
-        let with_coordinates = Mesh {
-            coordinates: Some(Coordinates {
-                buffer: vk::Buffer::from_raw(4),
-                offset: 0,
-                stride: 8,
-            }),
-            ..mesh()
-        };
-        let geometry = Geometry {
-            meshes: vec![with_coordinates, mesh()],
-            alpha_maps: vec![map; 2],
-            ..geometry()
-        };
-        let masked = |alpha_map| Draw {
-            alpha_map: Some(alpha_map),
-            material: 7,
-            ..draw(0, 2, 0)
-        };
+        let with_coordinates =
+            Mesh { coordinates: Some(Coordinates { buffer: vk::Buffer::from_raw(4), offset: 0, stride: 8 }), ..mesh() };
+        let geometry = Geometry { meshes: vec![with_coordinates, mesh()], alpha_maps: vec![map; 2], ..geometry() };
+        let masked = |alpha_map| Draw { alpha_map: Some(alpha_map), material: 7, ..draw(0, 2, 0) };
         let placed = PlacedDraws::new(&geometry, &[draw(0, 3, 0), masked(1)]).unwrap();
         assert_eq!((placed.opaque, placed.triangles), (3, 5));
         assert_eq!(placed.draws[1].word & 0xffff, 1);
@@ -505,29 +413,17 @@ mod tests {
             refused(&[masked(0), draw(0, 1, 0)]),
             "draw 1 has no alpha map and comes after one that has: draws without come first"
         );
+        assert_eq!(refused(&[masked(2)]), "draw 0 has alpha map 2, and there are 2");
         assert_eq!(
-            refused(&[masked(2)]),
-            "draw 0 has alpha map 2, and there are 2"
-        );
-        assert_eq!(
-            refused(&[Draw {
-                mesh: 1,
-                ..masked(0)
-            }]),
+            refused(&[Draw { mesh: 1, ..masked(0) }]),
             "draw 0 has an alpha map, and its mesh 1 has no texture coordinates: lend Mesh::coordinates"
         );
     }
 
     #[test]
     fn blended_draws_come_last_of_all() {
-        let geometry = Geometry {
-            blended: true,
-            ..geometry()
-        };
-        let blended = Draw {
-            blended: true,
-            ..draw(0, 2, 0)
-        };
+        let geometry = Geometry { blended: true, ..geometry() };
+        let blended = Draw { blended: true, ..draw(0, 2, 0) };
         let placed = PlacedDraws::new(&geometry, &[draw(0, 3, 0), blended]).unwrap();
         assert_eq!((placed.opaque, placed.solid, placed.triangles), (3, 3, 5));
         let refused = |geometry: &Geometry, draws: &[Draw]| {
@@ -542,10 +438,7 @@ mod tests {
             refused(&self::geometry(), &[blended]),
             "draw 0 is blended; prepare the frame with Geometry::blended"
         );
-        let tested = Draw {
-            alpha_map: Some(0),
-            ..blended
-        };
+        let tested = Draw { alpha_map: Some(0), ..blended };
         assert_eq!(
             refused(&geometry, &[tested]),
             "draw 0 is blended and has an alpha map: let its shader store an opacity of 0 instead"
@@ -558,14 +451,8 @@ mod tests {
             let placed = PlacedDraws::new(&in_object_space(), draws);
             placed.err().unwrap().to_string()
         };
-        let unknown = Draw {
-            front_face: vk::FrontFace::from_raw(2),
-            ..with_vertices(0, 1)
-        };
-        let broken = Draw {
-            to_clip: [[f32::NAN; 4]; 4],
-            ..with_vertices(0, 1)
-        };
+        let unknown = Draw { front_face: vk::FrontFace::from_raw(2), ..with_vertices(0, 1) };
+        let broken = Draw { to_clip: [[f32::NAN; 4]; 4], ..with_vertices(0, 1) };
         for (draws, message) in [
             (
                 vec![with_vertices(0, 1), with_vertices(95, 6)],
@@ -579,18 +466,9 @@ mod tests {
                 vec![with_vertices(7, 0)],
                 "draw 0 has the vertices from 7 to before 7; it needs at least one, of those from 0 to before 100",
             ),
-            (
-                vec![with_vertices(0, 30), with_vertices(0, 11)],
-                "41 vertices; the frame was prepared for 40",
-            ),
-            (
-                vec![with_vertices(0, 1), unknown],
-                "front_face of draw 1 is 2; it can be COUNTER_CLOCKWISE or CLOCKWISE",
-            ),
-            (
-                vec![broken],
-                "the matrix of draw 0 has a number that is not finite",
-            ),
+            (vec![with_vertices(0, 30), with_vertices(0, 11)], "41 vertices; the frame was prepared for 40"),
+            (vec![with_vertices(0, 1), unknown], "front_face of draw 1 is 2; it can be COUNTER_CLOCKWISE or CLOCKWISE"),
+            (vec![broken], "the matrix of draw 0 has a number that is not finite"),
         ] {
             assert_eq!(refused(&draws), message);
         }
@@ -598,25 +476,14 @@ mod tests {
 
     #[test]
     fn draws_of_several_meshes_are_read_in_runs() {
-        let bare = Mesh {
-            vertex_capacity: 50,
-            indices: None,
-            ..mesh()
-        };
-        let geometry = Geometry {
-            meshes: vec![mesh(), bare],
-            draw_capacity: 9,
-            ..geometry()
-        };
+        let bare = Mesh { vertex_capacity: 50, indices: None, ..mesh() };
+        let geometry = Geometry { meshes: vec![mesh(), bare], draw_capacity: 9, ..geometry() };
         let of = |mesh, topology, first_index, triangle_count| Draw {
             mesh,
             topology,
             ..draw(first_index, triangle_count, 0)
         };
-        let clockwise = |draw| Draw {
-            front_face: vk::FrontFace::CLOCKWISE,
-            ..draw
-        };
+        let clockwise = |draw| Draw { front_face: vk::FrontFace::CLOCKWISE, ..draw };
         let draws = [
             of(0, Topology::List, 0, 2),
             of(0, Topology::List, 9, 1),
@@ -635,61 +502,33 @@ mod tests {
         };
         let expected = [
             run(0, Topology::List, [0, 3]),
-            DrawRun {
-                front_face: vk::FrontFace::CLOCKWISE,
-                ..run(0, Topology::List, [3, 1])
-            },
+            DrawRun { front_face: vk::FrontFace::CLOCKWISE, ..run(0, Topology::List, [3, 1]) },
             run(0, Topology::Fan, [4, 3]),
             run(1, Topology::Strip, [7, 4]),
         ];
         assert_eq!(placed.runs, expected);
         let last = placed.draws[5];
         let vertex = last.first_position.wrapping_add(last.shift);
-        assert_eq!(
-            (last.first_position, last.last_position, vertex),
-            (100, 49, 0)
-        );
-        let refused = |draw| {
-            PlacedDraws::new(&geometry, &[draw])
-                .err()
-                .unwrap()
-                .to_string()
-        };
-        assert_eq!(
-            refused(of(0, Topology::Fan, 56, 3)),
-            "draw 0 reads indices up to 61, and there are 60"
-        );
+        assert_eq!((last.first_position, last.last_position, vertex), (100, 49, 0));
+        let refused = |draw| PlacedDraws::new(&geometry, &[draw]).err().unwrap().to_string();
+        assert_eq!(refused(of(0, Topology::Fan, 56, 3)), "draw 0 reads indices up to 61, and there are 60");
         assert_eq!(
             refused(of(1, Topology::Strip, 45, 4)),
             "draw 0 takes the vertices from 45 to before 51 without indices, by its topology and triangle_count, and has those from 0 to before 50"
         );
-        assert_eq!(
-            refused(of(2, Topology::List, 0, 1)),
-            "draw 0 has mesh 2, and there are 2, from 0"
-        );
+        assert_eq!(refused(of(2, Topology::List, 0, 1)), "draw 0 has mesh 2, and there are 2, from 0");
     }
 
     #[test]
     fn draws_without_indices_have_their_vertices() {
-        let bare = Mesh {
-            indices: None,
-            ..mesh()
-        };
-        let geometry = Geometry {
-            meshes: vec![bare],
-            ..in_object_space()
-        };
+        let bare = Mesh { indices: None, ..mesh() };
+        let geometry = Geometry { meshes: vec![bare], ..in_object_space() };
         let of = |first_index, vertex_offset, vertex_count| Draw {
             first_index,
             ..with_vertices(vertex_offset, vertex_count)
         };
         assert!(PlacedDraws::new(&geometry, &[of(5, 90, 8)]).is_ok());
-        let refused = |draw| {
-            PlacedDraws::new(&geometry, &[draw])
-                .err()
-                .unwrap()
-                .to_string()
-        };
+        let refused = |draw| PlacedDraws::new(&geometry, &[draw]).err().unwrap().to_string();
         assert_eq!(
             refused(of(6, 90, 8)),
             "draw 0 takes the vertices from 96 to before 99 without indices, by its topology and triangle_count, and has those from 90 to before 98"

@@ -103,9 +103,7 @@ pub enum HostError {
     #[error("a colour image of format {0:?} holds linear light; it can't be encoded as well")]
     Encoded(vk::Format),
     /// Option `thin` without a depth image.
-    #[error(
-        "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
-    )]
+    #[error("thin triangles are found by depth: lend the depth image, or set Options::thin to false")]
     NoDepth,
     /// Frame's part of the images that ends outside of any possible image.
     #[error(
@@ -121,9 +119,7 @@ pub enum HostError {
     #[error("there are alpha maps and no texture coordinates: lend Mesh::coordinates")]
     NoCoordinates,
     /// Draw with an alpha map, of a mesh without texture coordinates.
-    #[error(
-        "draw {draw} has an alpha map, and its mesh {mesh} has no texture coordinates: lend Mesh::coordinates"
-    )]
+    #[error("draw {draw} has an alpha map, and its mesh {mesh} has no texture coordinates: lend Mesh::coordinates")]
     DrawCoordinates {
         /// Index of the draw.
         draw: usize,
@@ -165,9 +161,7 @@ pub enum HostError {
         vertices: i64,
     },
     /// Address mode of an alpha map that is not supported.
-    #[error(
-        "alpha map {map} has the address mode {found:?}; it can have REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE"
-    )]
+    #[error("alpha map {map} has the address mode {found:?}; it can have REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE")]
     Address {
         /// Index of the map.
         map: usize,
@@ -278,9 +272,7 @@ pub enum HostError {
         draw: usize,
     },
     /// Blended draw with an alpha map.
-    #[error(
-        "draw {draw} is blended and has an alpha map: let its shader store an opacity of 0 instead"
-    )]
+    #[error("draw {draw} is blended and has an alpha map: let its shader store an opacity of 0 instead")]
     BlendedMap {
         /// Index of the draw.
         draw: usize,
@@ -313,9 +305,7 @@ pub enum HostError {
     #[error("the projection matrix has a scale of 0 along y: it is projection[1][1], in columns")]
     FlatProjection,
     /// Image layout that keeps no contents, before or after the recording.
-    #[error(
-        "{what} is in the layout {found:?} {when} the recording; it can be any that keeps what the image holds"
-    )]
+    #[error("{what} is in the layout {found:?} {when} the recording; it can be any that keeps what the image holds")]
     Layout {
         /// Name of the image.
         what: &'static str,
@@ -345,10 +335,6 @@ impl From<VulkanError> for HostError {
 impl HostError {
     /// Checks that a count is from 1 to `most`.
     pub(super) fn check_count(what: &'static str, found: u32, most: u32) -> Result<(), Self> {
-        if (1..=most).contains(&found) {
-            Ok(())
-        } else {
-            Err(Self::Count { what, found, most })
-        }
+        if (1..=most).contains(&found) { Ok(()) } else { Err(Self::Count { what, found, most }) }
     }
 }

@@ -39,11 +39,7 @@ impl<'a> Scenery<'a> {
     /// Draws that are seen through a projection, with a viewport that is the frame's part of the images.
     #[must_use]
     pub fn new(draws: &'a [Draw], projection: [[f32; 4]; 4]) -> Self {
-        Self {
-            draws,
-            projection,
-            viewport: None,
-        }
+        Self { draws, projection, viewport: None }
     }
 
     /// Sets the viewport.
@@ -135,27 +131,18 @@ impl Work {
             &scratch.passes,
             &content.shown(),
             plan.sizes,
-            &[Offsets {
-                all: &offsets,
-                count,
-            }],
+            &[Offsets { all: &offsets, count }],
         )?;
         let output = settings.color_constants(content);
-        let drawn = (!options.shade_all)
-            .then(|| HostImage::new(layout, kinds.color_encoded))
-            .transpose()?
-            .map(Arc::new);
+        let drawn =
+            (!options.shade_all).then(|| HostImage::new(layout, kinds.color_encoded)).transpose()?.map(Arc::new);
         let cells = PixelCells {
             behind: drawn.clone().filter(|_| options.shows_drawn()),
             blend_ids: false,
             ..PixelCells::superpixels(&superpixels)
         };
         let cells = PixelCells {
-            depth_of_image: if kinds.ids {
-                lending.geometry.clip.depth_of_image()
-            } else {
-                cells.depth_of_image
-            },
+            depth_of_image: if kinds.ids { lending.geometry.clip.depth_of_image() } else { cells.depth_of_image },
             ..cells
         };
         let mut sampler = cells.sampler(&SamplerContext {
@@ -179,13 +166,7 @@ impl Work {
             (false, _) => Patched::Grown,
         };
         Ok(Self {
-            base: Base::new(
-                shared,
-                content,
-                drawn.as_ref(),
-                (!kinds.ids).then_some(filters),
-                &output,
-            )?,
+            base: Base::new(shared, content, drawn.as_ref(), (!kinds.ids).then_some(filters), &output)?,
             patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
             timings: Timings::new(gpu),
             settings,
@@ -246,9 +227,7 @@ impl Frame {
         capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
-        options
-            .image(&options.superpixels().into())
-            .check(gpu.limits())?;
+        options.image(&options.superpixels().into()).check(gpu.limits())?;
         options.sampler().check()?;
         geometry.check(gpu)?;
         if geometry.blended && options.shade_all {
@@ -306,10 +285,7 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`]; the commands of the last recording are done, or will never be executed.
     pub unsafe fn resize(&mut self, size: [u32; 2]) -> Result<(), HostError> {
-        let options = Options {
-            size,
-            ..self.options.clone()
-        };
+        let options = Options { size, ..self.options.clone() };
         let capacity = self.work.sampler.capacity();
         let (shared, lending) = (&self.shared, &self.lending);
         self.work = Work::new(shared, lending, &self.kinds, &options, capacity)?;
@@ -351,15 +327,7 @@ impl Frame {
         let work = &self.work;
         let capacity = self.lending.more(&work.sampler, work.plan.sizes.tiles())?;
         // SAFETY: passed on to the caller.
-        unsafe {
-            Self::with_capacity(
-                &self.shared,
-                &self.lending.geometry,
-                &self.kinds,
-                &self.options,
-                capacity,
-            )
-        }
+        unsafe { Self::with_capacity(&self.shared, &self.lending.geometry, &self.kinds, &self.options, capacity) }
     }
 
     /// Records the antialiasing of a frame, of which the host has drawn what it lends: in any images of the kinds and the size
@@ -397,12 +365,7 @@ impl Frame {
         shading: &dyn ShadeSamples,
     ) -> Result<(), HostError> {
         let placed = PlacedDraws::new(&self.lending.geometry, scenery.draws)?;
-        if !scenery
-            .projection
-            .as_flattened()
-            .iter()
-            .all(|n| n.is_finite())
-        {
+        if !scenery.projection.as_flattened().iter().all(|n| n.is_finite()) {
             return Err(HostError::Projection);
         }
         if scenery.projection[1][1] == 0.0 {
@@ -424,14 +387,9 @@ impl Frame {
         let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &recorder;
         let lending = &mut self.lending;
-        lending.record_begin(
-            recorder,
-            placed.triangles,
-            &mut work.is_uploaded,
-            |recorder| {
-                resources.record_upload(recorder);
-            },
-        );
+        lending.record_begin(recorder, placed.triangles, &mut work.is_uploaded, |recorder| {
+            resources.record_upload(recorder);
+        });
         let lending = &self.lending;
         images.record_begin(recorder);
         lending.record_triangles(recorder, &placed);
@@ -447,20 +405,13 @@ impl Frame {
         resources.record_begin(recorder, set, &uniform);
         let seen = (&uniform, &placed);
         let targets = work.scratch.targets();
-        work.base
-            .record(recorder, resources, seen, targets, &shading);
+        work.base.record(recorder, resources, seen, targets, &shading);
         if shades_all {
             lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.
             resources.record_begin(recorder, set, &uniform);
         }
-        let run = SamplerRun {
-            resources,
-            set,
-            uniform: &uniform,
-            list: (0, ListLength::Known),
-            index: 0,
-        };
+        let run = SamplerRun { resources, set, uniform: &uniform, list: (0, ListLength::Known), index: 0 };
         work.sampler.record(recorder, &run, &shading);
         images.record_draw(recorder);
         let part = images.part(self.options.size);
@@ -477,10 +428,7 @@ impl Frame {
     /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let work = &self.work;
-        self.lending.outcome(
-            (&work.sampler, &work.plan.sizes),
-            (&work.timings, self.memory_bytes()),
-        )
+        self.lending.outcome((&work.sampler, &work.plan.sizes), (&work.timings, self.memory_bytes()))
     }
 
     /// Where clip space lies on the images.
@@ -492,13 +440,7 @@ impl Frame {
         }
     }
 
-    fn uniform(
-        &self,
-        placed: &PlacedDraws,
-        scenery: &Scenery<'_>,
-        images: &Images,
-        plane: &ClipPlane,
-    ) -> FrameUniform {
+    fn uniform(&self, placed: &PlacedDraws, scenery: &Scenery<'_>, images: &Images, plane: &ClipPlane) -> FrameUniform {
         let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
         let threshold = u32::from(self.options.superpixels().threshold());
         let plane = PlaneBlock {
@@ -512,13 +454,7 @@ impl Frame {
         };
         let samples = settings.cells.samples;
         let footprints = Footprints::new(settings.filter, samples);
-        frame_uniform(
-            &scene_block(geometry, placed),
-            &plane,
-            settings,
-            (samples, &footprints),
-            &self.work.plan.sizes,
-        )
+        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &footprints), &self.work.plan.sizes)
     }
 }
 
@@ -527,11 +463,7 @@ impl Frame {
 fn gap(projection: &[[f32; 4]; 4], half_height: f32) -> [f32; 2] {
     let pixel = 1.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * half_height);
     // Depth is near / distance in perspective, up to a constant, and linear in distance without.
-    if projection[2][3] == 0.0 {
-        [0.0, projection[2][2].abs() * pixel]
-    } else {
-        [pixel, 0.0]
-    }
+    if projection[2][3] == 0.0 { [0.0, projection[2][2].abs() * pixel] } else { [pixel, 0.0] }
 }
 
 #[cfg(test)]

@@ -19,11 +19,7 @@ pub struct ClipSpace {
 impl Default for ClipSpace {
     /// Vulkan's default: y down with a viewport of positive height, and depth from 0 to 1.
     fn default() -> Self {
-        Self {
-            y_up: false,
-            reversed_depth: false,
-            depth_range: [0.0, 1.0],
-        }
+        Self { y_up: false, reversed_depth: false, depth_range: [0.0, 1.0] }
     }
 }
 
@@ -32,11 +28,7 @@ impl ClipSpace {
     pub(super) fn depth_of_image(&self) -> [f32; 2] {
         let [least, most] = self.depth_range;
         let (factor, constant) = (1.0 / (most - least), -least / (most - least));
-        if self.reversed_depth {
-            [factor, constant]
-        } else {
-            [-factor, 1.0 - constant]
-        }
+        if self.reversed_depth { [factor, constant] } else { [-factor, 1.0 - constant] }
     }
 }
 
@@ -104,11 +96,7 @@ impl Geometry {
         };
         for (what, found, most) in [
             (positions, self.position_capacity(), texels),
-            (
-                "triangle_capacity",
-                self.triangle_capacity,
-                texels.min(MOST_TRIANGLES),
-            ),
+            ("triangle_capacity", self.triangle_capacity, texels.min(MOST_TRIANGLES)),
             ("draw_capacity", self.draw_capacity, 1 << 24),
             ("keys", self.keys, MOST_KEYS),
         ] {
@@ -144,10 +132,7 @@ impl Geometry {
     fn in_mesh(&self, mesh: usize, error: HostError) -> HostError {
         match self.meshes.len() {
             1 => error,
-            _ => HostError::Mesh {
-                mesh,
-                error: Box::new(error),
-            },
+            _ => HostError::Mesh { mesh, error: Box::new(error) },
         }
     }
 
@@ -196,14 +181,8 @@ mod tests {
     #[test]
     fn depth_ranges_change_what_the_image_holds_alone() {
         for depth_range in [[0.0, 1.0], [0.25, 0.75], [1.0, 0.0], [0.5, 0.25]] {
-            let clip = ClipSpace {
-                depth_range,
-                ..ClipSpace::default()
-            };
-            let reversed = ClipSpace {
-                reversed_depth: true,
-                ..clip
-            };
+            let clip = ClipSpace { depth_range, ..ClipSpace::default() };
+            let reversed = ClipSpace { reversed_depth: true, ..clip };
             for z in [0.0, 0.125, 0.5, 1.0] {
                 assert_eq!(by_image(clip, z), 1.0 - z, "{depth_range:?}");
                 assert_eq!(by_image(reversed, z), z, "{depth_range:?}");

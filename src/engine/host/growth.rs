@@ -18,21 +18,14 @@ impl Growth {
     ///
     /// # Errors
     /// If the device is lost, or counters can't be read.
-    pub fn wanted(
-        &self,
-        lending: &Lending,
-        sampler: &Sampler,
-        tiles: u32,
-    ) -> Result<Option<Capacity>, HostError> {
+    pub fn wanted(&self, lending: &Lending, sampler: &Sampler, tiles: u32) -> Result<Option<Capacity>, HostError> {
         let present = sampler.capacity();
         match lending.more(sampler, tiles) {
             Ok(more) => {
                 let is_more = more != present && present.can_grow();
                 Ok((is_more && self.refused != Some(more)).then_some(more))
             }
-            Err(HostError::Engine(EngineError::Vulkan(
-                VulkanError::NotDone | VulkanError::NotRecorded,
-            ))) => Ok(None),
+            Err(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone | VulkanError::NotRecorded))) => Ok(None),
             Err(error) => Err(error),
         }
     }
@@ -41,11 +34,7 @@ impl Growth {
     ///
     /// # Errors
     /// If anything else prevented it.
-    pub fn made<T>(
-        &mut self,
-        capacity: Capacity,
-        made: Result<T, HostError>,
-    ) -> Result<Option<T>, HostError> {
+    pub fn made<T>(&mut self, capacity: Capacity, made: Result<T, HostError>) -> Result<Option<T>, HostError> {
         match made {
             Ok(made) => Ok(Some(made)),
             Err(error) if is_refusal(&error) => {
@@ -64,9 +53,7 @@ fn is_refusal(error: &HostError) -> bool {
         error,
         HostError::Engine(
             EngineError::Memory { .. }
-                | EngineError::Vulkan(
-                    VulkanError::OutOfMemory { .. } | VulkanError::TooLarge { .. }
-                )
+                | EngineError::Vulkan(VulkanError::OutOfMemory { .. } | VulkanError::TooLarge { .. })
         )
     )
 }
@@ -81,10 +68,7 @@ mod tests {
         let mut growth = Growth::default();
         let more = Capacity::default().with_lists(4);
         let refused = |error: VulkanError| Err::<(), _>(HostError::from(error));
-        let full = VulkanError::OutOfMemory {
-            what: "candidates".to_owned(),
-            bytes: 1 << 40,
-        };
+        let full = VulkanError::OutOfMemory { what: "candidates".to_owned(), bytes: 1 << 40 };
         assert!(matches!(growth.made(more, refused(full)), Ok(None)));
         assert_eq!(growth.refused, Some(more));
         assert!(growth.made(more, refused(VulkanError::DeviceLost)).is_err());

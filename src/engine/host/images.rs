@@ -67,20 +67,15 @@ const FORMATS: [vk::Format; 12] = [
     vk::Format::R16G16B16A16_SFLOAT,
     vk::Format::R32G32B32A32_SFLOAT,
 ];
-const ENCODING: [vk::Format; 3] = [
-    vk::Format::R8G8B8A8_SRGB,
-    vk::Format::B8G8R8A8_SRGB,
-    vk::Format::A8B8G8R8_SRGB_PACK32,
-];
+const ENCODING: [vk::Format; 3] =
+    [vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB, vk::Format::A8B8G8R8_SRGB_PACK32];
 
 /// Possible aspects of images, with their names; the last name covers all possibilities.
 const COLOR: [(vk::ImageAspectFlags, &str); 1] = [(vk::ImageAspectFlags::COLOR, "COLOR")];
 const DEPTH: [(vk::ImageAspectFlags, &str); 2] = [
     (vk::ImageAspectFlags::DEPTH, "DEPTH"),
     (
-        vk::ImageAspectFlags::from_raw(
-            vk::ImageAspectFlags::DEPTH.as_raw() | vk::ImageAspectFlags::STENCIL.as_raw(),
-        ),
+        vk::ImageAspectFlags::from_raw(vk::ImageAspectFlags::DEPTH.as_raw() | vk::ImageAspectFlags::STENCIL.as_raw()),
         "DEPTH, and STENCIL where its format has that too",
     ),
 ];
@@ -107,19 +102,11 @@ impl LentImage {
                 possible: possible.last().map_or("", |(_, names)| names),
             });
         }
-        let layout = |when, found| {
-            Err(HostError::Layout {
-                what: image,
-                when,
-                found,
-            })
-        };
+        let layout = |when, found| Err(HostError::Layout { what: image, when, found });
         let undefined = vk::ImageLayout::UNDEFINED;
         match (self.before.layout, self.after.layout) {
             (found, _) if is_read && found == undefined => layout("before", found),
-            (_, found) if found == undefined || found == vk::ImageLayout::PREINITIALIZED => {
-                layout("after", found)
-            }
+            (_, found) if found == undefined || found == vk::ImageLayout::PREINITIALIZED => layout("after", found),
             _ => Ok(()),
         }
     }
@@ -148,12 +135,7 @@ impl ImageKinds {
 
 impl Images {
     /// Checks the images and the frame's part of them. `most` is the largest side of an image on the device.
-    pub(super) fn check(
-        &self,
-        kinds: &ImageKinds,
-        options: &Options,
-        most: u32,
-    ) -> Result<(), HostError> {
+    pub(super) fn check(&self, kinds: &ImageKinds, options: &Options, most: u32) -> Result<(), HostError> {
         let size = options.size;
         let end = [0, 1].map(|axis| u64::from(self.corner[axis]) + u64::from(size[axis]));
         if end.iter().any(|end| *end > u64::from(most)) {
@@ -166,10 +148,9 @@ impl Images {
             let names = ("the image of depth", "the view of depth");
             depth.check(names, true, &DEPTH)?;
         }
-        for (what, lent, expected) in [
-            ("IDs", self.ids.is_some(), kinds.ids),
-            ("depth", self.depth.is_some(), kinds.depth),
-        ] {
+        for (what, lent, expected) in
+            [("IDs", self.ids.is_some(), kinds.ids), ("depth", self.depth.is_some(), kinds.depth)]
+        {
             match (lent, expected) {
                 (true, false) => return Err(HostError::UnexpectedImage { what }),
                 (false, true) => return Err(HostError::MissingImage { what }),
@@ -194,16 +175,12 @@ impl Images {
     /// Rectangle of the frame's part, `width` x `height` pixels large.
     pub(super) fn part(&self, [width, height]: [u32; 2]) -> vk::Rect2D {
         let [x, y] = self.corner.map(|corner| corner as i32);
-        vk::Rect2D {
-            offset: vk::Offset2D { x, y },
-            extent: vk::Extent2D { width, height },
-        }
+        vk::Rect2D { offset: vk::Offset2D { x, y }, extent: vk::Extent2D { width, height } }
     }
 
     /// Records the barrier that readies the colour image for drawing.
     pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
-        self.color
-            .record(recorder, ImageState::READ, ImageState::DRAWN);
+        self.color.record(recorder, ImageState::READ, ImageState::DRAWN);
     }
 
     /// Records the barriers that change all images to their final states.
@@ -211,8 +188,7 @@ impl Images {
         for image in self.read() {
             image.record(recorder, ImageState::READ, image.after);
         }
-        self.color
-            .record(recorder, ImageState::DRAWN, self.color.after);
+        self.color.record(recorder, ImageState::DRAWN, self.color.after);
     }
 }
 
@@ -232,21 +208,14 @@ mod tests {
         };
         Images {
             ids: Some(lent),
-            depth: Some(LentImage {
-                aspects: vk::ImageAspectFlags::DEPTH,
-                ..lent
-            }),
+            depth: Some(LentImage { aspects: vk::ImageAspectFlags::DEPTH, ..lent }),
             color: lent,
             corner: [0, 0],
         }
     }
 
-    const KINDS: ImageKinds = ImageKinds {
-        ids: true,
-        depth: true,
-        color_format: vk::Format::B8G8R8A8_UNORM,
-        color_encoded: true,
-    };
+    const KINDS: ImageKinds =
+        ImageKinds { ids: true, depth: true, color_format: vk::Format::B8G8R8A8_UNORM, color_encoded: true };
 
     #[test]
     fn what_is_missing_or_does_not_fit_is_named() {
@@ -268,11 +237,7 @@ mod tests {
         assert!(depth.starts_with("there is no image of depth"));
         let alone = refused(&|images| images.ids = None);
         assert!(alone.starts_with("there is no image of IDs"));
-        let bare = ImageKinds {
-            ids: false,
-            depth: false,
-            ..KINDS
-        };
+        let bare = ImageKinds { ids: false, depth: false, ..KINDS };
         let more = images().check(&bare, &Options::new(64, 32), 1024);
         let more = more.unwrap_err().to_string();
         assert!(more.starts_with("an image of IDs is lent"));
@@ -287,16 +252,10 @@ mod tests {
         assert!(empty.starts_with("the image of colours is in the layout UNDEFINED before"));
         let mut shaded = images();
         shaded.color.before.layout = vk::ImageLayout::UNDEFINED;
-        let options = Options {
-            shade_all: true,
-            ..Options::new(64, 32)
-        };
+        let options = Options { shade_all: true, ..Options::new(64, 32) };
         assert!(shaded.check(&KINDS, &options, 1024).is_ok());
         let aspects = refused(&|images| images.color.aspects = vk::ImageAspectFlags::DEPTH);
-        assert_eq!(
-            aspects,
-            "the image of colours has the aspects DEPTH; it can have COLOR"
-        );
+        assert_eq!(aspects, "the image of colours has the aspects DEPTH; it can have COLOR");
         let none = refused(&|images| {
             let depth = images.depth.as_mut();
             depth.unwrap().aspects = vk::ImageAspectFlags::empty();
@@ -311,20 +270,11 @@ mod tests {
             checked.unwrap_err().to_string()
         };
         assert!(KINDS.check(&Options::new(64, 32)).is_ok());
-        let shallow = ImageKinds {
-            depth: false,
-            ..KINDS
-        };
+        let shallow = ImageKinds { depth: false, ..KINDS };
         assert!(refused(shallow).starts_with("thin triangles are found by depth"));
-        let alone = ImageKinds {
-            ids: false,
-            ..KINDS
-        };
+        let alone = ImageKinds { ids: false, ..KINDS };
         assert!(refused(alone).starts_with("depth is lent without IDs"));
-        let of = |color_format| ImageKinds {
-            color_format,
-            ..KINDS
-        };
+        let of = |color_format| ImageKinds { color_format, ..KINDS };
         let integers = refused(of(vk::Format::R8G8B8A8_UINT));
         assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
         let twice = refused(of(vk::Format::B8G8R8A8_SRGB));

@@ -31,11 +31,7 @@ pub(super) struct Lending {
 impl Lending {
     /// # Safety
     /// The host's buffers and views are as [`Geometry`] says, and outlive the returned value.
-    pub unsafe fn new(
-        shared: &Arc<Shared>,
-        memory: Memory,
-        geometry: &Geometry,
-    ) -> Result<Self, HostError> {
+    pub unsafe fn new(shared: &Arc<Shared>, memory: Memory, geometry: &Geometry) -> Result<Self, HostError> {
         // SAFETY: passed on to the caller.
         let content = unsafe { HostContent::new(&shared.gpu, &memory, geometry) }?;
         // SAFETY: passed on to the caller.
@@ -187,19 +183,12 @@ impl Lending {
         (timings, memory_bytes): (&Timings, u64),
     ) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall(sampler, sizes.tiles())?;
-        let mut statistics = Statistics {
-            regions: 1,
-            memory_bytes,
-            ..Statistics::default()
-        };
+        let mut statistics = Statistics { regions: 1, memory_bytes, ..Statistics::default() };
         statistics.triangles.total = u64::from(self.triangles);
         sampler.add_statistics([sizes.tiles()], &mut statistics)?;
         for time in timings.read()? {
             statistics.add_time(time);
         }
-        Ok(Outcome {
-            statistics,
-            left_over: shortfall.left(),
-        })
+        Ok(Outcome { statistics, left_over: shortfall.left() })
     }
 }

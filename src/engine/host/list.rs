@@ -100,23 +100,13 @@ impl LocationList {
             return Err(HostError::NullHandle("the buffer of colours"));
         }
         if !(1..=most).contains(&self.capacity) {
-            return Err(HostError::Count {
-                what: "the capacity of locations",
-                found: self.capacity,
-                most,
-            });
+            return Err(HostError::Count { what: "the capacity of locations", found: self.capacity, most });
         }
-        let offsets = [
-            ("the offset of locations", self.offset, alignment),
-            ("the offset of colours", self.colors_offset, 4),
-        ];
+        let offsets =
+            [("the offset of locations", self.offset, alignment), ("the offset of colours", self.colors_offset, 4)];
         for (what, offset, alignment) in offsets {
             if offset % alignment != 0 {
-                return Err(HostError::Alignment {
-                    what,
-                    offset,
-                    alignment,
-                });
+                return Err(HostError::Alignment { what, offset, alignment });
             }
         }
         Ok(())
@@ -127,10 +117,7 @@ impl LocationList {
     }
 
     fn info(&self) -> vk::DescriptorBufferInfo {
-        vk::DescriptorBufferInfo::default()
-            .buffer(self.locations)
-            .offset(self.offset)
-            .range(self.bytes())
+        vk::DescriptorBufferInfo::default().buffer(self.locations).offset(self.offset).range(self.bytes())
     }
 }
 
@@ -151,11 +138,7 @@ impl Work {
         let memory = Memory::new(gpu.clone(), allowed);
         let content = &lending.content;
         let cells = ListCells {
-            cells: if options.samples == 1 {
-                Cells::Points
-            } else {
-                Cells::Superpixels
-            },
+            cells: if options.samples == 1 { Cells::Points } else { Cells::Superpixels },
             attributes: false,
             shadow_words: 0,
             lent: true,
@@ -168,8 +151,7 @@ impl Work {
         let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         // SAFETY: passed on to the caller.
-        let locations =
-            unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
+        let locations = unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.shown();
         shown.push((frame_set::LOCATIONS, locations.texels().into()));
         let resources = Resources::new(
@@ -179,10 +161,7 @@ impl Work {
             &shown,
             &targets.views(),
             sizes,
-            &[Offsets {
-                all: &offsets,
-                count,
-            }],
+            &[Offsets { all: &offsets, count }],
         )?;
         let output = settings.color_constants(content);
         let context = SamplerContext {
@@ -309,8 +288,7 @@ impl List {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let larger =
-            unsafe { Work::new(&self.shared, lending, &self.list, &self.options, capacity) };
+        let larger = unsafe { Work::new(&self.shared, lending, &self.list, &self.options, capacity) };
         if let Some(larger) = self.growth.made(capacity, larger)? {
             self.work = larger;
             self.lending.forget_recording();
@@ -371,41 +349,25 @@ impl List {
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &recorder;
-        self.lending.record_begin(
-            recorder,
-            placed.triangles,
-            &mut work.is_uploaded,
-            |recorder| {
-                resources.record_upload(recorder);
-                work.targets.record_unused(recorder);
-            },
-        );
+        self.lending.record_begin(recorder, placed.triangles, &mut work.is_uploaded, |recorder| {
+            resources.record_upload(recorder);
+            work.targets.record_unused(recorder);
+        });
         let lending = &self.lending;
         lending.record_triangles(recorder, &placed);
         let boxes = work.settings.filter == TextureFilter::Boxes;
-        let visible = VisibilityUniform {
-            list: 1,
-            ..Lending::visible(&plane, footprints.place, boxes)
-        };
+        let visible = VisibilityUniform { list: 1, ..Lending::visible(&plane, footprints.place, boxes) };
         lending.record_visible(recorder, &visible);
         if count > 0 {
             resources.record_background(recorder, count, uniform.background, 0);
         }
         resources.record_begin(recorder, set, &uniform);
         let shading = lending.shading(shading, &work.visibility_set, resources);
-        let run = SamplerRun {
-            resources,
-            set,
-            uniform: &uniform,
-            list: (count, ListLength::Known),
-            index: 0,
-        };
+        let run = SamplerRun { resources, set, uniform: &uniform, list: (count, ListLength::Known), index: 0 };
         work.sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the host guarantees that the buffer has room for the colours of `capacity` locations.
-        unsafe {
-            resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes)
-        };
+        unsafe { resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes) };
         lending.record_end(recorder);
         Ok(())
     }
@@ -418,18 +380,10 @@ impl List {
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
     /// or timestamps can't be read.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let Outcome {
-            statistics,
-            left_over,
-        } = self.lending.outcome(
-            (&self.work.sampler, self.work.resources.sizes()),
-            (&self.work.timings, self.memory_bytes()),
-        )?;
-        Ok(ListOutcome {
-            statistics,
-            left_over,
-            left_out: self.work.sampler.left_out()?,
-        })
+        let Outcome { statistics, left_over } = self
+            .lending
+            .outcome((&self.work.sampler, self.work.resources.sizes()), (&self.work.timings, self.memory_bytes()))?;
+        Ok(ListOutcome { statistics, left_over, left_out: self.work.sampler.left_out()? })
     }
 
     fn footprints(&self) -> Footprints {
@@ -450,13 +404,7 @@ impl List {
             ..plane_block(&geometry.clip, &self.plane(), self.options.size)
         };
         let samples = self.work.sampler.samples();
-        frame_uniform(
-            &scene_block(geometry, placed),
-            &plane,
-            settings,
-            (samples, &self.footprints()),
-            sizes,
-        )
+        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &self.footprints()), sizes)
     }
 }
 

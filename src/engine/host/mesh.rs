@@ -91,16 +91,9 @@ impl Indices {
         if self.buffer == vk::Buffer::null() {
             return Err(HostError::NullHandle("the buffer of indices"));
         }
-        let size = self.bytes().ok_or(HostError::IndexType {
-            found: self.index_type,
-        })?;
+        let size = self.bytes().ok_or(HostError::IndexType { found: self.index_type })?;
         HostError::check_count("index_capacity", self.capacity, u32::MAX)?;
-        check_layout(
-            limits,
-            ("indices_offset", self.offset, size),
-            None,
-            ("the buffer of indices", self.lent(limits)),
-        )
+        check_layout(limits, ("indices_offset", self.offset, size), None, ("the buffer of indices", self.lent(limits)))
     }
 }
 
@@ -125,12 +118,7 @@ impl Coordinates {
 
 impl Mesh {
     /// Checks that passes can read the buffers. `most_vertices` is the largest possible number of vertices.
-    pub(super) fn check(
-        &self,
-        space: PositionSpace,
-        most_vertices: u32,
-        limits: &Limits,
-    ) -> Result<(), HostError> {
+    pub(super) fn check(&self, space: PositionSpace, most_vertices: u32, limits: &Limits) -> Result<(), HostError> {
         if self.positions == vk::Buffer::null() {
             return Err(HostError::NullHandle("the buffer of positions"));
         }
@@ -138,15 +126,8 @@ impl Mesh {
         check_layout(
             limits,
             ("positions_offset", self.positions_offset, 4),
-            Some((
-                "position_stride",
-                self.position_stride,
-                space.bytes() as u32,
-            )),
-            (
-                "the buffer of positions",
-                self.lent_positions(space, limits),
-            ),
+            Some(("position_stride", self.position_stride, space.bytes() as u32)),
+            ("the buffer of positions", self.lent_positions(space, limits)),
         )?;
         self.indices.map_or(Ok(()), |indices| indices.check(limits))
     }
@@ -176,8 +157,6 @@ impl Mesh {
     pub(super) fn is_read_in_place(&self, space: PositionSpace, limits: &Limits) -> bool {
         space == PositionSpace::Clip
             && u64::from(self.position_stride) == CLIP_BYTES
-            && self
-                .positions_offset
-                .is_multiple_of(descriptor_alignment(limits))
+            && self.positions_offset.is_multiple_of(descriptor_alignment(limits))
     }
 }

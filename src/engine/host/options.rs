@@ -2,8 +2,7 @@
 
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{
-    CellOptions, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings, Shading,
-    SuperpixelOptions,
+    CellOptions, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings, Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -105,21 +104,13 @@ impl Options {
 
     /// The image to antialias, by a method with [these options](Self::superpixels).
     pub(super) fn image<'a>(&self, method: &'a Method) -> ImageRequest<'a> {
-        ImageRequest {
-            size: self.size,
-            region: None,
-            method,
-            attributes: false,
-            max_memory: self.max_memory,
-        }
+        ImageRequest { size: self.size, region: None, method, attributes: false, max_memory: self.max_memory }
     }
 
     /// Settings of the sampler.
     pub(super) fn sampler(&self) -> SamplerSettings {
         SamplerSettings {
-            reference: Reference::Scene {
-                tonemapped_detection: self.high_dynamic_range,
-            },
+            reference: Reference::Scene { tonemapped_detection: self.high_dynamic_range },
             ..ListOptions::from(self).sampler()
         }
     }
@@ -161,28 +152,18 @@ impl ListOptions {
 
     /// Options of sampling a location.
     pub(super) fn cells(&self) -> CellOptions {
-        CellOptions {
-            samples: self.samples,
-            pattern: self.pattern.clone(),
-            shading: self.shading,
-        }
+        CellOptions { samples: self.samples, pattern: self.pattern.clone(), shading: self.shading }
     }
 
     /// Settings of the sampler.
     pub(super) fn sampler(&self) -> SamplerSettings {
-        let footprint = if self.sharp {
-            Footprint::Sample
-        } else {
-            Footprint::Pixel
-        };
+        let footprint = if self.sharp { Footprint::Sample } else { Footprint::Pixel };
         SamplerSettings {
             cells: self.cells(),
             filter: TextureFilter::of_cells(footprint, self.shading),
             background: self.background,
             exposure: 0.0,
-            reference: Reference::Scene {
-                tonemapped_detection: false,
-            },
+            reference: Reference::Scene { tonemapped_detection: false },
         }
     }
 }

@@ -35,11 +35,7 @@ impl ScratchPool {
     ///
     /// # Errors
     /// If memory runs out.
-    pub fn get(
-        &self,
-        layout: &FrameLayout,
-        request: &ScratchRequest,
-    ) -> Result<Arc<FrameScratch>, VulkanError> {
+    pub fn get(&self, layout: &FrameLayout, request: &ScratchRequest) -> Result<Arc<FrameScratch>, VulkanError> {
         // The lock is held until the end, so that frames that are prepared at the same time share memory.
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|scratch| scratch.strong_count() > 0);
@@ -64,21 +60,14 @@ impl FrameScratch {
             Ok::<_, VulkanError>((made, region))
         };
         Ok(Self {
-            passes: Arc::new(Scratch::new(
-                layout,
-                &memory,
-                request.bin_count,
-                &request.sizes,
-            )?),
+            passes: Arc::new(Scratch::new(layout, &memory, request.bin_count, &request.sizes)?),
             targets: request.targets.then(targets).transpose()?,
             memory,
         })
     }
 
     fn suffices(&self, request: &ScratchRequest) -> bool {
-        let holds = |[width, height]: [u32; 2]| {
-            width >= request.sizes.region[0] && height >= request.sizes.region[1]
-        };
+        let holds = |[width, height]: [u32; 2]| width >= request.sizes.region[0] && height >= request.sizes.region[1];
         let has_targets = self.targets.as_ref().is_some_and(|(_, size)| holds(*size));
         self.passes.suffices(&request.sizes, request.bin_count)
             && (has_targets || !request.targets)

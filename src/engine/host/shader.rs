@@ -41,13 +41,9 @@ const SPEC_ID: u32 = 1;
 /// [`ShaderError`] names the defect.
 pub fn check_shader(code: &[u32]) -> Result<(), ShaderError> {
     let body = match code {
-        [MAGIC, ..] => code
-            .get(HEADER..)
-            .ok_or(ShaderError::NotSpirv("it ends within its header"))?,
+        [MAGIC, ..] => code.get(HEADER..).ok_or(ShaderError::NotSpirv("it ends within its header"))?,
         _ => {
-            return Err(ShaderError::NotSpirv(
-                "its first word is not 0x07230203 in this machine's order of bytes",
-            ));
+            return Err(ShaderError::NotSpirv("its first word is not 0x07230203 in this machine's order of bytes"));
         }
     };
     let mut version = None;
@@ -64,11 +60,7 @@ pub fn check_shader(code: &[u32]) -> Result<(), ShaderError> {
                 version = Some(target);
             }
             [_, _, result, found] if operation == OP_SPEC_CONSTANT && version == Some(result) => {
-                return if found == GPC_SHADER_VERSION.1 {
-                    Ok(())
-                } else {
-                    Err(ShaderError::Version { found })
-                };
+                return if found == GPC_SHADER_VERSION.1 { Ok(()) } else { Err(ShaderError::Version { found }) };
             }
             _ => {}
         }
@@ -85,9 +77,7 @@ mod tests {
 
     fn words(bytes: &[u8]) -> Vec<u32> {
         let words = bytes.chunks_exact(4);
-        words
-            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-            .collect()
+        words.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
     }
 
     /// Index of the word that holds the value of a constant instruction.
@@ -98,9 +88,7 @@ mod tests {
             .position(|window| window[0] == 4 << 16 | OP_DECORATE && window[2..] == [SPEC_ID, id])
             .unwrap();
         let target = code[decoration + 1];
-        let is_constant = |window: &[u32]| {
-            window[0] == 4 << 16 | OP_SPEC_CONSTANT && window[2..] == [target, version]
-        };
+        let is_constant = |window: &[u32]| window[0] == 4 << 16 | OP_SPEC_CONSTANT && window[2..] == [target, version];
         code.windows(4).position(is_constant).unwrap() + 3
     }
 

@@ -9,34 +9,13 @@ use ash::vk;
 /// functions that read and store them, `gpc_texture.glsl` filters textures over a sample's footprint, and
 /// `gpc_position.glsl` transforms vertices as the library does. The other files are included by these three.
 pub const SHADER_INCLUDES: [(&str, &str); 7] = [
-    (
-        "gpc_visibility.glsl",
-        include_str!("../../../shaders/include/gpc_visibility.glsl"),
-    ),
-    (
-        "gpc_texture.glsl",
-        include_str!("../../../shaders/include/gpc_texture.glsl"),
-    ),
-    (
-        "gpc_position.glsl",
-        include_str!("../../../shaders/include/gpc_position.glsl"),
-    ),
-    (
-        "place.glsl",
-        include_str!("../../../shaders/include/place.glsl"),
-    ),
-    (
-        "place_in_tile.glsl",
-        include_str!("../../../shaders/include/place_in_tile.glsl"),
-    ),
-    (
-        "barycentric.glsl",
-        include_str!("../../../shaders/include/barycentric.glsl"),
-    ),
-    (
-        "finite.glsl",
-        include_str!("../../../shaders/include/finite.glsl"),
-    ),
+    ("gpc_visibility.glsl", include_str!("../../../shaders/include/gpc_visibility.glsl")),
+    ("gpc_texture.glsl", include_str!("../../../shaders/include/gpc_texture.glsl")),
+    ("gpc_position.glsl", include_str!("../../../shaders/include/gpc_position.glsl")),
+    ("place.glsl", include_str!("../../../shaders/include/place.glsl")),
+    ("place_in_tile.glsl", include_str!("../../../shaders/include/place_in_tile.glsl")),
+    ("barycentric.glsl", include_str!("../../../shaders/include/barycentric.glsl")),
+    ("finite.glsl", include_str!("../../../shaders/include/finite.glsl")),
 ];
 
 /// Visibility samples of a round, sorted by shading key, on the device.
@@ -108,10 +87,7 @@ pub(super) struct HostShading<'a> {
 
 impl RecordShading for HostShading<'_> {
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
-        let samples = VisibilitySamples {
-            condition: recorder.condition(),
-            ..self.samples
-        };
+        let samples = VisibilitySamples { condition: recorder.condition(), ..self.samples };
         recorder.section(PassTime::HOST_SHADING, || {
             self.shading.record(recorder.raw(), &samples);
         });

@@ -39,17 +39,8 @@ pub(super) fn scene_block(geometry: &Geometry, placed: &PlacedDraws) -> SceneBlo
 pub(super) fn plane_block(clip: &ClipSpace, plane: &ClipPlane, size: [u32; 2]) -> PlaneBlock {
     let [x, y] = plane.scale;
     // Transformation to reversed depth, in which larger values are nearer: z, or w - z.
-    let (z, z_of_w) = if clip.reversed_depth {
-        (1.0, 0.0)
-    } else {
-        (-1.0, 1.0)
-    };
-    let columns = [
-        [x, 0.0, 0.0, 0.0],
-        [0.0, y, 0.0, 0.0],
-        [0.0, 0.0, z, 0.0],
-        [0.0, 0.0, z_of_w, 1.0],
-    ];
+    let (z, z_of_w) = if clip.reversed_depth { (1.0, 0.0) } else { (-1.0, 1.0) };
+    let columns = [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0], [0.0, 0.0, z_of_w, 1.0]];
     PlaneBlock {
         transform: columns.as_flattened().try_into().unwrap_or_default(),
         corner: plane.middle.map(|at| -at),

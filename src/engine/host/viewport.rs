@@ -41,18 +41,9 @@ impl ClipPlane {
         corner: [u32; 2],
         size: [u32; 2],
     ) -> Result<Self, HostError> {
-        let &Viewport {
-            x,
-            y,
-            width,
-            height,
-        } = viewport;
+        let &Viewport { x, y, width, height } = viewport;
         let is_finite = [x, y, width, height].iter().all(|n| n.is_finite());
-        let height_fits = if clip.y_up {
-            height < 0.0
-        } else {
-            height > 0.0
-        };
+        let height_fits = if clip.y_up { height < 0.0 } else { height > 0.0 };
         if !(is_finite && width > 0.0 && height_fits) {
             return Err(HostError::Viewport {
                 x,
@@ -71,25 +62,13 @@ impl ClipPlane {
             let end = if side < 2 { 0 } else { size[axis] };
             u64::from(corner[axis]) + u64::from(end)
         });
-        let sides = [
-            middle[0] - half[0],
-            middle[1] - half[1],
-            middle[0] + half[0],
-            middle[1] + half[1],
-        ];
+        let sides = [middle[0] - half[0], middle[1] - half[1], middle[0] + half[0], middle[1] + half[1]];
         let beyond = |side: usize| {
             let at = part[side] as f64;
-            if side < 2 {
-                at < sides[side]
-            } else {
-                at > sides[side]
-            }
+            if side < 2 { at < sides[side] } else { at > sides[side] }
         };
         if (0..4).any(beyond) {
-            return Err(HostError::ViewportPart {
-                viewport: sides,
-                part,
-            });
+            return Err(HostError::ViewportPart { viewport: sides, part });
         }
         let in_part = [0, 1].map(|axis| middle[axis] - f64::from(corner[axis]));
         Ok(Self::with_middle(clip, half, in_part))
@@ -97,10 +76,7 @@ impl ClipPlane {
 
     fn with_middle(clip: &ClipSpace, half: [f64; 2], middle: [f64; 2]) -> Self {
         let [x, y] = half.map(|side| side as f32);
-        Self {
-            scale: [x, if clip.y_up { -y } else { y }],
-            middle,
-        }
+        Self { scale: [x, if clip.y_up { -y } else { y }], middle }
     }
 }
 
@@ -108,28 +84,18 @@ impl ClipPlane {
 mod tests {
     use super::*;
 
-    const UP: ClipSpace = ClipSpace {
-        y_up: true,
-        reversed_depth: false,
-        depth_range: [0.0, 1.0],
-    };
+    const UP: ClipSpace = ClipSpace { y_up: true, reversed_depth: false, depth_range: [0.0, 1.0] };
 
     fn viewport(x: f32, y: f32, width: f32, height: f32) -> Viewport {
-        Viewport {
-            x,
-            y,
-            width,
-            height,
-        }
+        Viewport { x, y, width, height }
     }
 
     #[test]
     fn a_viewport_of_the_part_is_none() {
         let size = [64, 48];
-        for (clip, viewport) in [
-            (ClipSpace::default(), viewport(10.0, 20.0, 64.0, 48.0)),
-            (UP, viewport(10.0, 68.0, 64.0, -48.0)),
-        ] {
+        for (clip, viewport) in
+            [(ClipSpace::default(), viewport(10.0, 20.0, 64.0, 48.0)), (UP, viewport(10.0, 68.0, 64.0, -48.0))]
+        {
             let plane = ClipPlane::of_viewport(&clip, &viewport, [10, 20], size).unwrap();
             assert_eq!(plane, ClipPlane::of_size(&clip, size));
         }
@@ -158,8 +124,6 @@ mod tests {
             "the viewport is 40 x 40 pixels at (0, 0); it needs finite numbers, a positive width, and a height that is negative as ClipSpace::y_up is true"
         );
         let broken = viewport(f32::NAN, 0.0, 40.0, 40.0);
-        assert!(
-            refused(ClipSpace::default(), broken).starts_with("the viewport is 40 x 40 pixels")
-        );
+        assert!(refused(ClipSpace::default(), broken).starts_with("the viewport is 40 x 40 pixels"));
     }
 }

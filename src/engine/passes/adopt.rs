@@ -14,14 +14,8 @@ pub(crate) use spirv::AdoptPush as AdoptedCounts;
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(crate) fn kernel(
-    layout: &FrameLayout,
-    are_short: Option<bool>,
-) -> Result<Kernel<spirv::Adopt>, VulkanError> {
-    let shader = spirv::Adopt {
-        short: are_short.unwrap_or_default(),
-        indexed: are_short.is_some(),
-    };
+pub(crate) fn kernel(layout: &FrameLayout, are_short: Option<bool>) -> Result<Kernel<spirv::Adopt>, VulkanError> {
+    let shader = spirv::Adopt { short: are_short.unwrap_or_default(), indexed: are_short.is_some() };
     layout.kernel(&shader)
 }
 
@@ -41,10 +35,7 @@ pub(crate) unsafe fn set(
 ) -> Result<DescriptorSets, VulkanError> {
     let buffers = [
         (adopt_set::DRAWS, (&draws.table).into()),
-        (
-            adopt_set::INDICES,
-            indices.map_or_else(|| (&draws.table).into(), Descriptor::from),
-        ),
+        (adopt_set::INDICES, indices.map_or_else(|| (&draws.table).into(), Descriptor::from)),
         (adopt_set::TRIANGLES_OUT, triangles.into()),
         (adopt_set::DRAW_OF_OUT, draw_of.into()),
     ];

@@ -38,10 +38,7 @@ pub(crate) unsafe fn set(
     view: vk::ImageView,
     atlas: &Buffer,
 ) -> Result<DescriptorSets, VulkanError> {
-    let shown = [
-        (alpha_map_set::MAP, Descriptor::Image(read_image(view))),
-        (alpha_map_set::ATLAS, atlas.into()),
-    ];
+    let shown = [(alpha_map_set::MAP, Descriptor::Image(read_image(view))), (alpha_map_set::ATLAS, atlas.into())];
     // SAFETY: the caller guarantees the view, and the atlas lives as long as the frame.
     unsafe { layout.own_set(spirv::AlphaMap::INTERFACE, &shown) }
 }

@@ -25,10 +25,7 @@ pub(crate) enum CountedBy {
 ///
 /// # Errors
 /// If the driver refuses the pipeline.
-pub(crate) fn dispatch(
-    layout: &FrameLayout,
-    counted_by: CountedBy,
-) -> Result<Dispatch, VulkanError> {
+pub(crate) fn dispatch(layout: &FrameLayout, counted_by: CountedBy) -> Result<Dispatch, VulkanError> {
     of_samples(layout, counted_by, [1; 3])
 }
 
@@ -42,14 +39,8 @@ pub(crate) fn of_samples(
     counted_by: CountedBy,
     [first, left, unlisted]: [u32; 3],
 ) -> Result<Dispatch, VulkanError> {
-    let pushed = spirv::ArgumentsPush {
-        after: counted_by as u32,
-        teams_first: first,
-        teams: left,
-        teams_unlisted: unlisted,
-    };
-    let shader = spirv::Arguments {
-        teams: layout.gpu.limits().teams.in_workgroup,
-    };
+    let pushed =
+        spirv::ArgumentsPush { after: counted_by as u32, teams_first: first, teams: left, teams_unlisted: unlisted };
+    let shader = spirv::Arguments { teams: layout.gpu.limits().teams.in_workgroup };
     Ok(layout.kernel(&shader)?.dispatch(pushed, Size::One))
 }

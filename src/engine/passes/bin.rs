@@ -13,10 +13,8 @@ use crate::vulkan::{Specialized, VulkanError};
 pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, VulkanError> {
     let instanced = scene.is_instanced();
     let bin = layout.kernel(&spirv::Bin { instanced })?;
-    Ok(Pass::named(spirv::Bin::INTERFACE)
-        .dispatch(arguments::dispatch(layout, CountedBy::Cull)?)
-        .unordered([
-            bin.dispatch(spirv::BinPush { large: 0 }, Argument::BinSmall),
-            bin.dispatch(spirv::BinPush { large: 1 }, Argument::BinLarge),
-        ]))
+    Ok(Pass::named(spirv::Bin::INTERFACE).dispatch(arguments::dispatch(layout, CountedBy::Cull)?).unordered([
+        bin.dispatch(spirv::BinPush { large: 0 }, Argument::BinSmall),
+        bin.dispatch(spirv::BinPush { large: 1 }, Argument::BinLarge),
+    ]))
 }

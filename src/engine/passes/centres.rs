@@ -20,17 +20,10 @@ impl Centres {
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
         let make = |gather| {
-            let shader = spirv::Centres {
-                gather,
-                tonemap: output.tonemap,
-                tonemap_codes: output.tonemap_codes,
-            };
+            let shader = spirv::Centres { gather, tonemap: output.tonemap, tonemap_codes: output.tonemap_codes };
             layout.kernel(&shader)
         };
-        Ok(Self {
-            list: make(false)?,
-            gather: make(true)?,
-        })
+        Ok(Self { list: make(false)?, gather: make(true)? })
     }
 
     /// Records the pass for an image of `pixels` pixels, in bands that fit into the room for records. `shade` records
@@ -44,10 +37,7 @@ impl Centres {
     ) {
         for band in Self::bands(pixels, resources.sizes().record_capacity) {
             let count = band.end - band.start;
-            let push = spirv::CentresPush {
-                first: band.start,
-                count,
-            };
+            let push = spirv::CentresPush { first: band.start, count };
             self.list.record(recorder, &push, count);
             shade(recorder);
             self.gather.record(recorder, &push, count);

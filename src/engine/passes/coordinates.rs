@@ -10,10 +10,7 @@ use ash::vk;
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(crate) fn kernel(
-    layout: &FrameLayout,
-    draws: &Draws,
-) -> Result<Kernel<spirv::Coordinates>, VulkanError> {
+pub(crate) fn kernel(layout: &FrameLayout, draws: &Draws) -> Result<Kernel<spirv::Coordinates>, VulkanError> {
     let object = draws.matrices.is_some();
     layout.kernel(&spirv::Coordinates { object })
 }

@@ -19,15 +19,8 @@ pub(crate) enum CullFilter {
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    scene: &dyn Content,
-    filter: CullFilter,
-) -> Result<Pass, VulkanError> {
-    let shader = spirv::Cull {
-        thin_alone: filter == CullFilter::Thin,
-        instanced: scene.is_instanced(),
-    };
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, filter: CullFilter) -> Result<Pass, VulkanError> {
+    let shader = spirv::Cull { thin_alone: filter == CullFilter::Thin, instanced: scene.is_instanced() };
     Ok(Pass::named(spirv::Cull::INTERFACE)
         .dispatch(arguments::dispatch(layout, CountedBy::Detect)?)
         .dispatch(layout.kernel(&shader)?.dispatch((), Argument::Cull)))

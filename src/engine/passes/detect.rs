@@ -56,11 +56,7 @@ pub(crate) fn pass(layout: &FrameLayout, options: &DetectOptions) -> Result<Pass
         beyond: options.beyond,
         shadow_words: options.shadow_words,
     };
-    let code = if options.multisampled {
-        spirv::DETECT_MULTISAMPLED
-    } else {
-        spirv::DETECT
-    };
+    let code = if options.multisampled { spirv::DETECT_MULTISAMPLED } else { spirv::DETECT };
     let detect = layout.kernel_variant(code, &shader)?;
     Ok(Pass::named(spirv::Detect::INTERFACE).dispatch(detect.dispatch((), Size::Items(1))))
 }

@@ -7,12 +7,8 @@ use crate::engine::spirv;
 use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, Texels, VulkanError};
 
 /// Steps of the shader, in their order.
-const STEPS: [u32; 4] = [
-    spirv::DISTRIBUTE_NUMBER,
-    spirv::DISTRIBUTE_LAY_OUT,
-    spirv::DISTRIBUTE_ARRANGE,
-    spirv::DISTRIBUTE_ENCLOSE,
-];
+const STEPS: [u32; 4] =
+    [spirv::DISTRIBUTE_NUMBER, spirv::DISTRIBUTE_LAY_OUT, spirv::DISTRIBUTE_ARRANGE, spirv::DISTRIBUTE_ENCLOSE];
 
 /// Size of a list of sampling locations, and of the region of the plane, from pixel (0, 0) on, in which its locations
 /// are sampled.

@@ -36,10 +36,8 @@ pub(super) fn placed(
 ) -> impl Iterator<Item = (RasterRun, Option<FilteredDraws>)> {
     runs.scan(0, move |first, run| {
         let is_long = run.triangle_count >= spirv::FILTER_TRIANGLES;
-        let draws = (filters && is_long).then(|| FilteredDraws {
-            first: *first,
-            count: run.triangle_count.div_ceil(spirv::FILTER_TRIANGLES),
-        });
+        let draws = (filters && is_long)
+            .then(|| FilteredDraws { first: *first, count: run.triangle_count.div_ceil(spirv::FILTER_TRIANGLES) });
         *first += draws.map_or(0, |draws| draws.count);
         Some((run, draws))
     })
@@ -62,11 +60,7 @@ impl Filter {
     }
 
     /// Records the pass.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        runs: impl Iterator<Item = (RasterRun, Option<FilteredDraws>)>,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, runs: impl Iterator<Item = (RasterRun, Option<FilteredDraws>)>) {
         recorder.pass(spirv::Filter::INTERFACE, || {
             recorder.unordered(|| {
                 for (run, draws) in runs {

@@ -21,7 +21,5 @@ pub(crate) fn pass(layout: &FrameLayout, blocks: &SampleBlocks) -> Result<Pass, 
         occluders: cells.are_occluders(),
     })?;
     let sizes = arguments::of_samples(layout, CountedBy::Groups, blocks.teams)?;
-    Ok(Pass::named(spirv::Groups::INTERFACE)
-        .dispatch(groups.dispatch((), Argument::Groups))
-        .dispatch(sizes))
+    Ok(Pass::named(spirv::Groups::INTERFACE).dispatch(groups.dispatch((), Argument::Groups)).dispatch(sizes))
 }

@@ -84,33 +84,24 @@ mod tests {
     fn shaders_access_what_their_comments_say() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
         let in_frame = INTERFACES.iter().filter(|shader| shader.in_frame);
-        let of_frame = in_frame
-            .flat_map(|shader| shader.uses)
-            .filter(|used| used.set < 2);
+        let of_frame = in_frame.flat_map(|shader| shader.uses).filter(|used| used.set < 2);
         let names = of_frame.map(|used| used.binding.name.trim_end_matches("_out"));
         let bindings: BTreeSet<_> = names.collect();
         let mut compared = 0;
         let mut wrong = Vec::new();
         for shader in INTERFACES {
-            let Ok(text) = std::fs::read_to_string(folder.join(format!("{}.comp", shader.name)))
-            else {
+            let Ok(text) = std::fs::read_to_string(folder.join(format!("{}.comp", shader.name))) else {
                 continue;
             };
-            let head: Vec<_> = text
-                .lines()
-                .take_while(|line| line.starts_with("//"))
-                .collect();
+            let head: Vec<_> = text.lines().take_while(|line| line.starts_with("//")).collect();
             let head = head.join(" ");
-            let claims = [
-                (Access::Read, named(&head, "Reads:", "Writes:")),
-                (Access::Write, named(&head, "Writes:", ". ")),
-            ];
+            let claims =
+                [(Access::Read, named(&head, "Reads:", "Writes:")), (Access::Write, named(&head, "Writes:", ". "))];
             for (access, claim) in claims {
                 let accessed = shader.data(access);
                 // Names of files and other passes are quoted.
                 let words = claim.split('`').step_by(2);
-                let words =
-                    words.flat_map(|text| text.split(|c: char| !(c.is_alphanumeric() || c == '_')));
+                let words = words.flat_map(|text| text.split(|c: char| !(c.is_alphanumeric() || c == '_')));
                 for word in words.filter(|word| bindings.contains(word)) {
                     if !accessed.contains(&word) {
                         wrong.push(format!("{}: {access:?} {word}", shader.name));

@@ -29,21 +29,9 @@ impl Patch {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(
-        layout: &FrameLayout,
-        format: vk::Format,
-        encoded: bool,
-        patched: Patched,
-    ) -> Result<Self, VulkanError> {
-        let shader = spirv::PatchFragment {
-            encoded,
-            grown: patched == Patched::Grown,
-            all: patched == Patched::All,
-        };
-        let (code, interface) = (
-            spirv::PatchFragment::code(),
-            spirv::PatchFragment::INTERFACE,
-        );
+    pub fn new(layout: &FrameLayout, format: vk::Format, encoded: bool, patched: Patched) -> Result<Self, VulkanError> {
+        let shader = spirv::PatchFragment { encoded, grown: patched == Patched::Grown, all: patched == Patched::All };
+        let (code, interface) = (spirv::PatchFragment::code(), spirv::PatchFragment::INTERFACE);
         let constants = &shader.constants();
         let variant = format.as_raw() as u32;
         let pipeline = layout.cached(code, constants, variant, || {
@@ -76,10 +64,7 @@ impl Patch {
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
             .load_op(vk::AttachmentLoadOp::LOAD)
             .store_op(vk::AttachmentStoreOp::STORE)];
-        let info = vk::RenderingInfo::default()
-            .render_area(area)
-            .layer_count(1)
-            .color_attachments(&color);
+        let info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&color);
         let viewport = vk::Viewport {
             x: area.offset.x as f32,
             y: area.offset.y as f32,

@@ -5,9 +5,7 @@ use super::filter::{self, Filter, FilteredDraws};
 use crate::engine::data::{Content, IdViews};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv::{self, frame_set};
-use crate::vulkan::{
-    Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError,
-};
+use crate::vulkan::{Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -40,20 +38,14 @@ impl RasterTargets {
             let info = vk::ImageCreateInfo::default()
                 .image_type(vk::ImageType::TYPE_2D)
                 .format(format)
-                .extent(vk::Extent3D {
-                    width: extent[0],
-                    height: extent[1],
-                    depth: 1,
-                })
+                .extent(vk::Extent3D { width: extent[0], height: extent[1], depth: 1 })
                 .mip_levels(1)
                 .array_layers(1)
                 .samples(samples)
                 .usage(usage);
             memory.image(name, &info, aspect)
         };
-        let image = |name, format, usage, aspect| {
-            make(name, [width, height], samples, format, usage, aspect)
-        };
+        let image = |name, format, usage, aspect| make(name, [width, height], samples, format, usage, aspect);
         let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let format = id_format(samples);
         let single = vk::SampleCountFlags::TYPE_1;
@@ -66,14 +58,7 @@ impl RasterTargets {
             )?,
             ids: image("triangle IDs", format, color, vk::ImageAspectFlags::COLOR)?,
             blend_ids: has_blend
-                .then(|| {
-                    image(
-                        "BLEND triangle IDs",
-                        format,
-                        color,
-                        vk::ImageAspectFlags::COLOR,
-                    )
-                })
+                .then(|| image("BLEND triangle IDs", format, color, vk::ImageAspectFlags::COLOR))
                 .transpose()?,
             placeholder: (samples != single)
                 .then(|| {
@@ -98,26 +83,15 @@ impl RasterTargets {
 
     /// Changes single-sampled images to the layout that descriptors need, for frames that draw nothing.
     pub fn record_unused(&self, recorder: &Recorder<'_>) {
-        for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
-            .into_iter()
-            .flatten()
-        {
-            recorder.transition(
-                image,
-                vk::ImageLayout::UNDEFINED,
-                vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
-            );
+        for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()].into_iter().flatten() {
+            recorder.transition(image, vk::ImageLayout::UNDEFINED, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
         }
     }
 }
 
 /// Format of IDs: four bytes. A multisampled attachment need not support integers, so it has four 8-bit channels.
 fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
-    if samples == vk::SampleCountFlags::TYPE_1 {
-        vk::Format::R32_UINT
-    } else {
-        vk::Format::R8G8B8A8_UNORM
-    }
+    if samples == vk::SampleCountFlags::TYPE_1 { vk::Format::R32_UINT } else { vk::Format::R8G8B8A8_UNORM }
 }
 
 /// Push constants: the matrix to pixel-scaled clip space and, as `instance`, words that map an index to a triangle.
@@ -203,11 +177,7 @@ impl Raster {
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         let draw = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         recorder.pass(spirv::RasterFragment::INTERFACE, || {
-            recorder.transition(
-                &targets.depth,
-                vk::ImageLayout::UNDEFINED,
-                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
-            );
+            recorder.transition(&targets.depth, vk::ImageLayout::UNDEFINED, vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL);
             if let Some(placeholder) = &targets.placeholder {
                 recorder.transition(placeholder, vk::ImageLayout::UNDEFINED, read);
             }
@@ -233,11 +203,7 @@ impl Raster {
                 );
                 recorder.transition(blend_ids, draw, read);
             }
-            recorder.transition(
-                &targets.depth,
-                vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
-                read,
-            );
+            recorder.transition(&targets.depth, vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL, read);
         });
     }
 
@@ -290,11 +256,7 @@ impl Raster {
             let masked = self.masked.as_ref().filter(|_| run.masked);
             let pipeline = masked.unwrap_or(&self.opaque);
             recorder.bind(pipeline);
-            let cull = if run.double_sided {
-                vk::CullModeFlags::NONE
-            } else {
-                vk::CullModeFlags::BACK
-            };
+            let cull = if run.double_sided { vk::CullModeFlags::NONE } else { vk::CullModeFlags::BACK };
             recorder.push(pipeline, bytemuck::bytes_of(&run.push));
             // SAFETY: as above; the shader reads 3 vertices for each triangle of the run. `filter` has written the draws of its
             // triangles, and their indices.
@@ -319,13 +281,7 @@ impl Raster {
 /// Rectangle of the pixels from `low` to before `high`.
 fn rectangle(low: [u32; 2], high: [u32; 2]) -> vk::Rect2D {
     vk::Rect2D {
-        offset: vk::Offset2D {
-            x: low[0] as i32,
-            y: low[1] as i32,
-        },
-        extent: vk::Extent2D {
-            width: high[0] - low[0],
-            height: high[1] - low[1],
-        },
+        offset: vk::Offset2D { x: low[0] as i32, y: low[1] as i32 },
+        extent: vk::Extent2D { width: high[0] - low[0], height: high[1] - low[1] },
     }
 }

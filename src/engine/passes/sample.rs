@@ -181,9 +181,7 @@ impl Variant {
     fn of(list: TileList, has_blend: bool, rows: u32) -> Self {
         let unlisted = list == TileList::Unlisted;
         let layered = list == TileList::Blended || (unlisted && has_blend);
-        let mut fits = VARIANTS
-            .iter()
-            .filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
+        let mut fits = VARIANTS.iter().filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
         let found = fits.clone().find(|variant| variant.rows >= rows);
         *found.or_else(|| fits.next_back()).unwrap_or(&VARIANTS[0])
     }
@@ -205,14 +203,9 @@ impl SampleBlocks {
         let one_cell = options.takes_one_cell();
         let blocks_of = |samples: u32| samples.div_ceil(block);
         let taking = |blocks: u32, one_cell: bool| {
-            if one_cell {
-                members * blocks
-            } else {
-                blocks.div_ceil(BLOCKS_AT_ONCE)
-            }
+            if one_cell { members * blocks } else { blocks.div_ceil(BLOCKS_AT_ONCE) }
         };
-        let [left, unlisted] =
-            [one_cell, true].map(|one_cell| taking(blocks_of(options.samples), one_cell));
+        let [left, unlisted] = [one_cell, true].map(|one_cell| taking(blocks_of(options.samples), one_cell));
         let first = if options.by_lines() && one_cell {
             members * options.teams_of_cell(teams)
         } else if options.by_lines() {
@@ -220,11 +213,7 @@ impl SampleBlocks {
         } else {
             left
         };
-        Self {
-            options,
-            block,
-            teams: [first, left, unlisted],
-        }
+        Self { options, block, teams: [first, left, unlisted] }
     }
 
     /// Largest number of visibility samples of a triangle in a block, if all samples of the cell are processed.
@@ -242,17 +231,8 @@ impl SampleBlocks {
     }
 
     /// Dispatch of the kernel for a run.
-    fn kernel(
-        &self,
-        layout: &FrameLayout,
-        scene: &dyn Content,
-        run: &ListRun,
-    ) -> Result<Dispatch, VulkanError> {
-        let ListRun {
-            list,
-            left_cells,
-            masked,
-        } = *run;
+    fn kernel(&self, layout: &FrameLayout, scene: &dyn Content, run: &ListRun) -> Result<Dispatch, VulkanError> {
+        let ListRun { list, left_cells, masked } = *run;
         let (options, block) = (&self.options, self.block);
         let teams = layout.gpu.limits().teams;
         let shader = spirv::Sample {
@@ -273,11 +253,7 @@ impl SampleBlocks {
             occluders: options.cells.are_occluders(),
             instanced: scene.is_instanced(),
         };
-        let size = if left_cells {
-            list.left()
-        } else {
-            list.cells()
-        };
+        let size = if left_cells { list.left() } else { list.cells() };
         if list.is_opaque() && !left_cells && options.by_lines() {
             let lines = options.lines_of_cell(masked);
             let kernel = sample_lines::kernel(layout, &shader, block, lines)?;
@@ -296,24 +272,15 @@ impl SampleBlocks {
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    scene: &dyn Content,
-    blocks: &SampleBlocks,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, blocks: &SampleBlocks) -> Result<Pass, VulkanError> {
     let options = &blocks.options;
     let first = options.first_runs();
     let runs: Vec<_> = first.iter().copied().chain(options.rest()).collect();
     // These kernels take drivers longest to compile, so that threads compile them in parallel.
     let made: Result<Vec<_>, _> = std::thread::scope(|threads| {
-        let making: Vec<_> = runs
-            .iter()
-            .map(|run| threads.spawn(move || blocks.kernel(layout, scene, run)))
-            .collect();
+        let making: Vec<_> = runs.iter().map(|run| threads.spawn(move || blocks.kernel(layout, scene, run))).collect();
         let join = |thread: std::thread::ScopedJoinHandle<'_, _>| {
-            thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         };
         making.into_iter().map(join).collect()
     });
@@ -333,9 +300,7 @@ pub(crate) fn pass(
     }
     // Tiles without a list come last, because `scatter` overwrites the memory of lists.
     if let Some(kernel) = unlisted {
-        pass = pass
-            .then(scatter::pass(layout, scene, options)?)
-            .dispatch(kernel);
+        pass = pass.then(scatter::pass(layout, scene, options)?).dispatch(kernel);
     }
     Ok(pass)
 }
@@ -348,11 +313,7 @@ impl SampleOptions {
 
     /// Runs over tiles of opaque and alpha-tested triangles.
     fn listed(&self, left_cells: bool) -> impl Iterator<Item = ListRun> {
-        let run_of = move |list, masked| ListRun {
-            list,
-            left_cells,
-            masked,
-        };
+        let run_of = move |list, masked| ListRun { list, left_cells, masked };
         let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
         let has_masked = self.has_mask && !self.always_blends;
         let masked = has_masked.then(|| run_of(TileList::Masked, true));
@@ -361,11 +322,7 @@ impl SampleOptions {
 
     /// First runs, one for each list of tiles; that of tiles without a list is the last.
     fn first_runs(&self) -> Vec<ListRun> {
-        let whole = |list| ListRun {
-            list,
-            left_cells: false,
-            masked: self.has_mask,
-        };
+        let whole = |list| ListRun { list, left_cells: false, masked: self.has_mask };
         self.listed(false)
             .chain(self.has_blend.then(|| whole(TileList::Blended)))
             .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
@@ -374,10 +331,7 @@ impl SampleOptions {
 
     /// Second runs, over cells that the first runs left.
     fn rest(&self) -> impl Iterator<Item = ListRun> {
-        self.by_lines()
-            .then(|| self.listed(true))
-            .into_iter()
-            .flatten()
+        self.by_lines().then(|| self.listed(true)).into_iter().flatten()
     }
 
     /// Whether cells are shaded by parts, which makes no difference if a part is at least a block.

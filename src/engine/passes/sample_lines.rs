@@ -17,11 +17,7 @@ pub(super) fn kernel(
     lines: u32,
 ) -> Result<Kernel<spirv::SampleLines>, VulkanError> {
     let teams = layout.gpu.limits().teams;
-    let teams = if shader.apart {
-        teams.larger(members(lines))
-    } else {
-        teams
-    };
+    let teams = if shader.apart { teams.larger(members(lines)) } else { teams };
     let shader = spirv::SampleLines {
         local_size: teams.workgroup(),
         team: teams.members,
@@ -65,10 +61,6 @@ impl SampleOptions {
 
     /// Largest number by which a cell's visibility samples may exceed its samples.
     pub(crate) fn more_records(&self) -> u32 {
-        if self.by_lines() {
-            spirv::MORE_RECORDS
-        } else {
-            0
-        }
+        if self.by_lines() { spirv::MORE_RECORDS } else { 0 }
     }
 }

@@ -12,11 +12,7 @@ use crate::vulkan::{Specialized, VulkanError};
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    scene: &dyn Content,
-    options: &SampleOptions,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, options: &SampleOptions) -> Result<Pass, VulkanError> {
     let scatter = layout.kernel(&spirv::Scatter {
         cells_of_entry: layout.gpu.limits().teams.members,
         has_mask: options.has_mask,
@@ -25,16 +21,9 @@ pub(crate) fn pass(
         occluders: options.cells.are_occluders(),
         instanced: scene.is_instanced(),
     })?;
-    let step = |step, every, argument: Argument| {
-        scatter.dispatch(spirv::ScatterPush { step, every }, argument)
-    };
+    let step = |step, every, argument: Argument| scatter.dispatch(spirv::ScatterPush { step, every }, argument);
     let of_owners = |name| step(name, 0, Argument::Owners);
-    let of_triangles = |name| {
-        [
-            step(name, 0, Argument::Scatter),
-            step(name, 1, Argument::ScatterEvery),
-        ]
-    };
+    let of_triangles = |name| [step(name, 0, Argument::Scatter), step(name, 1, Argument::ScatterEvery)];
     let nearest = Pass::named(spirv::Scatter::INTERFACE)
         .dispatch(of_owners(spirv::SCATTER_CLEAR))
         .unordered(of_triangles(spirv::SCATTER_DEPTHS))

@@ -11,11 +11,7 @@ use crate::vulkan::{Specialized, VulkanError};
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    cells: Cells,
-    load: spirv::SchedulePush,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, cells: Cells, load: spirv::SchedulePush) -> Result<Pass, VulkanError> {
     // A single team works, so the largest one is the fastest.
     let all = layout.gpu.limits().teams;
     let teams = all.larger(32);

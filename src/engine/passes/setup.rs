@@ -18,14 +18,8 @@ pub(crate) enum ListOrder {
 ///
 /// # Errors
 /// If the driver refuses the pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    scene: &dyn Content,
-    order: ListOrder,
-) -> Result<Pass, VulkanError> {
-    let setup = layout.kernel(&spirv::Setup {
-        scanned: order == ListOrder::Scanned,
-        instanced: scene.is_instanced(),
-    })?;
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, order: ListOrder) -> Result<Pass, VulkanError> {
+    let setup =
+        layout.kernel(&spirv::Setup { scanned: order == ListOrder::Scanned, instanced: scene.is_instanced() })?;
     Ok(Pass::named(spirv::Setup::INTERFACE).dispatch(setup.dispatch((), Argument::Setup)))
 }

@@ -11,11 +11,7 @@ use crate::vulkan::{Specialized, VulkanError};
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    scene: &dyn Content,
-    one_bin: bool,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, one_bin: bool) -> Result<Pass, VulkanError> {
     let pass = Pass::named(spirv::Sort::INTERFACE)
         .clear(frame_set::BINS)
         .dispatch(arguments::dispatch(layout, CountedBy::Sample)?);

@@ -10,16 +10,11 @@ use crate::vulkan::{Specialized, VulkanError};
 ///
 /// # Errors
 /// If the driver refuses the pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    image: &HostImage,
-    output: &ColorConstants,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, image: &HostImage, output: &ColorConstants) -> Result<Pass, VulkanError> {
     let take = layout.kernel(&spirv::Take {
         encoded: image.encoded(),
         tonemap: output.tonemap,
         tonemap_codes: output.tonemap_codes,
     })?;
-    Ok(Pass::named(spirv::Take::INTERFACE)
-        .dispatch(take.dispatch((), Size::Items(1)).with(&image.sets)))
+    Ok(Pass::named(spirv::Take::INTERFACE).dispatch(take.dispatch((), Size::Items(1)).with(&image.sets)))
 }

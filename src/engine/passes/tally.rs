@@ -10,11 +10,7 @@ use crate::vulkan::{Specialized, VulkanError};
 ///
 /// # Errors
 /// If the driver refuses the pipeline.
-pub(crate) fn pass(
-    layout: &FrameLayout,
-    cells: Cells,
-    load: spirv::TallyPush,
-) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, cells: Cells, load: spirv::TallyPush) -> Result<Pass, VulkanError> {
     let teams = layout.gpu.limits().teams;
     let tally = layout.kernel(&spirv::Tally {
         local_size: teams.workgroup(),

@@ -20,27 +20,13 @@ pub(crate) fn pass(
     folds: bool,
     [depth_factor, depth_constant]: [f32; 2],
 ) -> Result<Pass, VulkanError> {
-    let thin = |select| {
-        layout.kernel(&spirv::Thin {
-            select,
-            blend_ids,
-            folds,
-            instanced: scene.is_instanced(),
-        })
-    };
+    let thin = |select| layout.kernel(&spirv::Thin { select, blend_ids, folds, instanced: scene.is_instanced() });
     let (select, walk) = (thin(true)?, thin(false)?);
-    let pushed = |long| spirv::ThinPush {
-        long,
-        depth_factor,
-        depth_constant,
-    };
+    let pushed = |long| spirv::ThinPush { long, depth_factor, depth_constant };
     let of_slots = Size::Items(spirv::THIN_PER_INVOCATION);
     Ok(Pass::named(spirv::Thin::INTERFACE)
         .clear(frame_set::MARKS)
         .dispatch(select.dispatch(pushed(0), of_slots))
         .dispatch(arguments::dispatch(layout, CountedBy::Thin)?)
-        .unordered([
-            walk.dispatch(pushed(0), Argument::Thin),
-            walk.dispatch(pushed(1), Argument::ThinLong),
-        ]))
+        .unordered([walk.dispatch(pushed(0), Argument::Thin), walk.dispatch(pushed(1), Argument::ThinLong)]))
 }

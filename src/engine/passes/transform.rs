@@ -15,10 +15,7 @@ pub(crate) use spirv::TransformPush as VertexCounts;
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(crate) fn kernel(
-    layout: &FrameLayout,
-    draws: &Draws,
-) -> Result<Kernel<spirv::Transform>, VulkanError> {
+pub(crate) fn kernel(layout: &FrameLayout, draws: &Draws) -> Result<Kernel<spirv::Transform>, VulkanError> {
     let object = draws.matrices.is_some();
     layout.kernel(&spirv::Transform { object })
 }

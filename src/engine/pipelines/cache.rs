@@ -24,11 +24,7 @@ struct Known<P> {
 
 impl<P> Pipelines<P> {
     pub fn new(most_unused: usize) -> Self {
-        Self {
-            known: HashMap::new(),
-            turn: 0,
-            most_unused,
-        }
+        Self { known: HashMap::new(), turn: 0, most_unused }
     }
 
     /// Pipeline with this key, if it is in the cache.
@@ -43,10 +39,7 @@ impl<P> Pipelines<P> {
     /// too many pipelines are unused, those that were not requested for the longest time are dropped.
     pub fn add(&mut self, key: PipelineKey, made: P) -> Arc<P> {
         self.turn += 1;
-        let added = self.known.entry(key).or_insert_with(|| Known {
-            pipeline: Arc::new(made),
-            asked: 0,
-        });
+        let added = self.known.entry(key).or_insert_with(|| Known { pipeline: Arc::new(made), asked: 0 });
         added.asked = self.turn;
         let added = added.pipeline.clone();
         let is_unused = |known: &&Known<P>| Arc::strong_count(&known.pipeline) == 1;
@@ -54,8 +47,7 @@ impl<P> Pipelines<P> {
         unused.sort_unstable_by_key(|known| known.asked);
         if let Some(excess) = unused.len().checked_sub(self.most_unused + 1) {
             let last = unused[excess].asked;
-            self.known
-                .retain(|_, known| known.asked > last || Arc::strong_count(&known.pipeline) > 1);
+            self.known.retain(|_, known| known.asked > last || Arc::strong_count(&known.pipeline) > 1);
         }
         added
     }
@@ -85,11 +77,7 @@ mod tests {
         }
         let is_kept = |index: usize| pipelines.known.contains_key(&key(index));
         assert!(is_kept(0) && is_kept(1) && is_kept(MOST_UNUSED + 3));
-        assert!(
-            !is_kept(2) && !is_kept(3) && is_kept(4),
-            "{}",
-            pipelines.known.len()
-        );
+        assert!(!is_kept(2) && !is_kept(3) && is_kept(4), "{}", pipelines.known.len());
         drop(used);
         pipelines.add(key(MOST_UNUSED + 4), 0);
         assert_eq!(pipelines.get(&key(0)), None);

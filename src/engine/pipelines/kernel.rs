@@ -42,10 +42,7 @@ pub(crate) struct Dispatch {
 impl<S: Specialized> Kernel<S> {
     /// The kernel of a pipeline that was made of this shader.
     pub(super) fn new(pipeline: Arc<Pipeline>) -> Self {
-        Self {
-            pipeline,
-            shader: PhantomData,
-        }
+        Self { pipeline, shader: PhantomData }
     }
 
     /// Dispatch that a pass declares.

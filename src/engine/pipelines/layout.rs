@@ -4,8 +4,8 @@ use super::Kernel;
 use super::cache::Pipelines;
 use crate::engine::spirv::INTERFACES;
 use crate::vulkan::{
-    BoundDescriptor, Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline,
-    SetLayout, SharedLayout, Specialized, VulkanError, compute_pipeline,
+    BoundDescriptor, Compiled, Constants, DescriptorSets, Gpu, Interface, PassLayout, Pipeline, SetLayout,
+    SharedLayout, Specialized, VulkanError, compute_pipeline,
 };
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -65,11 +65,7 @@ impl FrameLayout {
     ///
     /// # Errors
     /// If the driver refuses them.
-    pub(crate) fn own_sets(
-        &self,
-        shaders: &[&Interface],
-        count: usize,
-    ) -> Result<Vec<DescriptorSets>, VulkanError> {
+    pub(crate) fn own_sets(&self, shaders: &[&Interface], count: usize) -> Result<Vec<DescriptorSets>, VulkanError> {
         let own = |shader: &&Interface| {
             let number = if shader.in_frame { 2 } else { 0 };
             self.of(shader).sets[number].clone()
@@ -121,12 +117,7 @@ impl FrameLayout {
             let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
             compute_pipeline(layout, shader, constants, subgroup)
         };
-        Ok(Kernel::new(self.cached(
-            code,
-            constants,
-            subgroup.unwrap_or(0),
-            made,
-        )?))
+        Ok(Kernel::new(self.cached(code, constants, subgroup.unwrap_or(0), made)?))
     }
 
     /// Pipeline for a shader, constants and variant, from the cache or made by `make`.
@@ -138,11 +129,7 @@ impl FrameLayout {
         make: impl FnOnce() -> Result<Pipeline, VulkanError>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let key = (code.as_ptr() as usize, constants.clone(), variant);
-        let known = || {
-            self.pipelines
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-        };
+        let known = || self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(pipeline) = known().get(&key) {
             return Ok(pipeline);
         }
@@ -165,9 +152,7 @@ mod tests {
             let bindings = shader.uses.iter().map(|used| used.binding);
             bindings.collect::<Vec<_>>()
         });
-        let all: Vec<_> = of_stages
-            .chain([gpc_visibility_set::ALL.to_vec()])
-            .collect();
+        let all: Vec<_> = of_stages.chain([gpc_visibility_set::ALL.to_vec()]).collect();
         let most = |kinds: &[T]| {
             let count = |stage: &Vec<Binding>| {
                 let counted = stage.iter().filter(|binding| kinds.contains(&binding.kind));
@@ -175,22 +160,14 @@ mod tests {
             };
             all.iter().map(count).max().unwrap()
         };
-        let images = [
-            T::SAMPLED_IMAGE,
-            T::COMBINED_IMAGE_SAMPLER,
-            T::UNIFORM_TEXEL_BUFFER,
-        ];
+        let images = [T::SAMPLED_IMAGE, T::COMBINED_IMAGE_SAMPLER, T::UNIFORM_TEXEL_BUFFER];
         assert_eq!(most(&[T::STORAGE_BUFFER]), Requirements::STORAGE_BUFFERS);
         assert_eq!(most(&images), Requirements::SAMPLED_IMAGES);
         // Every device supports 4 storage images, 12 uniform buffers, 16 samplers, and 128 resources of a stage.
         assert!(most(&[T::STORAGE_TEXEL_BUFFER]) <= 4);
         assert!(most(&[T::UNIFORM_BUFFER]) <= 12);
         assert!(most(&[T::COMBINED_IMAGE_SAMPLER]) <= 16);
-        let resources = [
-            T::STORAGE_BUFFER,
-            T::UNIFORM_BUFFER,
-            T::STORAGE_TEXEL_BUFFER,
-        ];
+        let resources = [T::STORAGE_BUFFER, T::UNIFORM_BUFFER, T::STORAGE_TEXEL_BUFFER];
         assert!(most(&[&resources[..], &images].concat()) < 128);
     }
 }

@@ -24,10 +24,7 @@ enum Step {
 impl Pass {
     /// A pass with the name of the shader of this interface, which does nothing yet.
     pub(crate) fn named(interface: &'static Interface) -> Self {
-        Self {
-            interface,
-            steps: Vec::new(),
-        }
+        Self { interface, steps: Vec::new() }
     }
 
     /// The pass, which then fills what the frame's sets show at a binding with zeros.

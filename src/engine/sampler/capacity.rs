@@ -38,10 +38,7 @@ impl Capacity {
 
     /// This capacity with `factor` times the room for candidates.
     pub fn with_lists(self, factor: u32) -> Self {
-        Self {
-            lists: self.lists.saturating_mul(factor.next_power_of_two()),
-            ..self
-        }
+        Self { lists: self.lists.saturating_mul(factor.next_power_of_two()), ..self }
     }
 
     /// Capacity for the first of a device's frames that are made again if they need more rounds than images usually do.
@@ -68,18 +65,12 @@ impl Capacity {
     /// This capacity without the kernels for tiles without a list, which few frames need. Compiling these kernels may
     /// take longer than a frame.
     pub fn without_unlisted_tiles(self) -> Self {
-        Self {
-            samples_unlisted: false,
-            ..self
-        }
+        Self { samples_unlisted: false, ..self }
     }
 
     /// This capacity for an owner whose memory may be limited. The lists in which receivers of light are looked up take much memory.
     pub fn within(self, max_memory: Option<u64>) -> Self {
-        Self {
-            looks_up_occluders: self.looks_up_occluders && max_memory.is_none(),
-            ..self
-        }
+        Self { looks_up_occluders: self.looks_up_occluders && max_memory.is_none(), ..self }
     }
 
     /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
@@ -96,19 +87,12 @@ impl Capacity {
         // Lists are lengthened next, and layers are raised last.
         let deeper = of_lights && self.long_lists == LongLists::Scattered;
         let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
-        let rounds = factor(shortfall.waiting > 0, 2)
-            .max(factor(unshadowed, 4))
-            .max(shortfall.rounds.next_power_of_two());
+        let rounds =
+            factor(shortfall.waiting > 0, 2).max(factor(unshadowed, 4)).max(shortfall.rounds.next_power_of_two());
         Self {
-            layers: self
-                .layers
-                .saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
+            layers: self.layers.saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
-            long_lists: if of_lights || shortfall.stalled > 0 {
-                self.long_lists.shorter()
-            } else {
-                self.long_lists
-            },
+            long_lists: if of_lights || shortfall.stalled > 0 { self.long_lists.shorter() } else { self.long_lists },
             samples_unlisted: self.samples_unlisted
                 || (shortfall.unlisted_tiles > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
             looks_up_occluders,
@@ -165,12 +149,7 @@ pub(crate) struct Shortfall {
 impl Shortfall {
     /// Adds a run of the sampling passes over `tiles` tiles, with room for `triangles` triangles and `pairs` pairs.
     /// `samples_unlisted` says whether tiles without a list were sampled or skipped.
-    pub fn add(
-        &mut self,
-        counters: &[u32],
-        (tiles, triangles, pairs): (u32, u32, u32),
-        samples_unlisted: bool,
-    ) {
+    pub fn add(&mut self, counters: &[u32], (tiles, triangles, pairs): (u32, u32, u32), samples_unlisted: bool) {
         let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
             let done = get(Counter::NextTile);
@@ -226,41 +205,19 @@ mod tests {
         shortfall.add(&counters, (1, 1, ROOM), false);
         assert_eq!(Capacity::default().more(shortfall).lists, 8);
         // A shortage of unknown size multiplies only the capacity that was short.
-        let crowded = Shortfall {
-            crowded: 1,
-            ..Shortfall::default()
-        };
+        let crowded = Shortfall { crowded: 1, ..Shortfall::default() };
         let more = Capacity::default().without_unlisted_tiles().more(crowded);
-        assert_eq!(
-            (more.layers, more.lists, more.samples_unlisted),
-            (16, 4, false)
-        );
-        let unlisted = Shortfall {
-            unlisted_tiles: 1,
-            ..Shortfall::default()
-        };
-        assert_eq!(
-            Capacity::default().without_unlisted_tiles().more(unlisted),
-            Capacity::default()
-        );
+        assert_eq!((more.layers, more.lists, more.samples_unlisted), (16, 4, false));
+        let unlisted = Shortfall { unlisted_tiles: 1, ..Shortfall::default() };
+        assert_eq!(Capacity::default().without_unlisted_tiles().more(unlisted), Capacity::default());
         // If pairs lacked room, tiles without a list may get one once there is room.
-        let outgrown = Shortfall {
-            unlisted_tiles: 1,
-            rooms: 2,
-            ..Shortfall::default()
-        };
+        let outgrown = Shortfall { unlisted_tiles: 1, rooms: 2, ..Shortfall::default() };
         let more = Capacity::default().without_unlisted_tiles().more(outgrown);
         assert_eq!((more.lists, more.samples_unlisted), (2, false));
         assert!(more.more(outgrown).samples_unlisted);
         // Lights may lack rounds.
-        let unshadowed = Shortfall {
-            unshadowed: 1,
-            ..Shortfall::default()
-        };
-        let few = Capacity {
-            rounds: Some(2),
-            ..Capacity::default()
-        };
+        let unshadowed = Shortfall { unshadowed: 1, ..Shortfall::default() };
+        let few = Capacity { rounds: Some(2), ..Capacity::default() };
         let few = few.more(unshadowed);
         assert_eq!((few.rounds, few.looks_up_occluders), (Some(2), false));
         let more = few.more(unshadowed);
@@ -268,15 +225,8 @@ mod tests {
         assert_eq!(unlike(&more), (Some(8), 1, LongLists::SeveralCells));
         let longer = more.more(unshadowed);
         assert_eq!(unlike(&longer), (Some(32), 2, LongLists::OneCell));
-        let late = Shortfall {
-            waiting: 5,
-            rounds: 3,
-            ..Shortfall::default()
-        };
+        let late = Shortfall { waiting: 5, rounds: 3, ..Shortfall::default() };
         assert_eq!(few.more(late).rounds, Some(8));
-        assert_eq!(
-            Capacity::default().more(Shortfall::default()),
-            Capacity::default()
-        );
+        assert_eq!(Capacity::default().more(Shortfall::default()), Capacity::default());
     }
 }

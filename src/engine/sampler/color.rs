@@ -20,9 +20,7 @@ impl SamplerSettings {
     fn tonemaps_codes(&self) -> bool {
         match self.reference {
             Reference::Display => true,
-            Reference::Scene {
-                tonemapped_detection,
-            } => tonemapped_detection,
+            Reference::Scene { tonemapped_detection } => tonemapped_detection,
         }
     }
 
@@ -54,8 +52,7 @@ impl SamplerSettings {
         }
         let alpha = f64::from(color[3]);
         let opaque = color.map(|channel| f64::from(channel) / alpha.max(1e-6));
-        let [r, g, b] = tonemap::neutral([opaque[0], opaque[1], opaque[2]])
-            .map(|channel| (channel * alpha) as f32);
+        let [r, g, b] = tonemap::neutral([opaque[0], opaque[1], opaque[2]]).map(|channel| (channel * alpha) as f32);
         display_code([r, g, b, color[3]])
     }
 }

@@ -26,10 +26,7 @@ impl CounterLog {
                 MemoryUse::Readback,
             )
         };
-        Ok(Self {
-            buffer: (slots > 0).then(buffer).transpose()?,
-            slots,
-        })
+        Ok(Self { buffer: (slots > 0).then(buffer).transpose()?, slots })
     }
 
     /// Records a copy of the counters to a slot, if there are slots.
@@ -44,10 +41,7 @@ impl CounterLog {
     ///
     /// # Errors
     /// If the counters can't be read.
-    pub fn read(
-        &self,
-        slots_of_run: usize,
-    ) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
+    pub fn read(&self, slots_of_run: usize) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
         let words: &[u32] = match &self.buffer {
             Some(buffer) => buffer.read(self.slots * Counter::COUNT)?,
             None => &[],

@@ -63,9 +63,7 @@ pub enum EngineError {
         limit: u32,
     },
     /// Limit for memory that is too small even for the smallest part of the image.
-    #[error(
-        "{needed} bytes of device memory are needed at the least, and the bound on it allows {allowed}"
-    )]
+    #[error("{needed} bytes of device memory are needed at the least, and the bound on it allows {allowed}")]
     Memory {
         /// Smallest number of bytes that suffices.
         needed: u64,

@@ -67,21 +67,11 @@ impl Footprints {
         // The distance between samples, in pixels.
         let sample = 1.0 / (samples as f32).sqrt();
         match filter {
-            TextureFilter::Squares(side) => Self {
-                centre: side,
-                place: side,
-                sample: side,
-            },
-            TextureFilter::Samples => Self {
-                centre: 0.5,
-                place: sample,
-                sample: if samples > 1 { sample } else { ALPHA_SIDE },
-            },
-            TextureFilter::Boxes => Self {
-                centre: 1.0,
-                place: 1.0,
-                sample: ALPHA_SIDE * sample,
-            },
+            TextureFilter::Squares(side) => Self { centre: side, place: side, sample: side },
+            TextureFilter::Samples => {
+                Self { centre: 0.5, place: sample, sample: if samples > 1 { sample } else { ALPHA_SIDE } }
+            }
+            TextureFilter::Boxes => Self { centre: 1.0, place: 1.0, sample: ALPHA_SIDE * sample },
         }
     }
 }

@@ -26,19 +26,12 @@ impl ImageState {
         layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
         stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
         access: vk::AccessFlags2::from_raw(
-            vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
-                | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+            vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw() | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
         ),
     };
 
     /// Records the barrier that changes the image from this state to another.
-    pub(crate) fn change(
-        self,
-        recorder: &Recorder<'_>,
-        image: vk::Image,
-        aspect_mask: vk::ImageAspectFlags,
-        to: Self,
-    ) {
+    pub(crate) fn change(self, recorder: &Recorder<'_>, image: vk::Image, aspect_mask: vk::ImageAspectFlags, to: Self) {
         let range = vk::ImageSubresourceRange {
             aspect_mask,
             base_mip_level: 0,

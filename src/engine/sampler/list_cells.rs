@@ -6,9 +6,7 @@ use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSize
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::{
-    MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel,
-};
+use crate::engine::sampler::plan::{MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel};
 use crate::engine::sampler::{Capacity, CellOptions, EngineError};
 use crate::vulkan::Texels;
 
@@ -29,11 +27,7 @@ impl ListCells {
     ///
     /// # Errors
     /// If the pattern can't have this number of samples.
-    pub fn offsets(
-        &self,
-        layout: &FrameLayout,
-        options: &CellOptions,
-    ) -> Result<(Vec<[f32; 2]>, u32), EngineError> {
+    pub fn offsets(&self, layout: &FrameLayout, options: &CellOptions) -> Result<(Vec<[f32; 2]>, u32), EngineError> {
         let (own, count) = if self.cells.are_points() {
             (vec![[0.0; 2]], self.cell_sizes(layout, options).in_cell)
         } else {
@@ -44,11 +38,7 @@ impl ListCells {
     }
 
     fn cell_sizes(&self, layout: &FrameLayout, options: &CellOptions) -> CellSizes {
-        CellSizes::new(
-            layout.gpu.limits().teams.members,
-            self.cells,
-            options.samples,
-        )
+        CellSizes::new(layout.gpu.limits().teams.members, self.cells, options.samples)
     }
 
     /// Sizes of the memory for `locations` locations in a region of `region` pixels, whose sides are whole tiles.
@@ -64,9 +54,7 @@ impl ListCells {
         let tiles = tile_count(region);
         let most = u64::from(locations);
         let records = match self.cells {
-            Cells::Points | Cells::Occluders if scene.has_blend() => {
-                u64::from(Capacity::LAYERS) * most
-            }
+            Cells::Points | Cells::Occluders if scene.has_blend() => u64::from(Capacity::LAYERS) * most,
             Cells::Points | Cells::Occluders => most,
             Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(options, scene),
         };
@@ -74,21 +62,11 @@ impl ListCells {
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let cell_sizes = self.cell_sizes(layout, options);
-        let locations = LocationSizes {
-            lent: self.lent,
-            ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
-        };
+        let locations = LocationSizes { lent: self.lent, ..LocationSizes::new(locations, tiles as u32, &cell_sizes) };
         // The memory of candidates has room for all points, because all of them may lie in tiles without a list.
-        let points = if self.cells.are_points() {
-            u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS
-        } else {
-            0
-        };
-        let candidates = candidates.max(if scene.has_blend() {
-            2 * points
-        } else {
-            points
-        });
+        let points =
+            if self.cells.are_points() { u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS } else { 0 };
+        let candidates = candidates.max(if scene.has_blend() { 2 * points } else { points });
         let at_most = |room: u64, most: u64| (room * u64::from(capacity.lists)).min(most) as u32;
         // If the device turned out to need more layers, each location has room for all layers of its samples; for
         // occluders, a sixteenth of the locations has.
@@ -97,11 +75,7 @@ impl ListCells {
             Cells::Occluders => most.div_ceil(16),
             Cells::Superpixels | Cells::Pixels => u64::from(options.samples),
         };
-        let layered = if scene.has_blend() {
-            capacity.layered(of_location).min(most_records(limits))
-        } else {
-            0
-        };
+        let layered = if scene.has_blend() { capacity.layered(of_location).min(most_records(limits)) } else { 0 };
         ResourceSizes {
             region,
             team: limits.teams.members,
@@ -130,24 +104,13 @@ impl ListCells {
         context: &SamplerContext<'_>,
         (resources, locations): (&Resources, Texels),
     ) -> Result<Sampler, EngineError> {
-        let SamplerContext {
-            layout,
-            scene,
-            settings,
-            output,
-            ..
-        } = *context;
+        let SamplerContext { layout, scene, settings, output, .. } = *context;
         let sizes = self.cell_sizes(layout, &settings.cells);
-        let samples = if self.cells.are_points() {
-            sizes.in_cell
-        } else {
-            settings.cells.samples
-        };
+        let samples = if self.cells.are_points() { sizes.in_cell } else { settings.cells.samples };
         let options = context.sample_options(self.cells, samples);
         let source = || {
             // SAFETY: guaranteed by the caller.
-            let distribute =
-                unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
+            let distribute = unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
             Ok(Source::List(distribute))
         };
         Sampler::new(context, &options, source, |blocks| {
@@ -155,9 +118,7 @@ impl ListCells {
             match self.cells {
                 Cells::Occluders => Ok(Vec::new()),
                 Cells::Points => Ok(vec![points::pass(layout, scene, output, of_points)?]),
-                Cells::Superpixels | Cells::Pixels => {
-                    averaging(context, blocks, ResolveTarget::Nothing, None)
-                }
+                Cells::Superpixels | Cells::Pixels => averaging(context, blocks, ResolveTarget::Nothing, None),
             }
         })
     }

@@ -76,23 +76,15 @@ impl Load {
     pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
         let tiles = u64::from(sizes.tiles());
         let samples = u64::from(self.blocks.options.samples);
-        let [pairs, candidates, records] = [
-            sizes.pair_capacity,
-            sizes.list_capacity,
-            sizes.record_capacity,
-        ]
-        .map(u64::from);
+        let [pairs, candidates, records] =
+            [sizes.pair_capacity, sizes.list_capacity, sizes.record_capacity].map(u64::from);
         /// Number of pixels of a tile.
         const PIXELS: u64 = 32;
         let records_of_cell = samples + u64::from(self.pushed.more_records);
         let (cells, all_samples) = match sizes.locations {
             None => (PIXELS * tiles, PIXELS * tiles * records_of_cell),
             Some(list) => {
-                let of_location = if self.blocks.options.cells.are_points() {
-                    1
-                } else {
-                    samples
-                };
+                let of_location = if self.blocks.options.cells.are_points() { 1 } else { samples };
                 (list.cells.into(), of_location * u64::from(list.locations))
             }
         };
@@ -112,9 +104,7 @@ impl Load {
         ];
         let needs = listed.into_iter();
         let needs = needs.chain(self.unlisted_needs(sizes, triangles, (cells, cells_of_tile)));
-        let ended: u64 = needs
-            .map(|(all, room, most)| rounds_ended(all, room, most))
-            .sum();
+        let ended: u64 = needs.map(|(all, room, most)| rounds_ended(all, room, most)).sum();
         (1 + ended).min(tiles).max(1) as u32
     }
 
@@ -129,34 +119,24 @@ impl Load {
         if !self.blocks.options.samples_unlisted {
             return Vec::new();
         }
-        let [tiles, pairs, candidates] =
-            [sizes.tiles(), sizes.pair_capacity, sizes.list_capacity].map(u64::from);
+        let [tiles, pairs, candidates] = [sizes.tiles(), sizes.pair_capacity, sizes.list_capacity].map(u64::from);
         let [longest, layers] = match self.blocks.options.has_blend {
             true => [self.pushed.longest_layered, self.pushed.layers / 2],
             false => [self.pushed.longest_list, 1],
         };
         // If memory may grow, a recording need not process the tiles that have no list because pairs lacked room.
         let dense = pairs / (1 + u64::from(longest).min(candidates));
-        let dense = if pairs < self.most_pairs {
-            dense.min(tiles)
-        } else {
-            tiles
-        };
+        let dense = if pairs < self.most_pairs { dense.min(tiles) } else { tiles };
         let cells = match sizes.locations {
             None => dense * cells_of_tile,
             Some(_) => cells,
         };
-        let owners =
-            |cells: u64| cells * u64::from(self.blocks.options.samples.div_ceil(4) * layers);
+        let owners = |cells: u64| cells * u64::from(self.blocks.options.samples.div_ceil(4) * layers);
         let entries = |cells: u64, tiles: u64| cells / u64::from(sizes.team) + tiles;
         let tried = (spirv::MOST_TRIALS / triangles.max(1)).max(spirv::FEWEST_TRIED);
         vec![
             (owners(cells), candidates, owners(cells_of_tile)),
-            (
-                entries(cells, dense),
-                tried.into(),
-                entries(cells_of_tile, 1),
-            ),
+            (entries(cells, dense), tried.into(), entries(cells_of_tile, 1)),
         ]
     }
 
@@ -166,11 +146,7 @@ impl Load {
             return samples;
         }
         let [layers, parts] = [self.pushed.layers, self.pushed.parts].map(u64::from);
-        let lists_of_block = if parts > 8 {
-            layers * parts / 4
-        } else {
-            2 * layers
-        };
+        let lists_of_block = if parts > 8 { layers * parts / 4 } else { 2 * layers };
         let lists = match self.pushed.per_sample {
             0 => samples.min(headers * lists_of_block),
             _ => samples,

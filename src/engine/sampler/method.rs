@@ -115,11 +115,7 @@ impl CellOptions {
     /// Default options with `samples` samples of a cell.
     #[must_use]
     pub fn new(samples: u32) -> Self {
-        Self {
-            samples,
-            pattern: Pattern::Lines,
-            shading: Shading::Part,
-        }
+        Self { samples, pattern: Pattern::Lines, shading: Shading::Part }
     }
 
     /// Checks the number of samples, and that the pattern can have it.
@@ -212,17 +208,13 @@ impl SuperpixelOptions {
     /// Contrast threshold in code values: two colours contrast if any channel differs by more.
     #[must_use]
     pub fn threshold(&self) -> u8 {
-        self.contrast
-            .unwrap_or_else(|| Self::default_contrast(self.cells.samples))
+        self.contrast.unwrap_or_else(|| Self::default_contrast(self.cells.samples))
     }
 
     /// Checks the numbers of samples and growths.
     pub(crate) fn check(&self) -> Result<(), EngineError> {
         match self.growths {
-            Some(asked) if asked > Self::MOST_GROWTHS => Err(EngineError::Growths {
-                asked,
-                most: Self::MOST_GROWTHS,
-            }),
+            Some(asked) if asked > Self::MOST_GROWTHS => Err(EngineError::Growths { asked, most: Self::MOST_GROWTHS }),
             _ => self.cells.check(),
         }
     }
@@ -278,43 +270,28 @@ impl Method {
     pub(crate) fn offsets(&self) -> Result<Vec<[f32; 2]>, EngineError> {
         match self {
             Self::None | Self::Ssaa { .. } => Ok(vec![[0.0, 0.0]]),
-            Self::Superpixel(options) => {
-                Ok(options.cells.pattern.offsets(options.cells.samples)?)
-            }
+            Self::Superpixel(options) => Ok(options.cells.pattern.offsets(options.cells.samples)?),
             Self::Msaa { samples } => Ok(Pattern::Rotated.offsets(*samples)?),
         }
     }
 
     /// Checks the number of samples.
     pub(super) fn check(&self, limits: &Limits) -> Result<(), EngineError> {
-        let refuse = |method, possible| {
-            Err(EngineError::Samples {
-                method,
-                asked: self.samples(),
-                possible,
-            })
-        };
+        let refuse = |method, possible| Err(EngineError::Samples { method, asked: self.samples(), possible });
         match self {
             Self::None => Ok(()),
             Self::Superpixel(options) => options.check(),
             Self::Ssaa { samples } => {
                 let side = samples.isqrt();
                 if side == 0 || side > 32 || side * side != *samples {
-                    return refuse(
-                        "ssaa",
-                        "the squares of 1 to 32: 1, 4, 9, 16, ..., 1024".to_owned(),
-                    );
+                    return refuse("ssaa", "the squares of 1 to 32: 1, 4, 9, 16, ..., 1024".to_owned());
                 }
                 Ok(())
             }
             Self::Msaa { samples } => {
                 let possible: Vec<u32> = [2, 4, 8, 16]
                     .into_iter()
-                    .filter(|n| {
-                        limits
-                            .sample_counts
-                            .contains(vk::SampleCountFlags::from_raw(*n))
-                    })
+                    .filter(|n| limits.sample_counts.contains(vk::SampleCountFlags::from_raw(*n)))
                     .collect();
                 if !possible.contains(samples) {
                     let names: Vec<String> = possible.iter().map(ToString::to_string).collect();

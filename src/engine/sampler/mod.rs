@@ -40,15 +40,14 @@ pub use statistics::{Statistics, TriangleCounts};
 pub(crate) use tile_lists::TileLists;
 
 use crate::engine::data::{
-    Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources,
-    SampleSet,
+    Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources, SampleSet,
 };
 use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite,
-    cull, groups, resolve, sample, schedule, setup, sort, tally,
+    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite, cull, groups, resolve,
+    sample, schedule, setup, sort, tally,
 };
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
@@ -96,11 +95,7 @@ impl SamplerContext<'_> {
             cells,
             samples,
             lines: options.pattern == Pattern::Lines,
-            records: if points {
-                RecordRate::Sample
-            } else {
-                record_rate(options.shading, scene)
-            },
+            records: if points { RecordRate::Sample } else { record_rate(options.shading, scene) },
             one_cell: !self.layout.gpu.limits().is_cpu(),
             long_lists: self.capacity.long_lists,
             samples_unlisted: self.capacity.samples_unlisted,
@@ -164,13 +159,7 @@ impl Sampler {
         source: impl FnOnce() -> Result<Source, EngineError>,
         colors: impl FnOnce(&SampleBlocks) -> Result<Vec<Pass>, EngineError>,
     ) -> Result<Self, EngineError> {
-        let SamplerContext {
-            layout,
-            scene,
-            sizes,
-            capacity,
-            ..
-        } = *context;
+        let SamplerContext { layout, scene, sizes, capacity, .. } = *context;
         let cells = options.cells;
         let limits = layout.gpu.limits();
         let blocks = SampleBlocks::new(limits.teams, *options);
@@ -242,18 +231,8 @@ impl Sampler {
     }
 
     /// Records a run: finding the cells, sampling and shading them, and their growth.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        run: &SamplerRun<'_>,
-        shading: &dyn RecordShading,
-    ) {
-        let SamplerRun {
-            resources,
-            set,
-            uniform,
-            ..
-        } = *run;
+    pub fn record(&self, recorder: &Recorder<'_>, run: &SamplerRun<'_>, shading: &dyn RecordShading) {
+        let SamplerRun { resources, set, uniform, .. } = *run;
         let tiles = uniform.tiles[0] * uniform.tiles[1];
         match &self.source {
             Source::Pixels { thin, detect, .. } => {
@@ -265,10 +244,7 @@ impl Sampler {
             }
             Source::List(distribute) => {
                 let (count, length) = run.list;
-                let region = ListRegion {
-                    tiles: uniform.tiles,
-                    count,
-                };
+                let region = ListRegion { tiles: uniform.tiles, count };
                 distribute.record(recorder, (resources, set), &region, length);
             }
         }
@@ -292,13 +268,7 @@ impl Sampler {
         }
     }
 
-    fn record_rounds(
-        &self,
-        recorder: &Recorder<'_>,
-        resources: &Resources,
-        rounds: u32,
-        shading: &dyn RecordShading,
-    ) {
+    fn record_rounds(&self, recorder: &Recorder<'_>, resources: &Resources, rounds: u32, shading: &dyn RecordShading) {
         for pass in &self.candidates {
             pass.record(recorder);
         }

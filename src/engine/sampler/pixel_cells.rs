@@ -67,13 +67,7 @@ impl PixelCells {
     /// # Errors
     /// If the driver refuses a pipeline, or memory runs out.
     pub fn sampler(&self, context: &SamplerContext<'_>) -> Result<Sampler, EngineError> {
-        let SamplerContext {
-            layout,
-            scene,
-            settings,
-            sizes,
-            ..
-        } = *context;
+        let SamplerContext { layout, scene, settings, sizes, .. } = *context;
         let options = SampleOptions {
             always_blends: self.mode == DetectMode::Blended,
             ..context.sample_options(Cells::Pixels, self.samples)
@@ -96,10 +90,7 @@ impl PixelCells {
             Ok(Source::Pixels {
                 thin: self.thin.then(thin).transpose()?,
                 detect: detect::pass(layout, &options)?,
-                growths: (0..self.growths)
-                    .rev()
-                    .map(|beyond| grow::pass(layout, beyond))
-                    .collect::<Result<_, _>>()?,
+                growths: (0..self.growths).rev().map(|beyond| grow::pass(layout, beyond)).collect::<Result<_, _>>()?,
             })
         };
         let target = match (self.growths > 0, self.detected) {
@@ -107,8 +98,6 @@ impl PixelCells {
             (false, true) => ResolveTarget::Detect,
             (false, false) => ResolveTarget::Nothing,
         };
-        Sampler::new(context, &options, source, |blocks| {
-            averaging(context, blocks, target, self.behind.as_ref())
-        })
+        Sampler::new(context, &options, source, |blocks| averaging(context, blocks, target, self.behind.as_ref()))
     }
 }

@@ -147,15 +147,13 @@ impl Plan {
             Method::None | Method::Ssaa { .. } => 1,
         };
         let lights = if shadow_words > 0 { SHADOWED } else { 1 };
-        let most = REGION_PIXELS
-            .min(limits.max_submitted_samples / (samples_a_pixel * lights))
-            .max(SMALL_REGION_PIXELS);
+        let most =
+            REGION_PIXELS.min(limits.max_submitted_samples / (samples_a_pixel * lights)).max(SMALL_REGION_PIXELS);
         let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = image.max_memory;
         loop {
-            let mut plan =
-                Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
+            let mut plan = Self::with_region(image, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
             let needed = plan.shrink(scene, image, allowed, taken);
@@ -167,10 +165,7 @@ impl Plan {
             }
             let longer = usize::from(region[1] > region[0]);
             if region[longer] <= 8 {
-                return Err(EngineError::Memory {
-                    needed,
-                    allowed: allowed.unwrap_or(0),
-                });
+                return Err(EngineError::Memory { needed, allowed: allowed.unwrap_or(0) });
             }
             // Sides are whole numbers of tiles, so that the regions have the same tiles as the undivided image.
             region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
@@ -274,11 +269,8 @@ impl Plan {
             Method::None | Method::Ssaa { .. } => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
-        let records = if detects && records > large && policy == RoundPolicy::Small {
-            (records / 3).max(large)
-        } else {
-            records
-        };
+        let records =
+            if detects && records > large && policy == RoundPolicy::Small { (records / 3).max(large) } else { records };
         // A tile has room for all layers of its samples.
         let of_tile = capacity.layered(pixels.min(32) * samples);
         let records = records.max(of_tile.min(most_records(limits)));
@@ -289,8 +281,7 @@ impl Plan {
         };
         let most_listed = ResourceSizes::most_pairs(limits);
         let triangles = u64::from(scene.triangle_slots());
-        let (most_pairs, most_candidates) = if scene.is_instanced() && policy == RoundPolicy::Small
-        {
+        let (most_pairs, most_candidates) = if scene.is_instanced() && policy == RoundPolicy::Small {
             (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
         } else {
             (MOST_PAIRS, MOST_CANDIDATES)
@@ -298,11 +289,7 @@ impl Plan {
         let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
         let pairs = room(triangles * 4 + tiles * 16, most_pairs);
         let candidates = room(triangles * 3 + tiles * 8, most_candidates);
-        let filtered = if side > 1 {
-            pixels / u64::from(side * side)
-        } else {
-            0
-        };
+        let filtered = if side > 1 { pixels / u64::from(side * side) } else { 0 };
         let filters = limits.is_cpu()
             && !matches!(image.method, Method::Msaa { .. })
             && scene.triangle_slots() >= FILTER_TRIANGLES
@@ -312,8 +299,7 @@ impl Plan {
             team: limits.teams.members,
             locations: None,
             // A surviving triangle has at least one pair.
-            survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
-                .min(scene.triangle_slots()),
+            survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4).min(scene.triangle_slots()),
             filtered_triangles: if filters { scene.triangle_slots() } else { 0 },
             pair_capacity: at_most(pairs, most_listed),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
@@ -329,12 +315,7 @@ impl Plan {
                 }
             },
         };
-        Ok(Self {
-            regions,
-            sizes,
-            capacity,
-            lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
-        })
+        Ok(Self { regions, sizes, capacity, lists_can_grow: u64::from(sizes.pair_capacity) < most_listed })
     }
 
     fn bytes(&self, scene: &dyn Content, image: &ImageRequest<'_>) -> u64 {
@@ -342,8 +323,7 @@ impl Plan {
             Method::Msaa { samples } => u64::from(*samples),
             _ => 1,
         };
-        let images =
-            u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
+        let images = u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
         self.sizes.bytes() + images
     }
 }
@@ -416,13 +396,7 @@ mod tests {
             for samples in [64, 256, 1024] {
                 let method = Method::from(SuperpixelOptions::new(samples));
                 let taken = |local: u64, max_memory| {
-                    let image = ImageRequest {
-                        size,
-                        region: None,
-                        method: &method,
-                        attributes: false,
-                        max_memory,
-                    };
+                    let image = ImageRequest { size, region: None, method: &method, attributes: false, max_memory };
                     let limits = gpu(local << 30);
                     let plan = Plan::whole(&image, &Triangles, &limits, Capacity::default(), 0);
                     let plan = plan.unwrap();
@@ -431,10 +405,7 @@ mod tests {
                 for local in [2, 8, 24, 141] {
                     let (bytes, records) = taken(local, None);
                     assert!(bytes <= 960 << 20, "{size:?}, {samples}, {local}: {bytes}");
-                    assert!(
-                        records >= 1 << 20,
-                        "{size:?}, {samples}, {local}: {records}"
-                    );
+                    assert!(records >= 1 << 20, "{size:?}, {samples}, {local}: {records}");
                 }
                 let (bytes, records) = taken(141, Some(4 << 30));
                 assert!(bytes <= 4 << 30, "{bytes}");

@@ -50,9 +50,7 @@ impl RoundPolicy {
     pub fn most_records(self, limits: &Limits) -> u64 {
         match self {
             Self::Small => MOST_RECORDS,
-            Self::Large { records } => records
-                .min(limits.max_storage_bytes / 16)
-                .min(limits.max_texel_elements),
+            Self::Large { records } => records.min(limits.max_storage_bytes / 16).min(limits.max_texel_elements),
         }
     }
 }

@@ -49,14 +49,9 @@ impl PixelRect {
     /// # Errors
     /// [`EngineError::Region`] if it has no pixels or leaves an image of that size.
     pub fn end(&self, image: [u32; 2]) -> Result<[u32; 2], EngineError> {
-        let outside = EngineError::Region {
-            region: *self,
-            image,
-        };
+        let outside = EngineError::Region { region: *self, image };
         let end = |axis: usize| {
-            self.corner[axis]
-                .checked_add(self.size[axis])
-                .filter(|end| self.size[axis] > 0 && *end <= image[axis])
+            self.corner[axis].checked_add(self.size[axis]).filter(|end| self.size[axis] > 0 && *end <= image[axis])
         };
         match (end(0), end(1)) {
             (Some(right), Some(bottom)) => Ok([right, bottom]),
@@ -125,11 +120,7 @@ impl ImageRequest<'_> {
 pub(crate) fn check_image_size([width, height]: [u32; 2]) -> Result<(), EngineError> {
     const LARGEST_SIDE: u32 = 65_535;
     if !(1..=LARGEST_SIDE).contains(&width) || !(1..=LARGEST_SIDE).contains(&height) {
-        return Err(EngineError::Size {
-            width,
-            height,
-            limit: LARGEST_SIDE,
-        });
+        return Err(EngineError::Size { width, height, limit: LARGEST_SIDE });
     }
     Ok(())
 }

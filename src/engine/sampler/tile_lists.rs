@@ -19,12 +19,7 @@ const PAIRS_OF_TILE: u64 = 8;
 const FEWEST_PAIRS: u64 = 1 << 14;
 
 /// Kind of the cells for which the passes are made. A tile has one cell, which stands for all places that are looked up.
-const PLACES: ListCells = ListCells {
-    cells: Cells::Occluders,
-    attributes: false,
-    shadow_words: 0,
-    lent: true,
-};
+const PLACES: ListCells = ListCells { cells: Cells::Occluders, attributes: false, shadow_words: 0, lent: true };
 
 impl TileLists {
     /// Sizes of the memory for a plane of `region` pixels, whose sides are whole tiles.
@@ -38,8 +33,7 @@ impl TileLists {
         let sizes = PLACES.sizes(layout, scene, options, (1, region), capacity);
         let [triangles, tiles] = [scene.triangle_slots().into(), tile_count(region)];
         // All lists are in memory at once.
-        let pairs = (PAIRS_OF_TRIANGLE * triangles + PAIRS_OF_TILE * tiles)
-            .clamp(FEWEST_PAIRS, MOST_CANDIDATES) as u32;
+        let pairs = (PAIRS_OF_TRIANGLE * triangles + PAIRS_OF_TILE * tiles).clamp(FEWEST_PAIRS, MOST_CANDIDATES) as u32;
         ResourceSizes {
             pair_capacity: pairs,
             list_capacity: pairs,
@@ -68,12 +62,7 @@ impl TileLists {
     }
 
     /// Records the passes. Passes use the set `set` from here on.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        (resources, set): (&Resources, &SampleSet),
-        uniform: &FrameUniform,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, (resources, set): (&Resources, &SampleSet), uniform: &FrameUniform) {
         resources.record_begin(recorder, set, uniform);
         resources.record_all_tiles(recorder);
         for pass in &self.0 {

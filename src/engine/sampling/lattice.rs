@@ -22,9 +22,7 @@ pub(super) fn rotated(side: u32) -> Vec<Location> {
 pub(super) fn korobov(count: u32) -> Vec<Location> {
     let centre = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
     let generator = generator(count);
-    (0..count)
-        .map(|i| locate(centre(i), centre(i * generator % count)))
-        .collect()
+    (0..count).map(|i| locate(centre(i), centre(i * generator % count))).collect()
 }
 
 /// The generator, coprime to `count`, with the smallest worst-case error over smooth periodic functions (I. H. Sloan
@@ -49,9 +47,5 @@ fn generator(count: u32) -> u32 {
 
 /// Greatest common divisor by Euclid's algorithm.
 fn greatest_common_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 {
-        a
-    } else {
-        greatest_common_divisor(b, a % b)
-    }
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }

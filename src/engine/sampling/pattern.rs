@@ -50,9 +50,7 @@ pub enum Pattern {
 #[non_exhaustive]
 pub enum PatternError {
     /// Name that no pattern has.
-    #[error(
-        "no sample pattern is called `{0}`; there are lines, sobol, lattice, korobov, grid and rotated"
-    )]
+    #[error("no sample pattern is called `{0}`; there are lines, sobol, lattice, korobov, grid and rotated")]
     Unknown(String),
     /// Number of samples that is 0 or above [`MAX_SAMPLES`].
     #[error("{0} samples in a pixel were asked for; choose 1 to {MAX_SAMPLES}")]
@@ -79,9 +77,7 @@ pub enum PatternError {
         found: usize,
     },
     /// Offset of a list that is NaN or outside of the pixel.
-    #[error(
-        "offset {index} of the list is ({x}, {y}); both coordinates must be at least -0.5 and below 0.5"
-    )]
+    #[error("offset {index} of the list is ({x}, {y}); both coordinates must be at least -0.5 and below 0.5")]
     ListOutside {
         /// Index of the offset in the list.
         index: usize,
@@ -161,10 +157,7 @@ impl FromStr for Pattern {
 /// Checks a caller's list, and converts it to locations.
 fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternError> {
     if list.len() != count as usize {
-        return Err(PatternError::ListLength {
-            count,
-            found: list.len(),
-        });
+        return Err(PatternError::ListLength { count, found: list.len() });
     }
     let mut seen = HashMap::with_capacity(list.len());
     let mut locations = Vec::with_capacity(list.len());
@@ -175,10 +168,7 @@ fn locate_list(list: &[[f32; 2]], count: u32) -> Result<Vec<Location>, PatternEr
         }
         let location = locate(f64::from(x) + 0.5, f64::from(y) + 0.5);
         if let Some(first) = seen.insert(location, index) {
-            return Err(PatternError::ListDuplicate {
-                first,
-                second: index,
-            });
+            return Err(PatternError::ListDuplicate { first, second: index });
         }
         locations.push(location);
     }

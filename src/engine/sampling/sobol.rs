@@ -24,10 +24,7 @@ pub(super) fn locations(count: u32, seed: u32) -> Vec<Location> {
     (0..count)
         .map(|index| {
             let index = index as u16;
-            [
-                scramble(index.reverse_bits(), seeds[0]),
-                scramble(second_dimension(index), seeds[1]),
-            ]
+            [scramble(index.reverse_bits(), seeds[0]), scramble(second_dimension(index), seeds[1])]
         })
         .collect()
 }

@@ -15,16 +15,7 @@ const STANDARD: [&[[u8; 2]]; 5] = [
     &[[8, 8]],
     &[[12, 12], [4, 4]],
     &[[6, 2], [14, 6], [2, 10], [10, 14]],
-    &[
-        [9, 5],
-        [7, 11],
-        [13, 9],
-        [5, 3],
-        [3, 13],
-        [1, 7],
-        [11, 15],
-        [15, 1],
-    ],
+    &[[9, 5], [7, 11], [13, 9], [5, 3], [3, 13], [1, 7], [11, 15], [15, 1]],
     &[
         [9, 9],
         [7, 5],
@@ -56,23 +47,16 @@ pub(super) fn grid(count: u32) -> Result<Vec<Location>, PatternError> {
         });
     }
     let centre = |index: u32| (f64::from(index) + 0.5) / f64::from(side);
-    Ok((0..count)
-        .map(|index| locate(centre(index % side), centre(index / side)))
-        .collect())
+    Ok((0..count).map(|index| locate(centre(index % side), centre(index / side))).collect())
 }
 
 /// Standard sample locations for `count` samples.
 pub(super) fn rotated(count: u32) -> Result<Vec<Location>, PatternError> {
-    let sixteenths = STANDARD
-        .iter()
-        .find(|set| set.len() == count as usize)
-        .ok_or_else(|| PatternError::CountUnavailable {
+    let sixteenths =
+        STANDARD.iter().find(|set| set.len() == count as usize).ok_or_else(|| PatternError::CountUnavailable {
             pattern: ROTATED,
             count,
             available: STANDARD.iter().map(|set| set.len() as u32).collect(),
         })?;
-    Ok(sixteenths
-        .iter()
-        .map(|xy| xy.map(|units| u16::from(units) << 12))
-        .collect())
+    Ok(sixteenths.iter().map(|xy| xy.map(|units| u16::from(units) << 12)).collect())
 }

@@ -175,11 +175,7 @@ impl Allocation {
 }
 
 /// The allocation, if its memory is coherent.
-fn coherent(
-    allocation: &gpu_allocator::vulkan::Allocation,
-) -> Option<&gpu_allocator::vulkan::Allocation> {
+fn coherent(allocation: &gpu_allocator::vulkan::Allocation) -> Option<&gpu_allocator::vulkan::Allocation> {
     let flags = allocation.memory_properties();
-    flags
-        .contains(vk::MemoryPropertyFlags::HOST_COHERENT)
-        .then_some(allocation)
+    flags.contains(vk::MemoryPropertyFlags::HOST_COHERENT).then_some(allocation)
 }

@@ -12,10 +12,7 @@ pub(super) struct Accesses {
 impl Accesses {
     /// Accesses of a copy.
     pub fn copy(from: vk::Buffer, to: vk::Buffer) -> Self {
-        Self {
-            reads: vec![from],
-            writes: vec![to],
-        }
+        Self { reads: vec![from], writes: vec![to] }
     }
 
     pub fn read(&mut self, buffer: vk::Buffer) {
@@ -29,8 +26,7 @@ impl Accesses {
     /// Whether `later` accesses have to wait for these.
     fn order(&self, later: &Self) -> bool {
         let writes_what = |read: &vk::Buffer| self.writes.contains(read);
-        let uses_what =
-            |written: &vk::Buffer| self.writes.contains(written) || self.reads.contains(written);
+        let uses_what = |written: &vk::Buffer| self.writes.contains(written) || self.reads.contains(written);
         later.reads.iter().any(writes_what) || later.writes.iter().any(uses_what)
     }
 
@@ -74,10 +70,7 @@ impl Ordered {
             Self::All => (S::ALL_COMMANDS, A::MEMORY_WRITE, A::MEMORY_READ),
         };
         let (stages, reads) = if can_skip {
-            (
-                stages | S::CONDITIONAL_RENDERING_EXT,
-                reads | A::CONDITIONAL_RENDERING_READ_EXT,
-            )
+            (stages | S::CONDITIONAL_RENDERING_EXT, reads | A::CONDITIONAL_RENDERING_READ_EXT)
         } else {
             (stages, reads)
         };
@@ -105,12 +98,7 @@ pub(super) struct Barriers {
 impl Barriers {
     /// State at the beginning of a recording, after unknown commands.
     pub fn new() -> Self {
-        Self {
-            pending: Accesses::default(),
-            group: None,
-            unknown: true,
-            recorded: true,
-        }
+        Self { pending: Accesses::default(), group: None, unknown: true, recorded: true }
     }
 
     /// Barrier that must be recorded before a dispatch, a copy or a fill with these accesses, if any.
@@ -125,10 +113,7 @@ impl Barriers {
             None
         };
         self.recorded = true;
-        self.group
-            .as_mut()
-            .unwrap_or(&mut self.pending)
-            .extend(accesses);
+        self.group.as_mut().unwrap_or(&mut self.pending).extend(accesses);
         barrier
     }
 
@@ -211,14 +196,7 @@ mod tests {
 
         /// Kinds of barriers that suffice between this command and a later one; `None` if they need no barrier.
         fn needs(self, later: Self) -> Option<&'static [Ordered]> {
-            let (
-                Self::Known { reads, writes },
-                Self::Known {
-                    reads: r,
-                    writes: w,
-                },
-            ) = (self, later)
-            else {
+            let (Self::Known { reads, writes }, Self::Known { reads: r, writes: w }) = (self, later) else {
                 return Some(&[Ordered::All]);
             };
             let conflict = |n: usize| writes[n] && (r[n] || w[n]) || reads[n] && w[n];
@@ -244,19 +222,13 @@ mod tests {
             commands.extend((0..LENGTH).map(of));
             let mut barriers = Barriers::new();
             let mut before = vec![None];
-            before.extend(
-                commands[1..]
-                    .iter()
-                    .map(|command| barrier_before(&mut barriers, *command)),
-            );
+            before.extend(commands[1..].iter().map(|command| barrier_before(&mut barriers, *command)));
             for (last, command) in commands.iter().enumerate() {
                 for first in 0..last {
                     if let Some(sufficient) = commands[first].needs(*command) {
                         let between = before[first + 1..=last].iter().flatten();
                         assert!(
-                            between
-                                .into_iter()
-                                .any(|barrier| sufficient.contains(barrier)),
+                            between.into_iter().any(|barrier| sufficient.contains(barrier)),
                             "{commands:?} {before:?}: {first}, {last}"
                         );
                     }
@@ -275,15 +247,9 @@ mod tests {
         let [read, write, ..] = COMMANDS;
         assert_eq!(barrier_before(&mut barriers, read), Some(Ordered::All));
         barriers.begin_group();
-        assert_eq!(
-            barrier_before(&mut barriers, write),
-            Some(Ordered::Dispatches)
-        );
+        assert_eq!(barrier_before(&mut barriers, write), Some(Ordered::Dispatches));
         assert_eq!(barrier_before(&mut barriers, write), None);
         barriers.end_group();
-        assert_eq!(
-            barrier_before(&mut barriers, write),
-            Some(Ordered::Dispatches)
-        );
+        assert_eq!(barrier_before(&mut barriers, write), Some(Ordered::Dispatches));
     }
 }

@@ -51,11 +51,7 @@ impl<'a> Recorder<'a> {
     /// - The commands are submitted only while everything that they refer to is alive. Until they have run, the CPU
     ///   neither reads what they write nor writes what they read.
     #[must_use]
-    pub unsafe fn new(
-        gpu: &'a Gpu,
-        raw: vk::CommandBuffer,
-        timings: Option<&'a mut Timings>,
-    ) -> Self {
+    pub unsafe fn new(gpu: &'a Gpu, raw: vk::CommandBuffer, timings: Option<&'a mut Timings>) -> Self {
         Self {
             gpu,
             raw,
@@ -164,16 +160,11 @@ impl<'a> Recorder<'a> {
     /// Records a barrier, and changes of images with it.
     fn record_barrier(&self, ordered: Option<Ordered>, images: &[vk::ImageMemoryBarrier2<'_>]) {
         let can_skip = self.gpu.conditional_rendering.is_some();
-        let memory: Vec<_> = ordered
-            .map(|ordered| ordered.barrier(can_skip))
-            .into_iter()
-            .collect();
+        let memory: Vec<_> = ordered.map(|ordered| ordered.barrier(can_skip)).into_iter().collect();
         if memory.is_empty() && images.is_empty() {
             return;
         }
-        let info = vk::DependencyInfo::default()
-            .memory_barriers(&memory)
-            .image_memory_barriers(images);
+        let info = vk::DependencyInfo::default().memory_barriers(&memory).image_memory_barriers(images);
         // SAFETY: `new`'s contract; synchronization2 is enabled.
         unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
         if self.traces {
@@ -252,8 +243,7 @@ impl<'a> Recorder<'a> {
             }
         };
         if self.traces && pipeline.bind_point == vk::PipelineBindPoint::GRAPHICS {
-            self.gpu
-                .trace(pipeline, Dispatched::Drawn, !self.repeats.get());
+            self.gpu.trace(pipeline, Dispatched::Drawn, !self.repeats.get());
         }
     }
 
@@ -351,15 +341,7 @@ impl<'a> Recorder<'a> {
         }
         debug_assert!(bytes.len() <= layout.push.size as usize);
         // SAFETY: `new`'s contract; the layout has room for the push constants of its pass.
-        unsafe {
-            self.gpu.device.cmd_push_constants(
-                self.raw,
-                layout.raw,
-                layout.push.stage_flags,
-                0,
-                bytes,
-            )
-        };
+        unsafe { self.gpu.device.cmd_push_constants(self.raw, layout.raw, layout.push.stage_flags, 0, bytes) };
     }
 
     /// Copies the first `bytes` bytes of a buffer to another one, from `first_byte` of that on. Both were created for
@@ -374,12 +356,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Safety
     /// Both buffers were created for copies, contain the regions, and outlive the execution of the commands.
-    pub(crate) unsafe fn copy_raw(
-        &self,
-        from: vk::Buffer,
-        to: vk::Buffer,
-        regions: &[vk::BufferCopy],
-    ) {
+    pub(crate) unsafe fn copy_raw(&self, from: vk::Buffer, to: vk::Buffer, regions: &[vk::BufferCopy]) {
         let raw = self.before(&Accesses::copy(from, to));
         // SAFETY: `new`'s contract; the rest is guaranteed by the caller.
         unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, regions) };
@@ -394,20 +371,14 @@ impl<'a> Recorder<'a> {
             let offset = first_byte + chunk * AT_ONCE as u64;
             // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers respect its
             // size.
-            unsafe {
-                self.gpu
-                    .device
-                    .cmd_update_buffer(raw, buffer.raw, offset, bytes)
-            };
+            unsafe { self.gpu.device.cmd_update_buffer(raw, buffer.raw, offset, bytes) };
         }
     }
 
     /// Buffer that the frame's sets show at a binding. The sets were named before.
     pub(crate) fn shown(&self, binding: Binding) -> vk::Buffer {
         let [of_frame, _] = &*self.shown.borrow();
-        let buffer = of_frame
-            .as_ref()
-            .and_then(|sets| sets.buffer(binding.number));
+        let buffer = of_frame.as_ref().and_then(|sets| sets.buffer(binding.number));
         debug_assert!(buffer.is_some(), "no set shows {}", binding.name);
         buffer.unwrap_or_default()
     }
@@ -463,10 +434,7 @@ impl<'a> Recorder<'a> {
 }
 
 /// Bind point and sets of the pipeline that was bound last, each set with its layout.
-type Bound = (
-    vk::PipelineBindPoint,
-    [Option<(vk::DescriptorSetLayout, vk::DescriptorSet)>; SETS],
-);
+type Bound = (vk::PipelineBindPoint, [Option<(vk::DescriptorSetLayout, vk::DescriptorSet)>; SETS]);
 
 /// The sets that a pipeline uses, by number, with what they show.
 fn sets_of<'a>(

@@ -20,16 +20,9 @@ impl Completion {
     /// [`VulkanError::Call`] if the event can't be made.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
         // SAFETY: plain creation on a live device.
-        let event = unsafe {
-            gpu.device
-                .create_event(&vk::EventCreateInfo::default(), None)
-        }
-        .map_err(VulkanError::of("vkCreateEvent"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            event,
-            is_recorded: false,
-        })
+        let event = unsafe { gpu.device.create_event(&vk::EventCreateInfo::default(), None) }
+            .map_err(VulkanError::of("vkCreateEvent"))?;
+        Ok(Self { gpu: gpu.clone(), event, is_recorded: false })
     }
 
     /// Begins a recording. The commands of the previous recording have run, or will never be executed.
@@ -43,11 +36,7 @@ impl Completion {
         unsafe {
             // An error can be ignored: the device resets the event too.
             let _ = self.gpu.device.reset_event(self.event);
-            self.gpu.device.cmd_reset_event2(
-                recorder.raw(),
-                self.event,
-                vk::PipelineStageFlags2::ALL_COMMANDS,
-            );
+            self.gpu.device.cmd_reset_event2(recorder.raw(), self.event, vk::PipelineStageFlags2::ALL_COMMANDS);
         }
         was_done
     }
@@ -70,9 +59,7 @@ impl Completion {
             .dst_stage_mask(vk::PipelineStageFlags2::HOST)
             .dst_access_mask(vk::AccessFlags2::HOST_READ)];
         let visible = vk::DependencyInfo::default().memory_barriers(&to_cpu);
-        let after = [vk::MemoryBarrier2::default()
-            .src_stage_mask(all)
-            .dst_stage_mask(all)];
+        let after = [vk::MemoryBarrier2::default().src_stage_mask(all).dst_stage_mask(all)];
         let set = vk::DependencyInfo::default().memory_barriers(&after);
         let raw = recorder.raw();
         // SAFETY: the recorder's contract; synchronization2 is enabled.

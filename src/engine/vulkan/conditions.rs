@@ -50,10 +50,7 @@ impl Conditions {
 
     fn go_to(&mut self, word: Option<vk::Buffer>) -> Change {
         let begun = std::mem::replace(&mut self.begun, word);
-        Change {
-            ends: begun.is_some() && begun != word,
-            begins: word.filter(|_| begun != word),
-        }
+        Change { ends: begun.is_some() && begun != word, begins: word.filter(|_| begun != word) }
     }
 }
 
@@ -62,20 +59,11 @@ mod tests {
     use super::*;
     use ash::vk::Handle;
 
-    const NONE: Change = Change {
-        ends: false,
-        begins: None,
-    };
-    const END: Change = Change {
-        ends: true,
-        begins: None,
-    };
+    const NONE: Change = Change { ends: false, begins: None };
+    const END: Change = Change { ends: true, begins: None };
 
     fn begin(word: vk::Buffer) -> Change {
-        Change {
-            ends: false,
-            begins: Some(word),
-        }
+        Change { ends: false, begins: Some(word) }
     }
 
     /// A word is written between two rounds, so each round must begin a new block.

@@ -45,11 +45,7 @@ impl From<vk::DescriptorBufferInfo> for Descriptor {
 impl From<&Buffer> for Descriptor {
     /// The whole buffer.
     fn from(buffer: &Buffer) -> Self {
-        Self::Buffer(
-            vk::DescriptorBufferInfo::default()
-                .buffer(buffer.raw)
-                .range(vk::WHOLE_SIZE),
-        )
+        Self::Buffer(vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE))
     }
 }
 
@@ -106,19 +102,14 @@ impl DescriptorSets {
         }
         let pool = Arc::new(DescriptorPool::new(gpu, layouts, count as u32)?);
         let raw_layouts: Vec<_> = layouts.iter().map(|layout| layout.raw).collect();
-        let info = vk::DescriptorSetAllocateInfo::default()
-            .descriptor_pool(pool.raw)
-            .set_layouts(&raw_layouts);
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool.raw).set_layouts(&raw_layouts);
         let allocate = |_| {
             // SAFETY: the pool and the layouts are alive.
             let sets = unsafe { gpu.device.allocate_descriptor_sets(&info) }
                 .map_err(VulkanError::of("vkAllocateDescriptorSets"))?;
             Ok(Self {
                 of_frame,
-                shown: Arc::new(ShownSets {
-                    sets: layouts.iter().cloned().zip(sets).collect(),
-                    buffers: Vec::new(),
-                }),
+                shown: Arc::new(ShownSets { sets: layouts.iter().cloned().zip(sets).collect(), buffers: Vec::new() }),
                 pool: pool.clone(),
             })
         };
@@ -149,9 +140,7 @@ impl DescriptorSets {
         let writes = shown.iter().flat_map(|(binding, shown)| {
             self.at(*binding).map(move |write| match shown {
                 Descriptor::Buffer(info) => write.buffer_info(std::slice::from_ref(info)),
-                Descriptor::Texels(texels) => {
-                    write.texel_buffer_view(std::slice::from_ref(&texels.view))
-                }
+                Descriptor::Texels(texels) => write.texel_buffer_view(std::slice::from_ref(&texels.view)),
                 Descriptor::Image(info) => write.image_info(std::slice::from_ref(info)),
             })
         });
@@ -176,16 +165,10 @@ impl DescriptorSets {
     }
 
     /// A write for each set that has a binding.
-    fn at<'a>(
-        &self,
-        binding: Binding,
-    ) -> impl Iterator<Item = vk::WriteDescriptorSet<'a>> + use<'a, '_> {
+    fn at<'a>(&self, binding: Binding) -> impl Iterator<Item = vk::WriteDescriptorSet<'a>> + use<'a, '_> {
         let has = move |(layout, _): &&(Arc<SetLayout>, _)| layout.bindings.contains(&binding);
         self.shown.sets.iter().filter(has).map(move |(_, set)| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(*set)
-                .dst_binding(binding.number)
-                .descriptor_type(binding.kind)
+            vk::WriteDescriptorSet::default().dst_set(*set).dst_binding(binding.number).descriptor_type(binding.kind)
         })
     }
 
@@ -211,22 +194,14 @@ impl DescriptorPool {
             let descriptors = count * binding.count;
             match sizes.iter_mut().find(|size| size.ty == binding.kind) {
                 Some(size) => size.descriptor_count += descriptors,
-                None => sizes.push(vk::DescriptorPoolSize {
-                    ty: binding.kind,
-                    descriptor_count: descriptors,
-                }),
+                None => sizes.push(vk::DescriptorPoolSize { ty: binding.kind, descriptor_count: descriptors }),
             }
         }
-        let info = vk::DescriptorPoolCreateInfo::default()
-            .max_sets(count * layouts.len() as u32)
-            .pool_sizes(&sizes);
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(count * layouts.len() as u32).pool_sizes(&sizes);
         // SAFETY: plain creation on a live device.
         let raw = unsafe { gpu.device.create_descriptor_pool(&info, None) }
             .map_err(VulkanError::of("vkCreateDescriptorPool"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            raw,
-        })
+        Ok(Self { gpu: gpu.clone(), raw })
     }
 }
 
@@ -239,7 +214,5 @@ impl Drop for DescriptorPool {
 
 /// Descriptor of an image in the layout `SHADER_READ_ONLY_OPTIMAL`.
 pub(crate) fn read_image(view: vk::ImageView) -> vk::DescriptorImageInfo {
-    vk::DescriptorImageInfo::default()
-        .image_view(view)
-        .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
+    vk::DescriptorImageInfo::default().image_view(view).image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
 }

@@ -89,9 +89,7 @@ pub enum VulkanError {
     )]
     NotDone,
     /// Validation layer that was asked for and is not installed.
-    #[error(
-        "the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)"
-    )]
+    #[error("the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)")]
     NoValidation,
     /// Any other error of Vulkan.
     #[error("{call} failed: {result}")]
@@ -122,19 +120,9 @@ impl VulkanError {
     ///
     /// # Errors
     /// [`VulkanError::TooLarge`] if `needed` is above `limit`.
-    pub(crate) fn check_limit(
-        what: &str,
-        needed: u64,
-        unit: &'static str,
-        limit: u64,
-    ) -> Result<(), Self> {
+    pub(crate) fn check_limit(what: &str, needed: u64, unit: &'static str, limit: u64) -> Result<(), Self> {
         if needed > limit {
-            return Err(Self::TooLarge {
-                what: what.to_owned(),
-                needed,
-                unit,
-                limit,
-            });
+            return Err(Self::TooLarge { what: what.to_owned(), needed, unit, limit });
         }
         Ok(())
     }
@@ -144,10 +132,7 @@ impl VulkanError {
         move |result| match result {
             vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost,
             vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
-                Self::OutOfMemory {
-                    what: call.to_owned(),
-                    bytes: 0,
-                }
+                Self::OutOfMemory { what: call.to_owned(), bytes: 0 }
             }
             result => Self::Call { call, result },
         }

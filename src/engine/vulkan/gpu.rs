@@ -65,9 +65,7 @@ impl Host {
         // SAFETY: guaranteed by the caller.
         let lacks = |name: &CStr| unsafe {
             let raw = self.device.handle();
-            self.instance
-                .get_device_proc_addr(raw, name.as_ptr())
-                .is_none()
+            self.instance.get_device_proc_addr(raw, name.as_ptr()).is_none()
         };
         // SAFETY: guaranteed by the caller.
         unsafe {
@@ -85,33 +83,19 @@ impl Host {
                 CONDITIONAL_RENDERING_FUNCTIONS,
                 "create the device with VK_EXT_conditional_rendering and its feature conditionalRendering",
             ),
-            (
-                self.debug_utils,
-                "debug_utils",
-                DEBUG_UTILS_FUNCTIONS,
-                "create the instance with VK_EXT_debug_utils",
-            ),
+            (self.debug_utils, "debug_utils", DEBUG_UTILS_FUNCTIONS, "create the instance with VK_EXT_debug_utils"),
         ] {
             if let Some(name) = names.iter().find(|name| enabled && lacks(name)) {
-                return Err(VulkanError::NotEnabled {
-                    member,
-                    function: name.to_str().unwrap_or_default(),
-                    remedy,
-                });
+                return Err(VulkanError::NotEnabled { member, function: name.to_str().unwrap_or_default(), remedy });
             }
         }
         Ok(())
     }
 }
 
-const CONDITIONAL_RENDERING_FUNCTIONS: [&CStr; 2] = [
-    c"vkCmdBeginConditionalRenderingEXT",
-    c"vkCmdEndConditionalRenderingEXT",
-];
-const DEBUG_UTILS_FUNCTIONS: [&CStr; 2] = [
-    c"vkSetDebugUtilsObjectNameEXT",
-    c"vkCmdBeginDebugUtilsLabelEXT",
-];
+const CONDITIONAL_RENDERING_FUNCTIONS: [&CStr; 2] =
+    [c"vkCmdBeginConditionalRenderingEXT", c"vkCmdEndConditionalRenderingEXT"];
+const DEBUG_UTILS_FUNCTIONS: [&CStr; 2] = [c"vkSetDebugUtilsObjectNameEXT", c"vkCmdBeginDebugUtilsLabelEXT"];
 
 /// Largest error of a corner's position in pixels, besides its rounding to the device's steps: positions have 32 bits in images of
 /// up to 16,384 pixels.
@@ -208,13 +192,9 @@ impl Gpu {
         limits: Limits,
     ) -> Result<Arc<Self>, VulkanError> {
         // SAFETY: guaranteed by the caller.
-        let missing: Vec<Missing> =
-            unsafe { Requirements::missing(&host.instance, host.physical_device) };
+        let missing: Vec<Missing> = unsafe { Requirements::missing(&host.instance, host.physical_device) };
         if !missing.is_empty() {
-            return Err(VulkanError::Missing {
-                device: limits.device_name,
-                missing,
-            });
+            return Err(VulkanError::Missing { device: limits.device_name, missing });
         }
         let Host {
             instance,
@@ -234,11 +214,7 @@ impl Gpu {
             )
         };
         if !is_fit {
-            return Err(VulkanError::QueueFamily {
-                device: limits.device_name,
-                found: queue_family,
-                possible,
-            });
+            return Err(VulkanError::QueueFamily { device: limits.device_name, found: queue_family, possible });
         }
         let memory = match memory {
             MemorySource::Shared(shared) => Source::Allocator(shared),
@@ -258,8 +234,7 @@ impl Gpu {
                 })?,
             ))),
         };
-        let debug_labels =
-            debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let debug_labels = debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
         Ok(Arc::new(Self {
             conditional_rendering: limits.conditional_rendering.then(functions),
@@ -322,9 +297,7 @@ impl Gpu {
             return;
         };
         let name = CString::new(format!("gpc {name}")).unwrap_or_default();
-        let info = vk::DebugUtilsObjectNameInfoEXT::default()
-            .object_handle(object)
-            .object_name(&name);
+        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
         // SAFETY: this thread just made the object from this device. A debugger that fails to store the name is of no
         // consequence.
         let _ = unsafe { functions.set_debug_utils_object_name(&info) };
@@ -360,29 +333,14 @@ impl Teams {
     pub(crate) fn new(usual: u32, [least, most]: [u32; 2], can_choose: bool) -> Self {
         let preferred_subgroup = can_choose.then_some(least.max(8).min(most));
         let subgroup = preferred_subgroup.unwrap_or(usual);
-        let members = if preferred_subgroup.unwrap_or(least) < 8 {
-            4
-        } else {
-            8
-        };
-        Self {
-            members,
-            in_workgroup: (subgroup / members).max(1),
-            preferred_subgroup,
-        }
+        let members = if preferred_subgroup.unwrap_or(least) < 8 { 4 } else { 8 };
+        Self { members, in_workgroup: (subgroup / members).max(1), preferred_subgroup }
     }
 
     /// The largest teams of at most `most` invocations that fit into subgroups of a known size.
     pub(crate) fn larger(self, most: u32) -> Self {
-        let members = self
-            .preferred_subgroup
-            .map_or(self.members, |subgroup| subgroup.min(most))
-            .max(self.members);
-        Self {
-            members,
-            in_workgroup: (self.workgroup() / members).max(1),
-            ..self
-        }
+        let members = self.preferred_subgroup.map_or(self.members, |subgroup| subgroup.min(most)).max(self.members);
+        Self { members, in_workgroup: (self.workgroup() / members).max(1), ..self }
     }
 
     /// Number of invocations of a workgroup.
@@ -397,19 +355,14 @@ unsafe fn device_name(instance: &ash::Instance, device: vk::PhysicalDevice) -> S
     // SAFETY: guaranteed by the caller.
     let properties = unsafe { instance.get_physical_device_properties(device) };
     let name = properties.device_name_as_c_str();
-    name.map(|name| name.to_string_lossy().into_owned())
-        .unwrap_or_default()
+    name.map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// Limits of a physical device.
 ///
 /// # Safety
 /// The device belongs to the instance, which is alive.
-pub(super) unsafe fn limits(
-    instance: &ash::Instance,
-    device: vk::PhysicalDevice,
-    queue_family: u32,
-) -> Limits {
+pub(super) unsafe fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u32) -> Limits {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
     let mut control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
@@ -430,28 +383,19 @@ pub(super) unsafe fn limits(
         heap.flags.contains(local)
     });
     let basic = properties.properties;
-    let can_choose_subgroup_size = control
-        .required_subgroup_size_stages
-        .contains(vk::ShaderStageFlags::COMPUTE);
+    let can_choose_subgroup_size = control.required_subgroup_size_stages.contains(vk::ShaderStageFlags::COMPUTE);
     let teams = Teams::new(
         subgroup.subgroup_size,
         [control.min_subgroup_size, control.max_subgroup_size],
         can_choose_subgroup_size,
     );
-    let timestamps = families
-        .get(queue_family as usize)
-        .is_some_and(|family| family.timestamp_valid_bits > 0);
+    let timestamps = families.get(queue_family as usize).is_some_and(|family| family.timestamp_valid_bits > 0);
     let text = |name: Result<&std::ffi::CStr, _>| {
-        name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned())
-            .unwrap_or_default()
+        name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned()).unwrap_or_default()
     };
     Limits {
         device_name: text(basic.device_name_as_c_str()),
-        driver: format!(
-            "{} {}",
-            text(driver.driver_name_as_c_str()),
-            text(driver.driver_info_as_c_str())
-        ),
+        driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
         device_type: basic.device_type,
         local_bytes: local.map(|heap| heap.size).max().unwrap_or(0),
         teams,
@@ -463,11 +407,7 @@ pub(super) unsafe fn limits(
             .min_storage_buffer_offset_alignment
             .max(basic.limits.min_texel_buffer_offset_alignment),
         max_storage_bytes: u64::from(basic.limits.max_storage_buffer_range),
-        timestamp_period: if timestamps {
-            basic.limits.timestamp_period
-        } else {
-            0.0
-        },
+        timestamp_period: if timestamps { basic.limits.timestamp_period } else { 0.0 },
         max_submitted_samples: match basic.device_type {
             vk::PhysicalDeviceType::CPU => u64::MAX,
             _ => 1 << 27,

@@ -63,11 +63,8 @@ unsafe extern "system" fn on_message(
     // until after the messenger is destroyed.
     let (text, messages) = unsafe {
         let message = (*data).p_message;
-        let text = if message.is_null() {
-            String::new()
-        } else {
-            CStr::from_ptr(message).to_string_lossy().into_owned()
-        };
+        let text =
+            if message.is_null() { String::new() } else { CStr::from_ptr(message).to_string_lossy().into_owned() };
         (text, &*user.cast::<Messages>())
     };
     if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {
@@ -90,8 +87,7 @@ impl Instance {
     /// and not installed, otherwise [`VulkanError::Call`].
     pub fn new(options: InstanceOptions) -> Result<Arc<Self>, VulkanError> {
         // SAFETY: loading the Vulkan loader runs its initialisers, as in any Vulkan program.
-        let entry =
-            unsafe { ash::Entry::load() }.map_err(|e| VulkanError::NoLoader(e.to_string()))?;
+        let entry = unsafe { ash::Entry::load() }.map_err(|e| VulkanError::NoLoader(e.to_string()))?;
         let application = vk::ApplicationInfo::default()
             .application_name(c"gpc")
             .engine_name(c"gpc")
@@ -100,16 +96,12 @@ impl Instance {
         let mut layers = Vec::new();
         let mut extensions = Vec::new();
         let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
-        let mut features =
-            vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
+        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
         if options.validation {
             // SAFETY: a global query.
             let found = unsafe { entry.enumerate_instance_layer_properties() }
                 .map_err(VulkanError::of("vkEnumerateInstanceLayerProperties"))?;
-            if !found
-                .iter()
-                .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION))
-            {
+            if !found.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION)) {
                 return Err(VulkanError::NoValidation);
             }
             layers.push(VALIDATION.as_ptr());
@@ -119,9 +111,7 @@ impl Instance {
         let has = unsafe { entry.enumerate_instance_extension_properties(None) }
             .map_err(VulkanError::of("vkEnumerateInstanceExtensionProperties"))?;
         let name = ash::ext::debug_utils::NAME;
-        let listed = has
-            .iter()
-            .any(|extension| extension.extension_name_as_c_str() == Ok(name));
+        let listed = has.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name));
         // If no driver has the extension, the layer has it.
         let has_debug_utils = listed || options.validation;
         if has_debug_utils {
@@ -137,22 +127,19 @@ impl Instance {
         // SAFETY: `info` and everything to which it points live until after the call.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|e| match e {
             // The loader returns this error if it finds no driver.
-            vk::Result::ERROR_INCOMPATIBLE_DRIVER => VulkanError::NoDevice {
-                asked: None,
-                found: "no driver was found".to_owned(),
-            },
+            vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
+                VulkanError::NoDevice { asked: None, found: "no driver was found".to_owned() }
+            }
             e => VulkanError::of("vkCreateInstance")(e),
         })?;
         let debug = if options.validation {
             let loader = ash::ext::debug_utils::Instance::new(&entry, &raw);
             let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
                 .message_severity(
-                    vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
-                        | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
+                    vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
                 )
                 .message_type(
-                    vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
-                        | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+                    vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
                 )
                 .pfn_user_callback(Some(on_message))
                 .user_data(Arc::as_ptr(&messages).cast_mut().cast());
@@ -163,23 +150,13 @@ impl Instance {
         } else {
             None
         };
-        Ok(Arc::new(Self {
-            _entry: entry,
-            raw,
-            debug,
-            has_debug_utils,
-            messages,
-        }))
+        Ok(Arc::new(Self { _entry: entry, raw, debug, has_debug_utils, messages }))
     }
 
     /// Messages of the validation layer so far.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
-        self.messages
-            .texts
-            .lock()
-            .map(|texts| texts.clone())
-            .unwrap_or_default()
+        self.messages.texts.lock().map(|texts| texts.clone()).unwrap_or_default()
     }
 
     /// Descriptions of all devices, suitable or not.
@@ -187,11 +164,7 @@ impl Instance {
     /// # Errors
     /// [`VulkanError::Call`] if devices can't be enumerated.
     pub fn devices(&self) -> Result<Vec<DeviceInfo>, VulkanError> {
-        Ok(self
-            .physical_devices()?
-            .into_iter()
-            .map(|device| self.describe(device))
-            .collect())
+        Ok(self.physical_devices()?.into_iter().map(|device| self.describe(device)).collect())
     }
 
     fn physical_devices(&self) -> Result<Vec<vk::PhysicalDevice>, VulkanError> {
@@ -207,21 +180,15 @@ impl Instance {
     fn describe(&self, device: vk::PhysicalDevice) -> DeviceInfo {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
-        let mut properties = vk::PhysicalDeviceProperties2::default()
-            .push_next(&mut driver)
-            .push_next(&mut subgroup);
+        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut subgroup);
         // SAFETY: the device belongs to this instance, which was created for Vulkan 1.3; chained structures that the
         // device does not know keep their defaults.
         let memory = unsafe {
-            self.raw
-                .get_physical_device_properties2(device, &mut properties);
+            self.raw.get_physical_device_properties2(device, &mut properties);
             self.raw.get_physical_device_memory_properties(device)
         };
         let basic = properties.properties;
-        let text = |name: Result<&CStr, _>| {
-            name.map(|n: &CStr| n.to_string_lossy().into_owned())
-                .unwrap_or_default()
-        };
+        let text = |name: Result<&CStr, _>| name.map(|n: &CStr| n.to_string_lossy().into_owned()).unwrap_or_default();
         DeviceInfo {
             name: text(basic.device_name_as_c_str()),
             kind: match basic.device_type {
@@ -231,11 +198,7 @@ impl Instance {
                 vk::PhysicalDeviceType::CPU => "cpu",
                 _ => "other",
             },
-            driver: format!(
-                "{} {}",
-                text(driver.driver_name_as_c_str()),
-                text(driver.driver_info_as_c_str())
-            ),
+            driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
             api: format!(
                 "{}.{}.{}",
                 vk::api_version_major(basic.api_version),
@@ -250,10 +213,7 @@ impl Instance {
                 .map(|heap| heap.size)
                 .sum(),
             // SAFETY: the device belongs to this instance.
-            missing: unsafe { Requirements::missing(&self.raw, device) }
-                .iter()
-                .map(ToString::to_string)
-                .collect(),
+            missing: unsafe { Requirements::missing(&self.raw, device) }.iter().map(ToString::to_string).collect(),
         }
     }
 
@@ -284,31 +244,20 @@ impl Instance {
         let mut suitable = Vec::new();
         for device in self.physical_devices()? {
             let info = self.describe(device);
-            let named =
-                name.is_none_or(|name| info.name.to_lowercase().contains(&name.to_lowercase()));
-            let lacks = if info.missing.is_empty() {
-                String::new()
-            } else {
-                format!(" lacks {}", info.missing.join(", "))
-            };
+            let named = name.is_none_or(|name| info.name.to_lowercase().contains(&name.to_lowercase()));
+            let lacks =
+                if info.missing.is_empty() { String::new() } else { format!(" lacks {}", info.missing.join(", ")) };
             found.push(format!("\"{}\"{lacks}", info.name));
             if named && info.missing.is_empty() {
-                let rank = ["discrete", "integrated", "virtual", "cpu", "other"]
-                    .iter()
-                    .position(|kind| *kind == info.kind);
+                let rank =
+                    ["discrete", "integrated", "virtual", "cpu", "other"].iter().position(|kind| *kind == info.kind);
                 suitable.push((rank, device));
             }
         }
         let Some((_, physical_device)) = suitable.into_iter().min_by_key(|(rank, _)| *rank) else {
-            let found = if found.is_empty() {
-                "no device was found".to_owned()
-            } else {
-                format!("found {}", found.join("; "))
-            };
-            return Err(VulkanError::NoDevice {
-                asked: name.map(str::to_owned),
-                found,
-            });
+            let found =
+                if found.is_empty() { "no device was found".to_owned() } else { format!("found {}", found.join("; ")) };
+            return Err(VulkanError::NoDevice { asked: name.map(str::to_owned), found });
         };
         let queue_family =
             // SAFETY: the device belongs to this instance.
@@ -319,23 +268,17 @@ impl Instance {
                 }
             })?;
         let priorities = [1.0];
-        let queues = [vk::DeviceQueueCreateInfo::default()
-            .queue_family_index(queue_family)
-            .queue_priorities(&priorities)];
+        let queues =
+            [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&priorities)];
         // SAFETY: the device belongs to this instance.
         let mut limits = unsafe { limits(&self.raw, physical_device, queue_family) };
         lower(&mut limits);
         let mut features = Requirements::features13();
-        let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
-            .conditional_rendering(true);
+        let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
         let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
-        let mut info = vk::DeviceCreateInfo::default()
-            .queue_create_infos(&queues)
-            .push_next(&mut features);
+        let mut info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
         if limits.conditional_rendering {
-            info = info
-                .enabled_extension_names(&extensions)
-                .push_next(&mut conditional);
+            info = info.enabled_extension_names(&extensions).push_next(&mut conditional);
         }
         // SAFETY: the physical device has all requested features, as checked above.
         let device = unsafe { self.raw.create_device(physical_device, &info, None) }

@@ -17,18 +17,8 @@ pub struct Binding {
 }
 
 impl Binding {
-    pub(crate) const fn new(
-        number: u32,
-        name: &'static str,
-        kind: vk::DescriptorType,
-        count: u32,
-    ) -> Self {
-        Self {
-            number,
-            name,
-            kind,
-            count,
-        }
+    pub(crate) const fn new(number: u32, name: &'static str, kind: vk::DescriptorType, count: u32) -> Self {
+        Self { number, name, kind, count }
     }
 }
 
@@ -94,10 +84,7 @@ impl Interface {
     }
 
     fn parts(&self) -> (&'static str, vk::ShaderStageFlags) {
-        let drawing = [
-            ("_vertex", vk::ShaderStageFlags::VERTEX),
-            ("_fragment", vk::ShaderStageFlags::FRAGMENT),
-        ];
+        let drawing = [("_vertex", vk::ShaderStageFlags::VERTEX), ("_fragment", vk::ShaderStageFlags::FRAGMENT)];
         drawing
             .into_iter()
             .find_map(|(suffix, stage)| Some((self.name.strip_suffix(suffix)?, stage)))

@@ -54,13 +54,7 @@ impl Memory {
     /// Allocator of at most `limit` bytes.
     #[must_use]
     pub(crate) fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
-        Self {
-            gpu,
-            account: Arc::new(Account {
-                used: AtomicU64::new(0),
-                limit: limit.unwrap_or(u64::MAX),
-            }),
-        }
+        Self { gpu, account: Arc::new(Account { used: AtomicU64::new(0), limit: limit.unwrap_or(u64::MAX) }) }
     }
 
     /// Device of the memory.
@@ -82,28 +76,15 @@ impl Memory {
         usage: MemoryUse,
         linear: bool,
     ) -> Result<Block, VulkanError> {
-        let refuse = || VulkanError::OutOfMemory {
-            what: name.to_owned(),
-            bytes: requirements.size,
-        };
+        let refuse = || VulkanError::OutOfMemory { what: name.to_owned(), bytes: requirements.size };
         let Account { used, limit } = &*self.account;
         used.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |used| {
-            used.checked_add(requirements.size)
-                .filter(|sum| sum <= limit)
+            used.checked_add(requirements.size).filter(|sum| sum <= limit)
         })
         .map_err(|_| refuse())?;
-        let mut block = Block {
-            gpu: self.gpu.clone(),
-            account: self.account.clone(),
-            bytes: requirements.size,
-            allocation: None,
-        };
-        let allocation = self.gpu.allocate(&MemoryRequest {
-            name,
-            requirements,
-            usage,
-            linear,
-        });
+        let mut block =
+            Block { gpu: self.gpu.clone(), account: self.account.clone(), bytes: requirements.size, allocation: None };
+        let allocation = self.gpu.allocate(&MemoryRequest { name, requirements, usage, linear });
         block.allocation = Some(allocation.ok_or_else(refuse)?);
         Ok(block)
     }
@@ -122,26 +103,16 @@ impl Memory {
         let size = size.max(16);
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         // SAFETY: the device is alive as long as the Gpu. After a failure below, `Drop` destroys the handle.
-        let raw = unsafe { self.gpu.device.create_buffer(&info, None) }
-            .map_err(VulkanError::of("vkCreateBuffer"))?;
+        let raw = unsafe { self.gpu.device.create_buffer(&info, None) }.map_err(VulkanError::of("vkCreateBuffer"))?;
         self.gpu.name(raw, name);
-        let mut buffer = Buffer {
-            gpu: self.gpu.clone(),
-            raw,
-            block: None,
-            size,
-        };
+        let mut buffer = Buffer { gpu: self.gpu.clone(), raw, block: None, size };
         // SAFETY: the buffer was just made from this device.
         let requirements = unsafe { self.gpu.device.get_buffer_memory_requirements(raw) };
         let block = self.allocate(name, requirements, location, true)?;
         if let Some(allocation) = &block.allocation {
             // SAFETY: the memory is unused, of a type the buffer takes, and bound once.
-            unsafe {
-                self.gpu
-                    .device
-                    .bind_buffer_memory(raw, allocation.memory(), allocation.offset())
-            }
-            .map_err(VulkanError::of("vkBindBufferMemory"))?;
+            unsafe { self.gpu.device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
+                .map_err(VulkanError::of("vkBindBufferMemory"))?;
         }
         buffer.block = Some(block);
         Ok(buffer)
@@ -175,18 +146,10 @@ impl Memory {
     ///
     /// # Errors
     /// As [`Memory::upload`].
-    pub(crate) fn filled(
-        &self,
-        name: &str,
-        bytes: &[u8],
-        usage: vk::BufferUsageFlags,
-    ) -> Result<Buffer, VulkanError> {
+    pub(crate) fn filled(&self, name: &str, bytes: &[u8], usage: vk::BufferUsageFlags) -> Result<Buffer, VulkanError> {
         let size = bytes.len() as u64;
         let mut buffer = self.buffer(name, size, usage, MemoryUse::Upload)?;
-        let unmapped = VulkanError::Call {
-            call: "mapping an upload",
-            result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-        };
+        let unmapped = VulkanError::Call { call: "mapping an upload", result: vk::Result::ERROR_MEMORY_MAP_FAILED };
         let mapped = buffer.bytes_mut().get_mut(..bytes.len()).ok_or(unmapped)?;
         mapped.copy_from_slice(bytes);
         Ok(buffer)
@@ -212,10 +175,7 @@ impl Memory {
             _ => 4,
         };
         let buffer = self.buffer(name, elements.max(1) * bytes, usage, location)?;
-        let info = vk::BufferViewCreateInfo::default()
-            .buffer(buffer.raw)
-            .format(format)
-            .range(elements.max(1) * bytes);
+        let info = vk::BufferViewCreateInfo::default().buffer(buffer.raw).format(format).range(elements.max(1) * bytes);
         // SAFETY: the buffer is bound to memory and was created for texel access.
         let view = unsafe { self.gpu.device.create_buffer_view(&info, None) }
             .map_err(VulkanError::of("vkCreateBufferView"))?;
@@ -233,18 +193,14 @@ impl Memory {
         aspect: vk::ImageAspectFlags,
     ) -> Result<Image, VulkanError> {
         // SAFETY: `info` is valid for the device; callers have checked its limits.
-        let raw = unsafe { self.gpu.device.create_image(info, None) }
-            .map_err(VulkanError::of("vkCreateImage"))?;
+        let raw = unsafe { self.gpu.device.create_image(info, None) }.map_err(VulkanError::of("vkCreateImage"))?;
         self.gpu.name(raw, name);
         let mut image = Image {
             gpu: self.gpu.clone(),
             raw,
             view: vk::ImageView::null(),
             _block: None,
-            extent: vk::Extent2D {
-                width: info.extent.width,
-                height: info.extent.height,
-            },
+            extent: vk::Extent2D { width: info.extent.width, height: info.extent.height },
             levels: info.mip_levels,
             layers: info.array_layers,
             aspect,
@@ -254,28 +210,20 @@ impl Memory {
         let block = self.allocate(name, requirements, MemoryUse::Device, false)?;
         if let Some(allocation) = &block.allocation {
             // SAFETY: the memory is unused, of a type the image takes, and bound once.
-            unsafe {
-                self.gpu
-                    .device
-                    .bind_image_memory(raw, allocation.memory(), allocation.offset())
-            }
-            .map_err(VulkanError::of("vkBindImageMemory"))?;
+            unsafe { self.gpu.device.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
+                .map_err(VulkanError::of("vkBindImageMemory"))?;
         }
         image._block = Some(block);
         let cube = vk::ImageCreateFlags::CUBE_COMPATIBLE;
-        let view_type = if info.flags.contains(cube) {
-            vk::ImageViewType::CUBE
-        } else {
-            vk::ImageViewType::TYPE_2D
-        };
+        let view_type = if info.flags.contains(cube) { vk::ImageViewType::CUBE } else { vk::ImageViewType::TYPE_2D };
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(view_type)
             .format(info.format)
             .subresource_range(image.range());
         // SAFETY: the image is bound and the format is its own.
-        image.view = unsafe { self.gpu.device.create_image_view(&view, None) }
-            .map_err(VulkanError::of("vkCreateImageView"))?;
+        image.view =
+            unsafe { self.gpu.device.create_image_view(&view, None) }.map_err(VulkanError::of("vkCreateImageView"))?;
         Ok(image)
     }
 }
@@ -320,10 +268,7 @@ impl Buffer {
         self.bytes()
             .get(..count * size_of::<T>())
             .and_then(|bytes| bytemuck::try_cast_slice(bytes).ok())
-            .ok_or(VulkanError::Call {
-                call: "mapping a read-back",
-                result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-            })
+            .ok_or(VulkanError::Call { call: "mapping a read-back", result: vk::Result::ERROR_MEMORY_MAP_FAILED })
     }
 
     /// Mapped bytes, to be written before the device reads them; empty in the same cases as [`Buffer::bytes`].
@@ -354,10 +299,7 @@ pub struct TexelBuffer {
 impl TexelBuffer {
     /// The view, for a descriptor.
     pub(crate) fn texels(&self) -> Texels {
-        Texels {
-            view: self.view,
-            buffer: self.buffer.raw,
-        }
+        Texels { view: self.view, buffer: self.buffer.raw }
     }
 }
 
@@ -391,18 +333,11 @@ impl TexelView {
         offset: u64,
         bytes: u64,
     ) -> Result<Self, VulkanError> {
-        let info = vk::BufferViewCreateInfo::default()
-            .buffer(buffer)
-            .format(format)
-            .offset(offset)
-            .range(bytes);
+        let info = vk::BufferViewCreateInfo::default().buffer(buffer).format(format).offset(offset).range(bytes);
         // SAFETY: guaranteed by the caller.
-        let view = unsafe { gpu.device.create_buffer_view(&info, None) }
-            .map_err(VulkanError::of("vkCreateBufferView"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            texels: Texels { view, buffer },
-        })
+        let view =
+            unsafe { gpu.device.create_buffer_view(&info, None) }.map_err(VulkanError::of("vkCreateBufferView"))?;
+        Ok(Self { gpu: gpu.clone(), texels: Texels { view, buffer } })
     }
 }
 

@@ -31,22 +31,14 @@ impl SetLayout {
         // SAFETY: plain creation on a live device.
         let raw = unsafe { gpu.device.create_descriptor_set_layout(&info, None) }
             .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            raw,
-            bindings: bindings.iter().map(|(binding, _)| *binding).collect(),
-        })
+        Ok(Self { gpu: gpu.clone(), raw, bindings: bindings.iter().map(|(binding, _)| *binding).collect() })
     }
 }
 
 impl Drop for SetLayout {
     fn drop(&mut self) {
         // SAFETY: pipelines and sets that were made with the layout keep it alive.
-        unsafe {
-            self.gpu
-                .device
-                .destroy_descriptor_set_layout(self.raw, None)
-        };
+        unsafe { self.gpu.device.destroy_descriptor_set_layout(self.raw, None) };
     }
 }
 
@@ -84,11 +76,7 @@ impl PassLayout {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(
-        gpu: &Arc<Gpu>,
-        shaders: &[&Interface],
-        shared: Option<&SharedLayout>,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(gpu: &Arc<Gpu>, shaders: &[&Interface], shared: Option<&SharedLayout>) -> Result<Self, VulkanError> {
         let (sets, own_push) = needs(shaders);
         let push = shared.map_or(own_push, |shared| shared.push);
         let sets = sets.iter().enumerate().map(|(number, set)| match shared {
@@ -104,12 +92,7 @@ impl PassLayout {
         // SAFETY: plain creation on a live device.
         let raw = unsafe { gpu.device.create_pipeline_layout(&info, None) }
             .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            raw,
-            sets,
-            push,
-        })
+        Ok(Self { gpu: gpu.clone(), raw, sets, push })
     }
 }
 

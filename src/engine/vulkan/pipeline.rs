@@ -16,20 +16,13 @@ impl Shader {
     /// # Errors
     /// [`VulkanError::Call`] if the bytes are not SPIR-V or the driver refuses them.
     fn new(gpu: &Arc<Gpu>, spirv: &[u8]) -> Result<Self, VulkanError> {
-        let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv)).map_err(|_| {
-            VulkanError::Call {
-                call: "reading SPIR-V",
-                result: vk::Result::ERROR_INVALID_SHADER_NV,
-            }
-        })?;
+        let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv))
+            .map_err(|_| VulkanError::Call { call: "reading SPIR-V", result: vk::Result::ERROR_INVALID_SHADER_NV })?;
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words are the crate's own SPIR-V for Vulkan 1.3.
-        let raw = unsafe { gpu.device.create_shader_module(&info, None) }
-            .map_err(VulkanError::of("vkCreateShaderModule"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            raw,
-        })
+        let raw =
+            unsafe { gpu.device.create_shader_module(&info, None) }.map_err(VulkanError::of("vkCreateShaderModule"))?;
+        Ok(Self { gpu: gpu.clone(), raw })
     }
 }
 
@@ -72,17 +65,9 @@ impl Constants {
             .entries
             .iter()
             .enumerate()
-            .map(|(i, (id, _))| vk::SpecializationMapEntry {
-                constant_id: *id,
-                offset: 4 * i as u32,
-                size: 4,
-            })
+            .map(|(i, (id, _))| vk::SpecializationMapEntry { constant_id: *id, offset: 4 * i as u32, size: 4 })
             .collect();
-        let data = self
-            .entries
-            .iter()
-            .flat_map(|(_, value)| value.to_ne_bytes())
-            .collect();
+        let data = self.entries.iter().flat_map(|(_, value)| value.to_ne_bytes()).collect();
         (map, data)
     }
 }
@@ -106,13 +91,7 @@ impl Pipeline {
     ) -> Self {
         let gpu = &layout.gpu;
         gpu.name(raw, interface.name);
-        Self {
-            gpu: gpu.clone(),
-            raw,
-            bind_point,
-            layout: layout.clone(),
-            interface,
-        }
+        Self { gpu: gpu.clone(), raw, bind_point, layout: layout.clone(), interface }
     }
 
     /// Interface of the shader.
@@ -124,9 +103,7 @@ impl Pipeline {
     pub(crate) fn workgroup(&self) -> u64 {
         match self.interface.invocations {
             Invocations::Fixed(invocations) => invocations.into(),
-            Invocations::Constant if self.interface.by_teams => {
-                self.gpu.limits().teams.workgroup().into()
-            }
+            Invocations::Constant if self.interface.by_teams => self.gpu.limits().teams.workgroup().into(),
             _ => 1,
         }
     }
@@ -153,11 +130,9 @@ pub(crate) fn compute_pipeline(
     let gpu = &layout.gpu;
     let shader = Shader::new(gpu, spirv)?;
     let (map, data) = constants.packed();
-    let specialization = vk::SpecializationInfo::default()
-        .map_entries(&map)
-        .data(&data);
-    let mut size = vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default()
-        .required_subgroup_size(subgroup.unwrap_or(0));
+    let specialization = vk::SpecializationInfo::default().map_entries(&map).data(&data);
+    let mut size =
+        vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default().required_subgroup_size(subgroup.unwrap_or(0));
     let mut stage = vk::PipelineShaderStageCreateInfo::default()
         .stage(vk::ShaderStageFlags::COMPUTE)
         .module(shader.raw)
@@ -166,15 +141,10 @@ pub(crate) fn compute_pipeline(
     if subgroup.is_some() {
         stage = stage.push_next(&mut size);
     }
-    let info = vk::ComputePipelineCreateInfo::default()
-        .layout(layout.raw)
-        .stage(stage);
+    let info = vk::ComputePipelineCreateInfo::default().layout(layout.raw).stage(stage);
     // SAFETY: the layout follows from the shader's interface; all structures live until after the call.
-    let pipelines = unsafe {
-        gpu.device
-            .create_compute_pipelines(gpu.pipeline_cache, &[info], None)
-    }
-    .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
+    let pipelines = unsafe { gpu.device.create_compute_pipelines(gpu.pipeline_cache, &[info], None) }
+        .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
     let point = vk::PipelineBindPoint::COMPUTE;
     Ok(Pipeline::new(layout, raw, point, interface))
@@ -207,9 +177,7 @@ impl GraphicsPipeline<'_> {
         let vertex = Shader::new(gpu, self.vertex)?;
         let fragment = Shader::new(gpu, self.fragment)?;
         let (map, data) = self.constants.packed();
-        let specialization = vk::SpecializationInfo::default()
-            .map_entries(&map)
-            .data(&data);
+        let specialization = vk::SpecializationInfo::default().map_entries(&map).data(&data);
         let stage = |stage, shader: &Shader| {
             vk::PipelineShaderStageCreateInfo::default()
                 .stage(stage)
@@ -217,34 +185,24 @@ impl GraphicsPipeline<'_> {
                 .name(c"main")
                 .specialization_info(&specialization)
         };
-        let stages = [
-            stage(vk::ShaderStageFlags::VERTEX, &vertex),
-            stage(vk::ShaderStageFlags::FRAGMENT, &fragment),
-        ];
+        let stages = [stage(vk::ShaderStageFlags::VERTEX, &vertex), stage(vk::ShaderStageFlags::FRAGMENT, &fragment)];
         let input = vk::PipelineVertexInputStateCreateInfo::default();
-        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-        let viewport = vk::PipelineViewportStateCreateInfo::default()
-            .viewport_count(1)
-            .scissor_count(1);
+        let assembly =
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
             .polygon_mode(vk::PolygonMode::FILL)
             .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
             .line_width(1.0);
-        let multisample =
-            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(self.samples);
+        let multisample = vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(self.samples);
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
             .depth_test_enable(self.depth.is_some())
             .depth_write_enable(self.depth.is_some())
             .depth_compare_op(vk::CompareOp::GREATER);
-        let attachments = [vk::PipelineColorBlendAttachmentState::default()
-            .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let attachments =
+            [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
-        let dynamic = [
-            &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
-            self.dynamic,
-        ]
-        .concat();
+        let dynamic = [&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR], self.dynamic].concat();
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
         let formats = [self.color];
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
@@ -263,11 +221,8 @@ impl GraphicsPipeline<'_> {
             .layout(layout.raw)
             .push_next(&mut rendering);
         // SAFETY: all structures live until after the call; the layout follows from the shaders' interfaces.
-        let pipelines = unsafe {
-            gpu.device
-                .create_graphics_pipelines(gpu.pipeline_cache, &[info], None)
-        }
-        .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
+        let pipelines = unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) }
+            .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
         let raw = pipelines.first().copied().unwrap_or_default();
         let point = vk::PipelineBindPoint::GRAPHICS;
         Ok(Pipeline::new(layout, raw, point, self.interface))

@@ -54,12 +54,7 @@ pub struct Requirements;
 
 /// Formats, and the features that they need for linear images or texel buffers.
 const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
-    (
-        vk::Format::R32G32_UINT,
-        "R32G32_UINT",
-        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
-        "uniform texel buffer",
-    ),
+    (vk::Format::R32G32_UINT, "R32G32_UINT", vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER, "uniform texel buffer"),
     (
         vk::Format::R32G32B32A32_SFLOAT,
         "R32G32B32A32_SFLOAT",
@@ -72,12 +67,7 @@ const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
         vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER,
         "storage texel buffer",
     ),
-    (
-        vk::Format::R32_UINT,
-        "R32_UINT",
-        vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER,
-        "storage texel buffer",
-    ),
+    (vk::Format::R32_UINT, "R32_UINT", vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER, "storage texel buffer"),
     (
         vk::Format::R32G32B32A32_SFLOAT,
         "R32G32B32A32_SFLOAT",
@@ -90,12 +80,7 @@ const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
         vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
         "uniform texel buffer",
     ),
-    (
-        vk::Format::R32G32_SFLOAT,
-        "R32G32_SFLOAT",
-        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
-        "uniform texel buffer",
-    ),
+    (vk::Format::R32G32_SFLOAT, "R32G32_SFLOAT", vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER, "uniform texel buffer"),
 ];
 
 impl Requirements {
@@ -127,18 +112,11 @@ impl Requirements {
     /// # Safety
     /// The device belongs to the instance, which is alive and was created for [`Self::API_VERSION`] or later.
     #[must_use]
-    pub unsafe fn has_conditional_rendering(
-        instance: &ash::Instance,
-        device: vk::PhysicalDevice,
-    ) -> bool {
+    pub unsafe fn has_conditional_rendering(instance: &ash::Instance, device: vk::PhysicalDevice) -> bool {
         // SAFETY: guaranteed by the caller.
         let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
         let name = ash::ext::conditional_rendering::NAME;
-        if !extensions
-            .unwrap_or_default()
-            .iter()
-            .any(|extension| extension.extension_name_as_c_str() == Ok(name))
-        {
+        if !extensions.unwrap_or_default().iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)) {
             return false;
         }
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
@@ -155,10 +133,7 @@ impl Requirements {
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive.
-    pub(crate) unsafe fn check_version(
-        instance: &ash::Instance,
-        device: vk::PhysicalDevice,
-    ) -> Result<(), Missing> {
+    pub(crate) unsafe fn check_version(instance: &ash::Instance, device: vk::PhysicalDevice) -> Result<(), Missing> {
         // SAFETY: guaranteed by the caller; the function is of Vulkan 1.0.
         let version = unsafe { instance.get_physical_device_properties(device) }.api_version;
         if version < Self::API_VERSION {
@@ -178,10 +153,7 @@ impl Requirements {
     ///
     /// # Safety
     /// The device belongs to the instance; both are alive.
-    pub(crate) unsafe fn check_functions(
-        instance: &ash::Instance,
-        device: vk::Device,
-    ) -> Result<(), VulkanError> {
+    pub(crate) unsafe fn check_functions(instance: &ash::Instance, device: vk::Device) -> Result<(), VulkanError> {
         for name in [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"] {
             // SAFETY: guaranteed by the caller; the name ends with a zero.
             let found = unsafe { instance.get_device_proc_addr(device, name.as_ptr()) };
@@ -225,10 +197,7 @@ impl Requirements {
             (found13.synchronization2, "synchronization2"),
             (found13.maintenance4, "maintenance4"),
             (found13.subgroup_size_control, "subgroupSizeControl"),
-            (
-                found13.shader_demote_to_helper_invocation,
-                "shaderDemoteToHelperInvocation",
-            ),
+            (found13.shader_demote_to_helper_invocation, "shaderDemoteToHelperInvocation"),
         ] {
             if present == vk::FALSE {
                 missing.push(Missing::Feature(name));
@@ -248,14 +217,8 @@ impl Requirements {
                 missing.push(Missing::Subgroup(name));
             }
         }
-        let can_choose = size_control
-            .required_subgroup_size_stages
-            .contains(vk::ShaderStageFlags::COMPUTE);
-        let smallest = if can_choose {
-            size_control.max_subgroup_size
-        } else {
-            size_control.min_subgroup_size
-        };
+        let can_choose = size_control.required_subgroup_size_stages.contains(vk::ShaderStageFlags::COMPUTE);
+        let smallest = if can_choose { size_control.max_subgroup_size } else { size_control.min_subgroup_size };
         if smallest < 4 {
             missing.push(Missing::SubgroupSize(smallest));
         }
@@ -279,11 +242,7 @@ impl Requirements {
             ),
         ] {
             if found < needed {
-                missing.push(Missing::Limit {
-                    name,
-                    needed: needed.into(),
-                    found: found.into(),
-                });
+                missing.push(Missing::Limit { name, needed: needed.into(), found: found.into() });
             }
         }
         missing
@@ -294,27 +253,17 @@ impl Requirements {
     /// # Safety
     /// The device belongs to the instance, which is alive.
     #[must_use]
-    pub unsafe fn queue_family(
-        instance: &ash::Instance,
-        device: vk::PhysicalDevice,
-    ) -> Option<u32> {
+    pub unsafe fn queue_family(instance: &ash::Instance, device: vk::PhysicalDevice) -> Option<u32> {
         // SAFETY: guaranteed by the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
-        families
-            .iter()
-            .position(is_fit)
-            .and_then(|i| u32::try_from(i).ok())
+        families.iter().position(is_fit).and_then(|i| u32::try_from(i).ok())
     }
 
     /// Whether the device has a queue family with this index, with graphics and compute.
     ///
     /// # Safety
     /// The device belongs to the instance, which is alive.
-    pub(super) unsafe fn is_fit(
-        instance: &ash::Instance,
-        device: vk::PhysicalDevice,
-        family: u32,
-    ) -> bool {
+    pub(super) unsafe fn is_fit(instance: &ash::Instance, device: vk::PhysicalDevice, family: u32) -> bool {
         // SAFETY: guaranteed by the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
         families.get(family as usize).is_some_and(is_fit)

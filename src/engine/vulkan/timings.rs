@@ -60,13 +60,7 @@ impl Timings {
 
     /// Makes a timer. The commands of a [repetition](super::Recorder::repeated_rounds) have one time together.
     pub fn new(gpu: &Arc<Gpu>) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            pools: Vec::new(),
-            names: Vec::new(),
-            times_repetitions: false,
-            refused: None,
-        }
+        Self { gpu: gpu.clone(), pools: Vec::new(), names: Vec::new(), times_repetitions: false, refused: None }
     }
 
     /// The same timer, which times the passes of repetitions one by one where that is `wanted`.
@@ -87,9 +81,8 @@ impl Timings {
         }
         let [number, query] = [self.names.len() / Self::POOL, self.names.len() % Self::POOL];
         if number == self.pools.len() {
-            let info = vk::QueryPoolCreateInfo::default()
-                .query_type(vk::QueryType::TIMESTAMP)
-                .query_count(Self::POOL as u32);
+            let info =
+                vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(Self::POOL as u32);
             // SAFETY: plain creation on a live device.
             match unsafe { self.gpu.device.create_query_pool(&info, None) } {
                 Ok(pool) => self.pools.push(pool),
@@ -104,14 +97,10 @@ impl Timings {
         // commands have run, and it is reset before its first query.
         unsafe {
             if query == 0 {
-                self.gpu
-                    .device
-                    .cmd_reset_query_pool(raw, pool, 0, Self::POOL as u32);
+                self.gpu.device.cmd_reset_query_pool(raw, pool, 0, Self::POOL as u32);
             }
             let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-            self.gpu
-                .device
-                .cmd_write_timestamp2(raw, stage, pool, query as u32);
+            self.gpu.device.cmd_write_timestamp2(raw, stage, pool, query as u32);
         }
         self.names.push(name);
     }
@@ -130,15 +119,12 @@ impl Timings {
             let flags = vk::QueryResultFlags::TYPE_64;
             // SAFETY: the pool belongs to the device and has at least this many queries. They were reset when the
             // names were recorded; after that, results may be read at any time without waiting.
-            unsafe {
-                self.gpu
-                    .device
-                    .get_query_pool_results(*pool, 0, stamps, flags)
-            }
-            .map_err(|result| match result {
-                vk::Result::NOT_READY => VulkanError::NotDone,
-                result => VulkanError::of("vkGetQueryPoolResults")(result),
-            })?;
+            unsafe { self.gpu.device.get_query_pool_results(*pool, 0, stamps, flags) }.map_err(
+                |result| match result {
+                    vk::Result::NOT_READY => VulkanError::NotDone,
+                    result => VulkanError::of("vkGetQueryPoolResults")(result),
+                },
+            )?;
         }
         let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
         let mut times: Vec<PassTime> = Vec::new();

@@ -83,10 +83,7 @@ impl Interface {
     /// Names of the data that the shader accesses in this way, in the order of bindings. Data with two bindings, a
     /// texel buffer for reading and a storage buffer for writing, has one name.
     pub(crate) fn data(&self, access: Access) -> Vec<&'static str> {
-        let wanted = self
-            .uses
-            .iter()
-            .filter(|used| used.access == access || used.access == Access::ReadWrite);
+        let wanted = self.uses.iter().filter(|used| used.access == access || used.access == Access::ReadWrite);
         let mut names: Vec<&'static str> = Vec::new();
         for name in wanted.map(|used| used.binding.name.trim_end_matches("_out")) {
             if !names.contains(&name) {

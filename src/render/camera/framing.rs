@@ -18,12 +18,7 @@ pub struct Orbit {
 
 impl Default for Orbit {
     fn default() -> Self {
-        Self {
-            azimuth: 35.0,
-            elevation: 20.0,
-            zoom: 1.0,
-            fov: 40.0,
-        }
+        Self { azimuth: 35.0, elevation: 20.0, zoom: 1.0, fov: 40.0 }
     }
 }
 
@@ -34,25 +29,12 @@ impl Orbit {
     /// [`CameraError`] if an angle is not finite or the field of view not between 0 and 180 degrees.
     pub fn frame(&self, low: DVec3, high: DVec3, aspect: f64) -> Result<Camera, CameraError> {
         let center = 0.5 * (low + high);
-        let radius = (0.5 * (high - low).length())
-            .max(1e-9 * center.length())
-            .max(1e-12);
+        let radius = (0.5 * (high - low).length()).max(1e-9 * center.length()).max(1e-12);
         let half = 0.5 * self.fov.to_radians();
-        let narrower = if aspect < 1.0 {
-            (half.tan() * aspect).atan()
-        } else {
-            half
-        };
+        let narrower = if aspect < 1.0 { (half.tan() * aspect).atan() } else { half };
         let distance = radius / narrower.sin() / self.zoom;
-        let (azimuth, elevation) = (
-            self.azimuth.to_radians(),
-            self.elevation.clamp(-89.99, 89.99).to_radians(),
-        );
-        let from = DVec3::new(
-            azimuth.sin() * elevation.cos(),
-            elevation.sin(),
-            azimuth.cos() * elevation.cos(),
-        );
+        let (azimuth, elevation) = (self.azimuth.to_radians(), self.elevation.clamp(-89.99, 89.99).to_radians());
+        let from = DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
         let eye = center + distance * from;
         // The near plane is close enough for a camera inside of the scene; reversed depth stays precise all the same.
         let near = 1e-4 * radius.max(distance);
@@ -81,10 +63,7 @@ impl Viewpoint {
     /// [`CameraError`] if eye and target coincide, `up` lies along the view, or the field of view is not between 0 and
     /// 180 degrees.
     pub fn frame(&self, low: DVec3, high: DVec3) -> Result<Camera, CameraError> {
-        let near = 1e-3
-            * (self.target - self.eye)
-                .length()
-                .min(0.1 * (high - low).length());
+        let near = 1e-3 * (self.target - self.eye).length().min(0.1 * (high - low).length());
         Camera::look_at(self.eye, self.target, self.up, self.fov, near.max(1e-12))
     }
 }

@@ -93,26 +93,15 @@ impl Camera {
     /// # Errors
     /// [`CameraError`] if eye and target coincide, `up` lies along the view, or the field of view is not between 0 and
     /// 180 degrees.
-    pub fn look_at(
-        eye: DVec3,
-        target: DVec3,
-        up: DVec3,
-        fov_degrees: f64,
-        near: f64,
-    ) -> Result<Self, CameraError> {
+    pub fn look_at(eye: DVec3, target: DVec3, up: DVec3, fov_degrees: f64, near: f64) -> Result<Self, CameraError> {
         if !(fov_degrees > 0.0 && fov_degrees < 180.0) {
             return Err(CameraError::FieldOfView(fov_degrees));
         }
-        let axes =
-            axes_towards(target - eye, up).ok_or(CameraError::Direction { eye, target, up })?;
+        let axes = axes_towards(target - eye, up).ok_or(CameraError::Direction { eye, target, up })?;
         Ok(Self {
             eye,
             axes,
-            projection: Projection::Perspective {
-                fov: fov_degrees.to_radians(),
-                near,
-                far: None,
-            },
+            projection: Projection::Perspective { fov: fov_degrees.to_radians(), near, far: None },
             shift: DVec2::ZERO,
         })
     }
@@ -122,38 +111,19 @@ impl Camera {
     #[must_use]
     pub fn from_scene(camera: &SceneCamera) -> Self {
         let projection = match camera.projection {
-            SceneProjection::Perspective {
-                yfov, near, far, ..
-            } => Projection::Perspective {
-                fov: yfov,
-                near,
-                far,
-            },
-            SceneProjection::Orthographic {
-                ymag, near, far, ..
-            } => Projection::Orthographic {
-                half_height: ymag,
-                near,
-                far,
-            },
+            SceneProjection::Perspective { yfov, near, far, .. } => Projection::Perspective { fov: yfov, near, far },
+            SceneProjection::Orthographic { ymag, near, far, .. } => {
+                Projection::Orthographic { half_height: ymag, near, far }
+            }
         };
-        Self {
-            eye: camera.eye,
-            axes: camera.axes,
-            projection,
-            shift: DVec2::ZERO,
-        }
+        Self { eye: camera.eye, axes: camera.axes, projection, shift: DVec2::ZERO }
     }
 
     /// This camera, turned about the vertical axis through `point` by `degrees`, counter-clockwise as seen from above.
     #[must_use]
     pub fn turned(&self, point: DVec3, degrees: f64) -> Self {
         let turn = DQuat::from_rotation_y(degrees.to_radians());
-        Self {
-            eye: point + turn * (self.eye - point),
-            axes: DMat3::from_quat(turn) * self.axes,
-            ..*self
-        }
+        Self { eye: point + turn * (self.eye - point), axes: DMat3::from_quat(turn) * self.axes, ..*self }
     }
 
     /// Unit vector that the camera looks along.
@@ -180,12 +150,7 @@ impl Camera {
     pub fn view_from(&self, origin: DVec3) -> DMat4 {
         let turn = self.axes.transpose();
         let shift = turn * (origin - self.eye);
-        DMat4::from_cols(
-            turn.x_axis.extend(0.0),
-            turn.y_axis.extend(0.0),
-            turn.z_axis.extend(0.0),
-            shift.extend(1.0),
-        )
+        DMat4::from_cols(turn.x_axis.extend(0.0), turn.y_axis.extend(0.0), turn.z_axis.extend(0.0), shift.extend(1.0))
     }
 
     /// Matrix from view space to clip space, for an image of `aspect` = width / height.
@@ -196,9 +161,7 @@ impl Camera {
                 let f = 1.0 / (0.5 * fov).tan();
                 // depth * w is `near` if the far plane is at infinity; otherwise it is linear, 1 at the near plane and
                 // 0 at the far plane.
-                let (a, b) = far.map_or((0.0, near), |far| {
-                    (near / (far - near), near * far / (far - near))
-                });
+                let (a, b) = far.map_or((0.0, near), |far| (near / (far - near), near * far / (far - near)));
                 DMat4::from_cols(
                     DVec4::new(f / aspect, 0.0, 0.0, 0.0),
                     DVec4::new(0.0, f, 0.0, 0.0),
@@ -206,11 +169,7 @@ impl Camera {
                     DVec4::new(0.0, 0.0, b, 0.0),
                 )
             }
-            Projection::Orthographic {
-                half_height,
-                near,
-                far,
-            } => {
+            Projection::Orthographic { half_height, near, far } => {
                 let depth = 1.0 / (far - near);
                 DMat4::from_cols(
                     DVec4::new(1.0 / (half_height * aspect), 0.0, 0.0, 0.0),
@@ -252,15 +211,14 @@ mod tests {
     use super::*;
 
     fn project(camera: &Camera, p: DVec3) -> DVec3 {
-        let c = camera.pixel_matrix(DVec3::new(1.0, 2.0, 3.0), 200.0, 100.0)
-            * (p - DVec3::new(1.0, 2.0, 3.0)).extend(1.0);
+        let c =
+            camera.pixel_matrix(DVec3::new(1.0, 2.0, 3.0), 200.0, 100.0) * (p - DVec3::new(1.0, 2.0, 3.0)).extend(1.0);
         c.truncate() / c.w
     }
 
     #[test]
     fn a_point_above_and_right_of_the_axis_projects_up_and_right() {
-        let camera =
-            Camera::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y, 90.0, 0.5).unwrap();
+        let camera = Camera::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y, 90.0, 0.5).unwrap();
         let p = project(&camera, DVec3::new(1.0, 2.0, 0.0));
         assert!((p - DVec3::new(10.0, -20.0, 0.1)).length() < 1e-12, "{p}");
     }
@@ -269,18 +227,10 @@ mod tests {
     fn depth_is_one_at_the_near_plane_and_zero_at_the_far_one() {
         let mut camera = Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 60.0, 0.5).unwrap();
         assert!((project(&camera, DVec3::new(0.0, 0.0, -0.5)).z - 1.0).abs() < 1e-12);
-        camera.projection = Projection::Perspective {
-            fov: 1.0,
-            near: 0.5,
-            far: Some(10.0),
-        };
+        camera.projection = Projection::Perspective { fov: 1.0, near: 0.5, far: Some(10.0) };
         assert!((project(&camera, DVec3::new(0.0, 0.0, -0.5)).z - 1.0).abs() < 1e-12);
         assert!(project(&camera, DVec3::new(0.0, 0.0, -10.0)).z.abs() < 1e-12);
-        camera.projection = Projection::Orthographic {
-            half_height: 2.0,
-            near: 0.5,
-            far: 10.0,
-        };
+        camera.projection = Projection::Orthographic { half_height: 2.0, near: 0.5, far: 10.0 };
         assert!((project(&camera, DVec3::new(0.0, 0.0, -0.5)).z - 1.0).abs() < 1e-12);
         assert!(project(&camera, DVec3::new(0.0, 1.0, -10.0)).z.abs() < 1e-12);
         assert!((project(&camera, DVec3::new(0.0, 1.0, -10.0)).y + 25.0).abs() < 1e-12);
@@ -290,26 +240,14 @@ mod tests {
     fn a_shift_moves_every_distance_alike() {
         let eye = DVec3::new(0.0, 0.0, 5.0);
         let centred = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, 50.0, 0.5).unwrap();
-        let orthographic = Camera {
-            projection: Projection::Orthographic {
-                half_height: 2.0,
-                near: 0.5,
-                far: 10.0,
-            },
-            ..centred
-        };
+        let orthographic =
+            Camera { projection: Projection::Orthographic { half_height: 2.0, near: 0.5, far: 10.0 }, ..centred };
         for camera in [centred, orthographic] {
             // The shift is a quarter of a pixel to the right and half a pixel down, in an image of 200 x 100 pixels.
-            let shifted = Camera {
-                shift: DVec2::new(0.25 / 200.0, 0.5 / 100.0),
-                ..camera
-            };
+            let shifted = Camera { shift: DVec2::new(0.25 / 200.0, 0.5 / 100.0), ..camera };
             for point in [DVec3::ONE, DVec3::new(-3.0, 0.2, -40.0)] {
                 let moved = project(&shifted, point) - project(&camera, point);
-                assert!(
-                    (moved - DVec3::new(-0.25, -0.5, 0.0)).length() < 1e-12,
-                    "{moved}"
-                );
+                assert!((moved - DVec3::new(-0.25, -0.5, 0.0)).length() < 1e-12, "{moved}");
             }
         }
     }

@@ -97,42 +97,12 @@ impl CubeFace {
 }
 
 const FACES: [CubeFace; 6] = [
-    CubeFace {
-        forward: DVec3::X,
-        right: DVec3::Z,
-        down: DVec3::NEG_Y,
-        cross: [2, 1],
-    },
-    CubeFace {
-        forward: DVec3::NEG_X,
-        right: DVec3::NEG_Z,
-        down: DVec3::NEG_Y,
-        cross: [0, 1],
-    },
-    CubeFace {
-        forward: DVec3::Y,
-        right: DVec3::X,
-        down: DVec3::NEG_Z,
-        cross: [1, 0],
-    },
-    CubeFace {
-        forward: DVec3::NEG_Y,
-        right: DVec3::X,
-        down: DVec3::Z,
-        cross: [1, 2],
-    },
-    CubeFace {
-        forward: DVec3::Z,
-        right: DVec3::NEG_X,
-        down: DVec3::NEG_Y,
-        cross: [3, 1],
-    },
-    CubeFace {
-        forward: DVec3::NEG_Z,
-        right: DVec3::X,
-        down: DVec3::NEG_Y,
-        cross: [1, 1],
-    },
+    CubeFace { forward: DVec3::X, right: DVec3::Z, down: DVec3::NEG_Y, cross: [2, 1] },
+    CubeFace { forward: DVec3::NEG_X, right: DVec3::NEG_Z, down: DVec3::NEG_Y, cross: [0, 1] },
+    CubeFace { forward: DVec3::Y, right: DVec3::X, down: DVec3::NEG_Z, cross: [1, 0] },
+    CubeFace { forward: DVec3::NEG_Y, right: DVec3::X, down: DVec3::Z, cross: [1, 2] },
+    CubeFace { forward: DVec3::Z, right: DVec3::NEG_X, down: DVec3::NEG_Y, cross: [3, 1] },
+    CubeFace { forward: DVec3::NEG_Z, right: DVec3::X, down: DVec3::NEG_Y, cross: [1, 1] },
 ];
 
 /// Tolerance in radians for directions on the edge of the layout.
@@ -149,11 +119,7 @@ impl Panorama {
     /// # Errors
     /// [`PanoramaError`] if the field of view is not above 0 and at most 360, an equirectangular image is higher than
     /// 180 degrees, or the image is too small.
-    pub fn new(
-        projection: PanoramaProjection,
-        fov: f64,
-        size: [u32; 2],
-    ) -> Result<Self, PanoramaError> {
+    pub fn new(projection: PanoramaProjection, fov: f64, size: [u32; 2]) -> Result<Self, PanoramaError> {
         if !(fov > 0.0 && fov <= 360.0) {
             return Err(PanoramaError::FieldOfView(fov));
         }
@@ -163,12 +129,7 @@ impl Panorama {
             PanoramaProjection::Equirectangular => {
                 let latitudes = fov * f64::from(height) / f64::from(width);
                 if latitudes > 180.0 {
-                    return Err(PanoramaError::Latitudes {
-                        width,
-                        height,
-                        fov,
-                        latitudes,
-                    });
+                    return Err(PanoramaError::Latitudes { width, height, fov, latitudes });
                 }
             }
             PanoramaProjection::Cubemap => {
@@ -183,11 +144,7 @@ impl Panorama {
         if size.contains(&0) {
             return Err(PanoramaError::Size([width, height]));
         }
-        Ok(Self {
-            projection,
-            fov,
-            size,
-        })
+        Ok(Self { projection, fov, size })
     }
 
     /// Width and height of the image in pixels.
@@ -208,12 +165,9 @@ impl Panorama {
             PanoramaProjection::Equirectangular => {
                 let (longitude, latitude) = (way.x * scale, -way.y * scale);
                 let up = DVec3::Y * latitude.sin();
-                (latitude.abs() <= FRAC_PI_2 + ROUNDING)
-                    .then(|| around(longitude) * latitude.cos() + up)
+                (latitude.abs() <= FRAC_PI_2 + ROUNDING).then(|| around(longitude) * latitude.cos() + up)
             }
-            PanoramaProjection::Cylindrical => {
-                Some((around(way.x * scale) - DVec3::Y * (way.y * scale)).normalize())
-            }
+            PanoramaProjection::Cylindrical => Some((around(way.x * scale) - DVec3::Y * (way.y * scale)).normalize()),
             PanoramaProjection::Fisheye => {
                 let angle = way.length() * scale;
                 let aside = DVec3::new(way.x, -way.y, 0.0).normalize_or_zero();
@@ -223,9 +177,7 @@ impl Panorama {
             PanoramaProjection::Cubemap => {
                 let side = 0.25 * size.x;
                 let cell = (place / side).floor();
-                let face = FACES
-                    .iter()
-                    .find(|face| face.cross.map(f64::from) == cell.to_array());
+                let face = FACES.iter().find(|face| face.cross.map(f64::from) == cell.to_array());
                 face.map(|face| face.toward(place / side - cell))
             }
         }
@@ -259,18 +211,9 @@ impl Panorama {
             };
             direction.map(|direction| camera.axes * direction)
         })?;
-        let rig = rig
-            .pinholes()
-            .iter()
-            .zip(sets)
-            .filter_map(|(pinhole, set)| Some((*pinhole, set?.locations())))
-            .collect();
-        Ok(PanoramaLocations {
-            panorama: *self,
-            layout,
-            size,
-            rig,
-        })
+        let rig =
+            rig.pinholes().iter().zip(sets).filter_map(|(pinhole, set)| Some((*pinhole, set?.locations()))).collect();
+        Ok(PanoramaLocations { panorama: *self, layout, size, rig })
     }
 
     /// Radians per pixel in the middle of the image; for a cubemap, in the middle of a face.
@@ -300,12 +243,8 @@ enum PanoramaLayout {
 impl PanoramaLayout {
     fn of(panorama: &Panorama) -> Self {
         match panorama.projection {
-            PanoramaProjection::Cubemap => Self::Faces {
-                side: panorama.size[0] / 4,
-            },
-            PanoramaProjection::Equirectangular | PanoramaProjection::Cylindrical
-                if panorama.fov == 360.0 =>
-            {
+            PanoramaProjection::Cubemap => Self::Faces { side: panorama.size[0] / 4 },
+            PanoramaProjection::Equirectangular | PanoramaProjection::Cylindrical if panorama.fov == 360.0 => {
                 Self::Around
             }
             _ => Self::Plain,
@@ -367,8 +306,6 @@ impl PanoramaLocations {
             let (col, row) = self.layout.sampled(col, row)?;
             sampled.get(row as usize * self.size[0] as usize + col as usize)
         };
-        places
-            .map(|place| value(place).copied().unwrap_or(empty))
-            .collect()
+        places.map(|place| value(place).copied().unwrap_or(empty)).collect()
     }
 }

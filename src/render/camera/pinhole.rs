@@ -50,9 +50,7 @@ pub enum PinholeError {
     #[error("{0} of the pinhole is not finite")]
     NotFinite(&'static str),
     /// Centre of projection that is neither a point (w = 1) nor a direction (w = 0), or is zero.
-    #[error(
-        "the centre of projection is {0}; give a point (x, y, z, 1) or a direction (x, y, z, 0) other than zero"
-    )]
+    #[error("the centre of projection is {0}; give a point (x, y, z, 1) or a direction (x, y, z, 0) other than zero")]
     Centre(DVec4),
     /// Image plane whose steps a and b are parallel or zero.
     #[error("a = {a} and b = {b} span no image plane; they must be independent")]
@@ -152,16 +150,7 @@ impl Pinhole {
         if !inverse.is_finite() {
             return Err(PinholeError::Plane { a, b });
         }
-        Ok(Self {
-            centre,
-            origin,
-            a,
-            b,
-            near,
-            far,
-            inverse,
-            normal,
-        })
+        Ok(Self { centre, origin, a, b, near, far, inverse, normal })
     }
 
     /// Makes the pinhole of a camera and an image of `size` = [width, height] in pixels.
@@ -186,12 +175,8 @@ impl Pinhole {
         let corner = (camera.shift - DVec2::splat(0.5)) * DVec2::new(width, height);
         let origin = middle + a * corner.x + b * corner.y;
         match camera.projection {
-            Projection::Perspective { near, far, .. } => {
-                Self::new(camera.eye.extend(1.0), origin, a, b, near, far)
-            }
-            Projection::Orthographic { near, far, .. } => {
-                Self::new(back.extend(0.0), origin, a, b, near, Some(far))
-            }
+            Projection::Perspective { near, far, .. } => Self::new(camera.eye.extend(1.0), origin, a, b, near, far),
+            Projection::Orthographic { near, far, .. } => Self::new(back.extend(0.0), origin, a, b, near, Some(far)),
         }
     }
 
@@ -266,11 +251,7 @@ impl Pinhole {
     /// the image plane.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
-        if self.is_parallel() {
-            self.origin
-        } else {
-            self.centre.xyz()
-        }
+        if self.is_parallel() { self.origin } else { self.centre.xyz() }
     }
 
     /// Unit normal of the image plane that points away from C; depths are distances along it.
@@ -302,11 +283,7 @@ impl Pinhole {
     pub fn ray(&self, uv: DVec2) -> Ray {
         let point = self.origin + self.a * uv.x + self.b * uv.y;
         let direction = (self.centre.w * point - self.centre.xyz()).normalize();
-        let start = if self.is_parallel() {
-            point
-        } else {
-            self.centre.xyz()
-        };
+        let start = if self.is_parallel() { point } else { self.centre.xyz() };
         Ray { start, direction }
     }
 
@@ -352,12 +329,7 @@ impl Pinhole {
     }
 }
 
-fn perspective_of_rows(
-    u: DVec4,
-    v: DVec4,
-    depth: DVec4,
-    w: DVec4,
-) -> Result<Pinhole, PinholeError> {
+fn perspective_of_rows(u: DVec4, v: DVec4, depth: DVec4, w: DVec4) -> Result<Pinhole, PinholeError> {
     // The rows give u w, v w and w for points relative to C; C is the point for which all three vanish.
     let rows = DMat3::from_cols(u.xyz(), v.xyz(), w.xyz()).transpose();
     let inverse = rows.inverse();
@@ -370,9 +342,7 @@ fn perspective_of_rows(
     let scale = w.xyz().length();
     let slope = depth.xyz().dot(w.xyz()) / scale;
     if (depth.xyz() - w.xyz() * (slope / scale)).length() > 1e-9 * scale {
-        return Err(PinholeError::Matrix(
-            "the near plane is not parallel to the image plane",
-        ));
+        return Err(PinholeError::Matrix("the near plane is not parallel to the image plane"));
     }
     let at_centre = depth.xyz().dot(centre) + depth.w;
     let near = at_centre / (scale - slope);
@@ -386,9 +356,7 @@ fn parallel_of_rows(u: DVec4, v: DVec4, depth: DVec4, w: DVec4) -> Result<Pinhol
     let rows = DMat3::from_cols(u.xyz(), v.xyz(), depth.xyz()).transpose();
     let inverse = rows.inverse() * w.w;
     if !inverse.is_finite() || w.w == 0.0 {
-        return Err(PinholeError::Matrix(
-            "rows x, y and depth are not independent",
-        ));
+        return Err(PinholeError::Matrix("rows x, y and depth are not independent"));
     }
     // The image plane is the near plane, where depth is 1; a step of -1 in depth leads to the far plane.
     let offsets = DVec3::new(u.w, v.w, depth.w) / w.w;
@@ -396,12 +364,5 @@ fn parallel_of_rows(u: DVec4, v: DVec4, depth: DVec4, w: DVec4) -> Result<Pinhol
     let normal = inverse.x_axis.cross(inverse.y_axis).normalize();
     let far = inverse.z_axis.dot(normal).abs();
     let centre = inverse.z_axis.normalize().extend(0.0);
-    Pinhole::new(
-        centre,
-        origin,
-        inverse.x_axis,
-        inverse.y_axis,
-        0.0,
-        Some(far),
-    )
+    Pinhole::new(centre, origin, inverse.x_axis, inverse.y_axis, 0.0, Some(far))
 }

@@ -83,25 +83,11 @@ impl Rig {
         }
         let [right, up, back] = [axes.x_axis, axes.y_axis, axes.z_axis];
         // Forward direction and the image's right for each face; they determine the third axis.
-        let faces = [
-            (right, back),
-            (-right, -back),
-            (up, right),
-            (-up, right),
-            (back, -right),
-            (-back, right),
-        ];
+        let faces = [(right, back), (-right, -back), (up, right), (-up, right), (back, -right), (-back, right)];
         let pixel = 2.0 / f64::from(side);
         let pinhole = |(forward, a): (DVec3, DVec3)| {
             let b = forward.cross(a);
-            Pinhole::new(
-                eye.extend(1.0),
-                eye + forward - a - b,
-                a * pixel,
-                b * pixel,
-                near,
-                None,
-            )
+            Pinhole::new(eye.extend(1.0), eye + forward - a - b, a * pixel, b * pixel, near, None)
         };
         let pinholes: Result<Vec<_>, _> = faces.into_iter().map(pinhole).collect();
         Self::new(pinholes?)
@@ -148,8 +134,7 @@ impl Rig {
         for row in 0..size[1] {
             for col in 0..size[0] {
                 let place = DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5);
-                let Some((index, uv)) = look(place).and_then(|direction| self.locate(direction))
-                else {
+                let Some((index, uv)) = look(place).and_then(|direction| self.locate(direction)) else {
                     continue;
                 };
                 let along = |step: DVec2| {

@@ -16,9 +16,6 @@ impl SampleLocation {
     pub(crate) fn at(&self, [columns, rows]: [f64; 2]) -> Self {
         let [column, row] = self.jacobian;
         let moved = |axis: usize| self.uv[axis] + column[axis] * columns + row[axis] * rows;
-        Self {
-            uv: [moved(0), moved(1)],
-            ..*self
-        }
+        Self { uv: [moved(0), moved(1)], ..*self }
     }
 }

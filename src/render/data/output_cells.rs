@@ -54,11 +54,7 @@ impl OutputCells {
             let info = vk::ImageCreateInfo::default()
                 .image_type(vk::ImageType::TYPE_2D)
                 .format(vk::Format::R32_UINT)
-                .extent(vk::Extent3D {
-                    width,
-                    height,
-                    depth: 1,
-                })
+                .extent(vk::Extent3D { width, height, depth: 1 })
                 .mip_levels(1)
                 .array_layers(1)
                 .samples(vk::SampleCountFlags::TYPE_1)
@@ -91,12 +87,7 @@ impl OutputCells {
     /// Views of the IDs for passes.
     #[must_use]
     pub fn views(&self) -> IdViews {
-        IdViews {
-            ids: self.ids.view,
-            blend_ids: Some(self.blend_ids.view),
-            depth: None,
-            placeholder: None,
-        }
+        IdViews { ids: self.ids.view, blend_ids: Some(self.blend_ids.view), depth: None, placeholder: None }
     }
 
     /// Words of a plane, to be written while the device is idle; empty if the driver did not map the buffer.
@@ -110,10 +101,7 @@ impl OutputCells {
     /// Records the upload of the first `rows` rows: to the images, and to the buffers of `resources`, which have room
     /// for them.
     pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
-        let planes = [
-            (&self.ids, OutputPlane::Ids),
-            (&self.blend_ids, OutputPlane::BlendIds),
-        ];
+        let planes = [(&self.ids, OutputPlane::Ids), (&self.blend_ids, OutputPlane::BlendIds)];
         for (image, plane) in planes {
             let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
             recorder.transition(image, vk::ImageLayout::UNDEFINED, written);
@@ -125,31 +113,16 @@ impl OutputCells {
                     base_array_layer: 0,
                     layer_count: 1,
                 })
-                .image_extent(vk::Extent3D {
-                    width: self.size[0],
-                    height: rows,
-                    depth: 1,
-                })];
+                .image_extent(vk::Extent3D { width: self.size[0], height: rows, depth: 1 })];
             // SAFETY: guaranteed by the recorder's caller; the buffer has the words of these rows, and the image has
             // their size and this layout.
             unsafe {
-                recorder.device().cmd_copy_buffer_to_image(
-                    recorder.raw(),
-                    self.words.raw,
-                    image.raw,
-                    written,
-                    &copies,
-                );
+                recorder.device().cmd_copy_buffer_to_image(recorder.raw(), self.words.raw, image.raw, written, &copies);
             }
             recorder.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
         }
         let bytes = Self::bytes_of([self.size[0], rows]);
-        self.record_copy(
-            recorder,
-            OutputPlane::Codes,
-            &resources.display.buffer,
-            bytes,
-        );
+        self.record_copy(recorder, OutputPlane::Codes, &resources.display.buffer, bytes);
         if resources.sizes().shadow_words > 0 {
             let shadows = &resources.shadow_words.buffer;
             self.record_copy(recorder, OutputPlane::Shadows, shadows, bytes);
@@ -168,9 +141,7 @@ impl OutputCells {
 
     /// Records a copy of the first bytes of a plane to a buffer, which is at least as large.
     fn record_copy(&self, recorder: &Recorder<'_>, plane: OutputPlane, to: &Buffer, bytes: u64) {
-        let region = vk::BufferCopy::default()
-            .src_offset(plane.range()[0] * Self::bytes_of(self.size))
-            .size(bytes);
+        let region = vk::BufferCopy::default().src_offset(plane.range()[0] * Self::bytes_of(self.size)).size(bytes);
         // SAFETY: both buffers have this many bytes, were created for copies, and outlive the execution.
         unsafe { recorder.copy_raw(self.words.raw, to.raw, &[region]) };
     }

@@ -5,14 +5,13 @@ use super::{FrameGeometry, FrameLook};
 use crate::engine::spirv::{self, frame_set};
 use crate::render::{Headless, HeadlessOptions, SceneRequest};
 use crate::scene::{
-    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Draw, DrawClass, Filter, Geometry,
-    Image, Instance, Iridescence, Light, LightKind, Lobes, Material, Pose, Sampler, Scene, Sheen,
-    Specular, SpecularGlossiness, Texture, TextureTransform, TextureUse, Transmission,
-    VertexStreams, Wrap,
+    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Draw, DrawClass, Filter, Geometry, Image, Instance,
+    Iridescence, Light, LightKind, Lobes, Material, Pose, Sampler, Scene, Sheen, Specular, SpecularGlossiness, Texture,
+    TextureTransform, TextureUse, Transmission, VertexStreams, Wrap,
 };
 use crate::vulkan::{
-    Access, Binding, DescriptorSets, Interface, Invocations, Memory, MemoryUse, PassLayout,
-    Recorder, SharedLayout, Specialized, Use, compute_pipeline,
+    Access, Binding, DescriptorSets, Interface, Invocations, Memory, MemoryUse, PassLayout, Recorder, SharedLayout,
+    Specialized, Use, compute_pipeline,
 };
 use ash::vk;
 use ash::vk::DescriptorType as Kind;
@@ -23,11 +22,7 @@ const FIELDS: Binding = Binding::new(0, "fields", Kind::STORAGE_BUFFER, 1);
 
 const fn read(set: u32, binding: Binding) -> Use {
     let access = Access::Read;
-    Use {
-        set,
-        binding,
-        access,
-    }
+    Use { set, binding, access }
 }
 
 static INTERFACE: Interface = Interface {
@@ -46,11 +41,7 @@ static INTERFACE: Interface = Interface {
         read(1, frame_set::ALPHA_ATLAS),
         read(1, frame_set::INSTANCE_OF),
         read(1, frame_set::INSTANCES),
-        Use {
-            set: 2,
-            binding: FIELDS,
-            access: Access::Write,
-        },
+        Use { set: 2, binding: FIELDS, access: Access::Write },
     ],
     push_bytes: 12,
     invocations: Invocations::Fixed(1),
@@ -76,13 +67,8 @@ impl Numbers {
 
 /// A material with all lobes, and two textures with transforms of their own.
 fn material(n: &mut Numbers) -> Material {
-    let mut texture = |uv_set| {
-        Some(TextureUse {
-            texture: 0,
-            uv_set,
-            transform: TextureTransform([n.several(), n.several()]),
-        })
-    };
+    let mut texture =
+        |uv_set| Some(TextureUse { texture: 0, uv_set, transform: TextureTransform([n.several(), n.several()]) });
     let (base_color_texture, normal_texture) = (texture(0), texture(1));
     Material {
         base_color: n.several(),
@@ -117,11 +103,7 @@ fn material(n: &mut Numbers) -> Material {
                 color_texture: None,
                 roughness_texture: None,
             }),
-            anisotropy: Some(Anisotropy {
-                strength: n.next(),
-                rotation: 0.5,
-                texture: None,
-            }),
+            anisotropy: Some(Anisotropy { strength: n.next(), rotation: 0.5, texture: None }),
             iridescence: Some(Iridescence {
                 factor: n.next(),
                 ior: n.next(),
@@ -156,11 +138,7 @@ fn material(n: &mut Numbers) -> Material {
 fn scene(n: &mut Numbers) -> (Scene, Pose) {
     let mut scene = Scene::from_materials(vec![Material::default(), material(n)]);
     let [width, height] = [4, 2];
-    scene.images = vec![Image {
-        width,
-        height,
-        pixels: (0..4 * width * height).map(|byte| byte as u8).collect(),
-    }];
+    scene.images = vec![Image { width, height, pixels: (0..4 * width * height).map(|byte| byte as u8).collect() }];
     scene.textures = vec![Texture {
         image: 0,
         sampler: Sampler {
@@ -207,13 +185,7 @@ fn scene(n: &mut Numbers) -> (Scene, Pose) {
             ..Geometry::default()
         },
         materials: Vec::new(),
-        lights: vec![
-            light(LightKind::Point),
-            light(LightKind::Spot {
-                inner_angle: 0.0,
-                outer_angle: 1.0,
-            }),
-        ],
+        lights: vec![light(LightKind::Point), light(LightKind::Spot { inner_angle: 0.0, outer_angle: 1.0 })],
         environment: None,
         cameras: Vec::new(),
         warnings: Vec::new(),
@@ -223,9 +195,7 @@ fn scene(n: &mut Numbers) -> (Scene, Pose) {
 
 /// A transform of different whole numbers, which mirrors.
 fn placed() -> DAffine3 {
-    DAffine3::from_cols_array(&[
-        2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0,
-    ])
+    DAffine3::from_cols_array(&[2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0])
 }
 
 /// A matrix of different whole numbers.
@@ -304,10 +274,7 @@ impl Fields {
         self.floats("glossiness", &[lobe.glossiness]);
         let slots = [material.base_color_texture?, material.normal_texture?];
         for used in slots {
-            self.floats(
-                "transform of texture coordinates",
-                used.transform.0.as_flattened(),
-            );
+            self.floats("transform of texture coordinates", used.transform.0.as_flattened());
             self.words("set of texture coordinates", &[used.uv_set]);
         }
         Some(())
@@ -322,10 +289,7 @@ impl Fields {
     }
 
     fn light(&mut self, light: &Light) {
-        self.floats(
-            "position of the light",
-            &light.position.as_vec3().to_array(),
-        );
+        self.floats("position of the light", &light.position.as_vec3().to_array());
         self.floats("1 / range^2", &[16.0]);
         let direction = light.direction.as_vec3();
         self.floats("direction of the light", &direction.to_array());
@@ -338,12 +302,7 @@ impl Fields {
 }
 
 /// What the shader reads of the second triangle, instance, material and light.
-fn read_by_shader(
-    headless: &mut Headless,
-    scene: &Scene,
-    pose: &Pose,
-    instanced: bool,
-) -> Vec<u32> {
+fn read_by_shader(headless: &mut Headless, scene: &Scene, pose: &Pose, instanced: bool) -> Vec<u32> {
     let prepared = headless.upload(SceneRequest::new(scene, pose)).unwrap();
     let (gpu, scene) = (headless.gpu().clone(), &prepared.gpu_scene);
     let memory = Memory::new(gpu.clone(), None);
@@ -356,21 +315,13 @@ fn read_by_shader(
         ..spirv::Frame::default()
     };
     let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
-    let frame = memory
-        .filled("frame", bytemuck::bytes_of(&frame), usage)
-        .unwrap();
+    let frame = memory.filled("frame", bytemuck::bytes_of(&frame), usage).unwrap();
     let (bytes, usage) = (4 * MOST_FIELDS as u64, vk::BufferUsageFlags::STORAGE_BUFFER);
-    let fields = memory
-        .buffer("fields", bytes, usage, MemoryUse::Readback)
-        .unwrap();
+    let fields = memory.buffer("fields", bytes, usage, MemoryUse::Readback).unwrap();
 
     let shared = SharedLayout::new(&gpu, &[&INTERFACE]).unwrap();
     let layout = Arc::new(PassLayout::new(&gpu, &[&INTERFACE], Some(&shared)).unwrap());
-    let sets = |of_frame, sets: &[_]| {
-        DescriptorSets::new(&gpu, of_frame, sets, 1)
-            .unwrap()
-            .remove(0)
-    };
+    let sets = |of_frame, sets: &[_]| DescriptorSets::new(&gpu, of_frame, sets, 1).unwrap().remove(0);
     let mut of_frame = sets(true, &layout.sets[..2]);
     let mut own = sets(false, &layout.sets[2..]);
     let mut shown = geometry.shown(scene);

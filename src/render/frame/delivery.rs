@@ -20,11 +20,7 @@ struct Source {
 impl Source {
     /// Pixels from the beginning of a buffer on.
     fn floats(buffer: vk::Buffer, bytes: u64) -> Self {
-        Self {
-            buffer,
-            first: 0,
-            bytes,
-        }
+        Self { buffer, first: 0, bytes }
     }
 }
 
@@ -33,11 +29,9 @@ impl Recording<'_> {
     pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
         let resources = self.resources;
         let source = match &self.passes.encode {
-            Some((encoding, _)) => Source {
-                buffer: resources.encoded.handle(),
-                first: FIRST_PIXEL,
-                bytes: encoding.encoded_bytes(),
-            },
+            Some((encoding, _)) => {
+                Source { buffer: resources.encoded.handle(), first: FIRST_PIXEL, bytes: encoding.encoded_bytes() }
+            }
             None => Source::floats(resources.color.buffer.handle(), 16),
         };
         match self.target {
@@ -65,11 +59,8 @@ impl Recording<'_> {
         let [left, top] = self.place(region).map(u64::from);
         let target_row = u64::from(self.settings.output_size()[0]);
         // If the rows are contiguous in both buffers, they are copied as one.
-        let (rows, width) = if width == row(region) && width == target_row {
-            (1, width * height)
-        } else {
-            (height, width)
-        };
+        let (rows, width) =
+            if width == row(region) && width == target_row { (1, width * height) } else { (height, width) };
         let rows: Vec<_> = (0..rows)
             .map(|y| {
                 vk::BufferCopy::default()
@@ -96,26 +87,10 @@ impl Recording<'_> {
                 base_array_layer: 0,
                 layer_count: 1,
             })
-            .image_offset(vk::Offset3D {
-                x: left as i32,
-                y: top as i32,
-                z: 0,
-            })
-            .image_extent(vk::Extent3D {
-                width,
-                height,
-                depth: 1,
-            })];
+            .image_offset(vk::Offset3D { x: left as i32, y: top as i32, z: 0 })
+            .image_extent(vk::Extent3D { width, height, depth: 1 })];
         // SAFETY: guaranteed by the recorder's caller; the buffer holds the region, and the host guarantees its image.
-        unsafe {
-            recorder.device().cmd_copy_buffer_to_image(
-                recorder.raw(),
-                from.buffer,
-                to,
-                COPIED_TO.layout,
-                &copy,
-            )
-        };
+        unsafe { recorder.device().cmd_copy_buffer_to_image(recorder.raw(), from.buffer, to, COPIED_TO.layout, &copy) };
     }
 }
 

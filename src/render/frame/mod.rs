@@ -83,72 +83,34 @@ impl Frame {
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
         let pixels = drawn_pixels(settings);
         let of_others = |sizes: &ResourceSizes| {
-            let bytes =
-                |casters| ShadowFinder::bytes(layout, casters, &sampler, capacity, (pixels, sizes));
+            let bytes = |casters| ShadowFinder::bytes(layout, casters, &sampler, capacity, (pixels, sizes));
             beside_regions + casters.map_or(0, |casters| bytes(casters))
         };
         let plan = Plan::new(
             &settings.image(),
             &**scene,
             gpu.limits(),
-            (
-                encoding.map_or(0, Encoding::encoded_bytes),
-                casters.map_or(0, |casters| casters.shadow_words()),
-            ),
+            (encoding.map_or(0, Encoding::encoded_bytes), casters.map_or(0, |casters| casters.shadow_words())),
             capacity,
             &of_others,
         )?;
-        let memory = Memory::new(
-            gpu.clone(),
-            settings
-                .scene
-                .max_memory
-                .map(|limit| limit.saturating_sub(taken)),
-        );
+        let memory = Memory::new(gpu.clone(), settings.scene.max_memory.map(|limit| limit.saturating_sub(taken)));
         let [width, height] = plan.sizes.region;
-        let targets = RasterTargets::new(
-            &memory,
-            width,
-            height,
-            raster_samples(settings),
-            scene.has_blend(),
-        )?;
+        let targets = RasterTargets::new(&memory, width, height, raster_samples(settings), scene.has_blend())?;
         let offsets = settings.method.offsets()?;
         let sample_count = offsets.len() as u32;
-        let centre = Offsets {
-            all: &[[0.0, 0.0]],
-            count: 1,
-        };
-        let offsets = Offsets {
-            all: &offsets,
-            count: sample_count,
-        };
+        let centre = Offsets { all: &[[0.0, 0.0]], count: 1 };
+        let offsets = Offsets { all: &offsets, count: sample_count };
         let geometry = FrameGeometry::new(&memory, scene, true)?;
         let look = FrameLook::new(&memory, scene)?;
         let mut shown = geometry.shown(scene);
         shown.extend(look.shown(scene));
-        let resources = Resources::new(
-            layout,
-            &memory,
-            &**scene,
-            &shown,
-            &targets.views(),
-            plan.sizes,
-            &[centre, offsets],
-        )?;
-        let passes = Passes::new(
-            layout,
-            &memory,
-            scene,
-            (settings, &sampler),
-            &plan,
-            encoding,
-        )?;
+        let resources =
+            Resources::new(layout, &memory, &**scene, &shown, &targets.views(), plan.sizes, &[centre, offsets])?;
+        let passes = Passes::new(layout, &memory, scene, (settings, &sampler), &plan, encoding)?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
-            ShadowFinder::new(
-                layout, &memory, casters, &sampler, capacity, shading, pixels,
-            )
+            ShadowFinder::new(layout, &memory, casters, &sampler, capacity, shading, pixels)
         };
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {

@@ -53,12 +53,8 @@ impl Frame {
             statistics.skipped_passes.push(Statistics::BLEND);
         }
         if self.passes.superpixels.is_some() && statistics.superpixels == 0 {
-            let of_superpixels = [
-                spirv::Cull::INTERFACE,
-                spirv::Bin::INTERFACE,
-                spirv::Sample::INTERFACE,
-                spirv::Resolve::INTERFACE,
-            ];
+            let of_superpixels =
+                [spirv::Cull::INTERFACE, spirv::Bin::INTERFACE, spirv::Sample::INTERFACE, spirv::Resolve::INTERFACE];
             let names = of_superpixels.map(|shader| shader.pass());
             statistics.skipped_passes.extend(names);
         }

@@ -83,15 +83,11 @@ impl Passes {
                 shade: shade::pass(layout, scene, (source, words), &output)?,
             })
         };
-        const SUPERPIXELS: ShadeSource = ShadeSource::Records {
-            cells: Cells::Pixels,
-        };
+        const SUPERPIXELS: ShadeSource = ShadeSource::Records { cells: Cells::Pixels };
         let shading = || shade::pass(layout, scene, (SUPERPIXELS, words), &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
-        let (pixels, shading) = rayon::join(
-            || (!multisampled).then(pixels).transpose(),
-            || shades_records.then(shading).transpose(),
-        );
+        let (pixels, shading) =
+            rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_records.then(shading).transpose());
         let (pixels, shading) = (pixels?, shading?.map(Arc::new));
         let context = SamplerContext {
             layout,
@@ -107,11 +103,7 @@ impl Passes {
             mode: DetectMode::Blended,
             thin: false,
             multisampled,
-            samples: if multisampled {
-                settings.method.samples()
-            } else {
-                1
-            },
+            samples: if multisampled { settings.method.samples() } else { 1 },
             growths: 0,
             detected: display_codes,
             ..PixelCells::superpixels(&superpixels)
@@ -127,28 +119,15 @@ impl Passes {
         };
         Ok(Self {
             pose: scene.moves().then(|| PosePass::new(layout)).transpose()?,
-            stroke: scene
-                .has_strokes()
-                .then(|| StrokePass::new(layout))
-                .transpose()?,
-            raster: Raster::new(
-                layout,
-                raster_samples(settings),
-                scene,
-                plan.sizes.filtered_triangles > 0,
-            )?,
+            stroke: scene.has_strokes().then(|| StrokePass::new(layout)).transpose()?,
+            raster: Raster::new(layout, raster_samples(settings), scene, plan.sizes.filtered_triangles > 0)?,
             pixels,
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
             blended: scene.has_blend().then(blended).transpose()?,
             superpixels: antialiased.then(antialiasing).transpose()?,
-            attributes: settings
-                .attributes
-                .then(|| attributes::pass(layout, scene, antialiased, grows))
-                .transpose()?,
-            box_filter: (side > 1)
-                .then(|| box_filter::pass(layout, side))
-                .transpose()?,
+            attributes: settings.attributes.then(|| attributes::pass(layout, scene, antialiased, grows)).transpose()?,
+            box_filter: (side > 1).then(|| box_filter::pass(layout, side)).transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
                 .map(|e| Ok::<_, RenderError>((e, encode::pass(layout, e)?)))

@@ -108,11 +108,7 @@ impl Recording<'_> {
         let (Some(centre), Some(offsets)) = (resources.set(CENTRE), resources.set(OFFSETS)) else {
             return;
         };
-        let main = if passes.multisampling.is_some() {
-            offsets
-        } else {
-            centre
-        };
+        let main = if passes.multisampling.is_some() { offsets } else { centre };
         let whole = self.uniform(region, main.count(), false);
         let [width, height] = whole.size;
         let pixels = width * height;
@@ -120,12 +116,7 @@ impl Recording<'_> {
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
         let views = self.light_views(region).unwrap_or_default();
-        let shadowed = |set| Shadowed {
-            resources,
-            set,
-            size: whole.size,
-            views: &views,
-        };
+        let shadowed = |set| Shadowed { resources, set, size: whole.size, views: &views };
         let shading_of = |set| SceneShading {
             shade: passes.shade.as_deref(),
             shadows: self.shadows.map(|shadows| (shadows, shadowed(set))),
@@ -146,9 +137,7 @@ impl Recording<'_> {
             self.geometry.runs(scene),
             self.targets,
             [width, height],
-            region
-                .drawn()
-                .map(|place| place.map(|pixels| pixels * side)),
+            region.drawn().map(|place| place.map(|pixels| pixels * side)),
         );
         if let Some(shadows) = self.shadows {
             shadows.record_planes(recorder, &views, main);
@@ -165,24 +154,13 @@ impl Recording<'_> {
             }
             shade.record(recorder);
         }
-        if let Some(Multisampling {
-            multisample,
-            sort,
-            resolve,
-        }) = &passes.multisampling
-        {
+        if let Some(Multisampling { multisample, sort, resolve }) = &passes.multisampling {
             multisample.record_for(recorder, 32 * tiles);
             sort.record(recorder);
             shading.record(recorder, resources);
             resolve.record(recorder);
         }
-        let run = |set, uniform| SamplerRun {
-            resources,
-            set,
-            uniform,
-            list: (0, ListLength::Known),
-            index,
-        };
+        let run = |set, uniform| SamplerRun { resources, set, uniform, list: (0, ListLength::Known), index };
         if let Some(sampler) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
             sampler.record(recorder, &run(main, &whole), &shading);

@@ -23,16 +23,10 @@ impl Recording<'_> {
         let wanted = region.size().map(|pixels| pixels * side);
         let threshold = u32::from(self.settings.superpixels().threshold());
         let plane = PlaneBlock {
-            transform: to_clip(scene, camera, self.settings)
-                .as_mat4()
-                .to_cols_array(),
+            transform: to_clip(scene, camera, self.settings).as_mat4().to_cols_array(),
             corner: [0, 1].map(|axis| corner[axis] - 0.5 * image[axis]),
             size,
-            interior: if owned {
-                [low, [0, 1].map(|axis| low[axis] + wanted[axis])]
-            } else {
-                [[0, 0], size]
-            },
+            interior: if owned { [low, [0, 1].map(|axis| low[axis] + wanted[axis])] } else { [[0, 0], size] },
             gap: gap(camera, image[1]),
             contrast: threshold,
             alike: threshold,
@@ -62,16 +56,9 @@ pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) ->
 fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
     match camera.projection {
         // Depth is near / distance, so that relative differences of depth and of distance are equal.
-        Projection::Perspective { fov, .. } => {
-            [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
+        Projection::Perspective { fov, .. } => [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0],
+        Projection::Orthographic { half_height, near, far } => {
+            [0.0, (2.0 * half_height / image_height / (far - near)) as f32]
         }
-        Projection::Orthographic {
-            half_height,
-            near,
-            far,
-        } => [
-            0.0,
-            (2.0 * half_height / image_height / (far - near)) as f32,
-        ],
     }
 }

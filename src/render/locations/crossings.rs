@@ -42,10 +42,7 @@ impl CrossingFinder {
         folds: bool,
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
-        let offsets = Offsets {
-            all: &[[0.0; 2]],
-            count: 1,
-        };
+        let offsets = Offsets { all: &[[0.0; 2]], count: 1 };
         let run = RunMemory::new(layout, prepared, settings, plan.sizes, offsets)?;
         let (resources, locations) = (&run.resources, run.resources.listed()?);
         let count = plan.sizes.locations.map_or(0, |sizes| sizes.locations);
@@ -64,9 +61,7 @@ impl CrossingFinder {
             bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
-            crossings: unsafe {
-                crossings::pass(layout, scene, resources, (&seen, marks), output, folds)
-            }?,
+            crossings: unsafe { crossings::pass(layout, scene, resources, (&seen, marks), output, folds) }?,
             seen,
             counters: CounterLog::new(&run.memory, 1)?,
             run,
@@ -75,10 +70,7 @@ impl CrossingFinder {
 
     /// Memory for a run of `count` locations and for the surfaces visible there, to be written while the device is
     /// idle.
-    pub fn listed_mut(
-        &mut self,
-        count: usize,
-    ) -> Result<(&mut [ListedLocation], &mut [SeenLocation]), VulkanError> {
+    pub fn listed_mut(&mut self, count: usize) -> Result<(&mut [ListedLocation], &mut [SeenLocation]), VulkanError> {
         let bytes = count * size_of::<SeenLocation>();
         let seen = self.seen.bytes_mut().get_mut(..bytes).unwrap_or(&mut []);
         Ok((self.run.listed_mut(count)?, bytemuck::cast_slice_mut(seen)))
@@ -96,15 +88,7 @@ impl CrossingFinder {
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let Self {
-            distribute,
-            cull,
-            bin,
-            crossings,
-            counters,
-            run,
-            ..
-        } = self;
+        let Self { distribute, cull, bin, crossings, counters, run, .. } = self;
         let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, _| {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
@@ -130,9 +114,7 @@ impl CrossingFinder {
             let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
             shortfall.add(counters, room, true);
             // No other pass looks at the pairs that were left out.
-            let unpaired = Counter::Pairs
-                .of(counters)
-                .saturating_sub(sizes.pair_capacity);
+            let unpaired = Counter::Pairs.of(counters).saturating_sub(sizes.pair_capacity);
             shortfall.dropped += u64::from(unpaired);
         }
         Ok(shortfall)
@@ -142,11 +124,7 @@ impl CrossingFinder {
     ///
     /// # Errors
     /// If the times can't be read.
-    pub fn add_statistics(
-        &self,
-        scene: &PreparedScene,
-        total: &mut Statistics,
-    ) -> Result<(), VulkanError> {
+    pub fn add_statistics(&self, scene: &PreparedScene, total: &mut Statistics) -> Result<(), VulkanError> {
         self.run.add_statistics(scene, total)
     }
 }

@@ -17,9 +17,7 @@ use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
-use crate::render::{
-    CellOptions, Headless, PreparedScene, RenderError, Settings, Shadows, Statistics,
-};
+use crate::render::{CellOptions, Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use std::borrow::Cow;
@@ -71,8 +69,7 @@ impl Headless {
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics::default();
-        let looks_for_shadows =
-            settings.superpixels().thin && settings.scene.shadows == Shadows::Exact;
+        let looks_for_shadows = settings.superpixels().thin && settings.scene.shadows == Shadows::Exact;
         let mut shadowed = vec![false; if looks_for_shadows { image.len() } else { 0 }];
         if looks_for_shadows {
             statistics.append(self.mark_shadows(scene, rig, settings, image, &mut shadowed)?);
@@ -146,17 +143,13 @@ impl Headless {
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
             for probe in LightPlane::PROBES {
-                let probes: Vec<SampleLocation> = locations
-                    .iter()
-                    .map(|location| location.at(probe))
-                    .collect();
+                let probes: Vec<SampleLocation> = locations.iter().map(|location| location.at(probe)).collect();
                 let seen = self.sample_filtered_points(scene, pinhole, &probes, points)?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
                     let PointSample { id, shadows, .. } = *seen;
                     let cell = location.output as usize;
-                    shadowed[cell] |=
-                        image.attributes[cell].id == id && image.shadows[cell] != shadows;
+                    shadowed[cell] |= image.attributes[cell].id == id && image.shadows[cell] != shadows;
                 }
             }
         }
@@ -180,19 +173,13 @@ impl Headless {
         };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let width = detector.settings.size[0];
-        let output = MarkedOutput {
-            tiles: band.tiles(width),
-            width,
-            pixel: pixel_width(pinhole) as f32,
-        };
+        let output = MarkedOutput { tiles: band.tiles(width), width, pixel: pixel_width(pinhole) as f32 };
         let marks = &detector.resources.marks;
         let folds = detector.settings.superpixels().has_many_samples();
         let make = |capacity| {
             let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
             // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-            let finder = unsafe {
-                CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks), folds)
-            }?;
+            let finder = unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks), folds) }?;
             Ok((plan, finder))
         };
         let first = band.seen.start * width;
@@ -236,11 +223,7 @@ impl Band {
     }
 
     /// Locations whose cells may become superpixels in this band.
-    fn locations<'a>(
-        &self,
-        locations: &'a [SampleLocation],
-        width: u32,
-    ) -> Cow<'a, [SampleLocation]> {
+    fn locations<'a>(&self, locations: &'a [SampleLocation], width: u32) -> Cow<'a, [SampleLocation]> {
         let inside = |location: &&SampleLocation| self.sampled.contains(&(location.output / width));
         if locations.iter().all(|location| inside(&location)) {
             Cow::Borrowed(locations)
@@ -255,54 +238,29 @@ fn bands(height: u32, rows: u32, growths: u32) -> impl Iterator<Item = Band> {
     (0..height).step_by(rows as usize).map(move |first| {
         let end = height.min(first + rows);
         let around = |beyond: u32| first.saturating_sub(beyond)..height.min(end + beyond);
-        Band {
-            rows: first..end,
-            sampled: around(growths),
-            seen: around(growths + 1),
-        }
+        Band { rows: first..end, sampled: around(growths), seen: around(growths + 1) }
     })
 }
 
 /// Width of a pixel of the plane: at distance 1, or at any distance for parallel rays.
 fn pixel_width(pinhole: &Pinhole) -> f64 {
     let [a, b] = pinhole.steps();
-    let to_plane = if pinhole.is_parallel() {
-        1.0
-    } else {
-        (pinhole.origin() - pinhole.eye()).dot(pinhole.direction())
-    };
+    let to_plane =
+        if pinhole.is_parallel() { 1.0 } else { (pinhole.origin() - pinhole.eye()).dot(pinhole.direction()) };
     a.cross(b).length().sqrt() / to_plane
 }
 
 impl BandDetector {
-    fn new(
-        layout: &Arc<FrameLayout>,
-        prepared: &PreparedScene,
-        settings: &Settings,
-    ) -> Result<Self, RenderError> {
+    fn new(layout: &Arc<FrameLayout>, prepared: &PreparedScene, settings: &Settings) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let taken = prepared.memory_bytes();
-        let left = settings
-            .scene
-            .max_memory
-            .map(|limit| limit.saturating_sub(taken));
+        let left = settings.scene.max_memory.map(|limit| limit.saturating_sub(taken));
         let memory = Memory::new(layout.gpu.clone(), left);
         let sizes = band_sizes(layout.gpu.limits(), settings, left);
         sizes.check("a band of the output", layout.gpu.limits())?;
         let cells = OutputCells::new(&memory, sizes.region)?;
-        let no_offsets = Offsets {
-            all: &[[0.0; 2]],
-            count: 1,
-        };
-        let resources = Resources::new(
-            layout,
-            &memory,
-            scene,
-            &[],
-            &cells.views(),
-            sizes,
-            &[no_offsets],
-        )?;
+        let no_offsets = Offsets { all: &[[0.0; 2]], count: 1 };
+        let resources = Resources::new(layout, &memory, scene, &[], &cells.views(), sizes, &[no_offsets])?;
         let superpixels = settings.superpixels();
         let growths = superpixels.growth_count();
         let options = DetectOptions {
@@ -368,10 +326,7 @@ impl BandDetector {
         }
         let marks = self.cells.words_mut(OutputPlane::Marks);
         marks.fill(0);
-        for (cell, _) in (0_u32..)
-            .zip(shadowed.get(range).unwrap_or(&[]))
-            .filter(|(_, shadowed)| **shadowed)
-        {
+        for (cell, _) in (0_u32..).zip(shadowed.get(range).unwrap_or(&[])).filter(|(_, shadowed)| **shadowed) {
             let (tile, bit) = mask_bit([cell % width, cell / width], width);
             if let Some(word) = marks.get_mut(tile) {
                 *word |= bit;
@@ -408,17 +363,7 @@ impl BandDetector {
     /// order.
     unsafe fn record(&mut self, band: &Band, search: Search, commands: vk::CommandBuffer) {
         let width = self.settings.size[0];
-        let Self {
-            settings,
-            cells,
-            detect,
-            neighbours,
-            growths,
-            resources,
-            masks,
-            timings,
-            memory,
-        } = self;
+        let Self { settings, cells, detect, neighbours, growths, resources, masks, timings, memory } = self;
         let (gpu, Some(set)) = (memory.gpu().clone(), resources.set(0)) else {
             return;
         };

@@ -10,9 +10,7 @@ pub enum LocationError {
     #[error("the set holds no sampling location; give at least one")]
     Empty,
     /// Location with a coordinate or derivative that is NaN or infinite.
-    #[error(
-        "sampling location {index} is ({u}, {v}) with the Jacobian {jacobian:?}; all of these must be finite"
-    )]
+    #[error("sampling location {index} is ({u}, {v}) with the Jacobian {jacobian:?}; all of these must be finite")]
     NotFinite {
         /// Index of the location in the list.
         index: usize,
@@ -41,9 +39,7 @@ pub enum LocationError {
         half_height: f64,
     },
     /// Location for a cell that the output does not have.
-    #[error(
-        "sampling location {index} belongs to output cell {output}, but there are {cells} cells"
-    )]
+    #[error("sampling location {index} belongs to output cell {output}, but there are {cells} cells")]
     Output {
         /// Index of the location in the list.
         index: usize,

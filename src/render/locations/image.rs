@@ -5,8 +5,8 @@ use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::sampler::color::display_code;
 use crate::render::passes::SeenLocation;
 use crate::render::{
-    Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError, Rendered,
-    Settings, Shading, Statistics, SuperpixelOptions,
+    Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError, Rendered, Settings, Shading,
+    Statistics, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -45,9 +45,7 @@ impl Headless {
         settings.check(self.gpu().limits())?;
         match settings.method {
             Method::Msaa { .. } => {
-                return Err(RenderError::LocationMethod {
-                    method: MethodKind::Msaa,
-                });
+                return Err(RenderError::LocationMethod { method: MethodKind::Msaa });
             }
             // Superpixels with every sample shaded equal supersampling, and read textures as it does.
             Method::Ssaa { samples } => {
@@ -65,12 +63,7 @@ impl Headless {
         let count = u64::from(size[0]) * u64::from(size[1]);
         for (index, location) in rig.iter().flat_map(|(_, locations)| locations).enumerate() {
             if u64::from(location.output) >= count {
-                return Err(LocationError::Output {
-                    index,
-                    output: location.output,
-                    cells: count,
-                }
-                .into());
+                return Err(LocationError::Output { index, output: location.output, cells: count }.into());
             }
         }
         let samples_cells = settings.method != Method::None;
@@ -95,11 +88,7 @@ impl Headless {
         Ok(Rendered {
             size,
             colors: image.colors,
-            attributes: if settings.attributes {
-                image.attributes
-            } else {
-                Vec::new()
-            },
+            attributes: if settings.attributes { image.attributes } else { Vec::new() },
             statistics,
         })
     }
@@ -115,8 +104,7 @@ impl Headless {
         let cells = settings.superpixels().cells;
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            let resolved =
-                self.sample_superpixels(scene, pinhole, locations, &cells, &settings.scene)?;
+            let resolved = self.sample_superpixels(scene, pinhole, locations, &cells, &settings.scene)?;
             statistics.append(resolved.statistics);
             for (location, color) in locations.iter().zip(&resolved.values) {
                 image.resolve(location.output as usize, *color, cells.samples);
@@ -127,26 +115,18 @@ impl Headless {
 }
 
 /// Locations of the cells of an output for which `is_chosen` is true.
-pub(super) fn chosen(
-    rig: PinholeLists<'_>,
-    is_chosen: impl Fn(u32) -> bool,
-) -> Vec<(Pinhole, Vec<SampleLocation>)> {
+pub(super) fn chosen(rig: PinholeLists<'_>, is_chosen: impl Fn(u32) -> bool) -> Vec<(Pinhole, Vec<SampleLocation>)> {
     let of = |locations: &[SampleLocation]| {
         let all = locations.iter().copied();
         all.filter(|location| is_chosen(location.output)).collect()
     };
-    rig.iter()
-        .map(|(pinhole, locations)| (*pinhole, of(locations)))
-        .collect()
+    rig.iter().map(|(pinhole, locations)| (*pinhole, of(locations))).collect()
 }
 
 impl OutputImage {
     fn new(count: usize, settings: &Settings) -> Self {
         let background = settings.sampler().background_rgba();
-        let unseen = PixelAttributes {
-            samples: 1,
-            ..PixelAttributes::default()
-        };
+        let unseen = PixelAttributes { samples: 1, ..PixelAttributes::default() };
         Self {
             colors: vec![background; count],
             attributes: vec![unseen; count],
@@ -175,9 +155,7 @@ impl OutputImage {
     }
 
     fn resolve(&mut self, cell: usize, resolved: [f32; 4], samples: u32) {
-        if let (Some(color), Some(attributes)) =
-            (self.colors.get_mut(cell), self.attributes.get_mut(cell))
-        {
+        if let (Some(color), Some(attributes)) = (self.colors.get_mut(cell), self.attributes.get_mut(cell)) {
             *color = resolved;
             attributes.samples = samples;
             attributes.superpixel = 1;

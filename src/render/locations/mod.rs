@@ -17,9 +17,7 @@ mod sampler;
 pub use error::LocationError;
 
 use super::shadows::Sight;
-use super::{
-    CellOptions, Headless, PreparedScene, RenderError, SceneSettings, Shading, Statistics,
-};
+use super::{CellOptions, Headless, PreparedScene, RenderError, SceneSettings, Shading, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::Cells;
 use crate::engine::sampler::footprint::TextureFilter;
@@ -105,10 +103,8 @@ impl Headless {
         locations: &[SampleLocation],
         (settings, filter): (&SceneSettings, TextureFilter),
     ) -> Result<Sampled<PointSample>, RenderError> {
-        let settings = &ListSettings {
-            scene: settings.clone(),
-            sampler: settings.sampler(CellOptions::new(1), filter),
-        };
+        let settings =
+            &ListSettings { scene: settings.clone(), sampler: settings.sampler(CellOptions::new(1), filter) };
         let partition = Partition::new(locations, Cells::Points)?;
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
@@ -147,10 +143,7 @@ impl Headless {
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
         let cells = settings.shadowed(cells.clone());
         let filter = TextureFilter::of_cells(settings.footprint, cells.shading);
-        let settings = &ListSettings {
-            scene: settings.clone(),
-            sampler: settings.sampler(cells, filter),
-        };
+        let settings = &ListSettings { scene: settings.clone(), sampler: settings.sampler(cells, filter) };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
@@ -199,10 +192,7 @@ impl Headless {
             },
             |sampler, run| {
                 sampler.add_statistics(scene, &partition.window(&run), &mut statistics)?;
-                take(&RunValues {
-                    seen: sampler.values(run.len())?,
-                    places: run,
-                });
+                take(&RunValues { seen: sampler.values(run.len())?, places: run });
                 Ok(())
             },
         )?;

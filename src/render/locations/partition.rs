@@ -51,18 +51,14 @@ impl<'a> Partition<'a> {
             return Err(LocationError::Empty);
         }
         if locations.len() > MOST {
-            return Err(LocationError::TooMany {
-                found: locations.len(),
-            });
+            return Err(LocationError::TooMany { found: locations.len() });
         }
         let surveys: Vec<Survey> = locations
             .par_chunks(CHUNK)
             .enumerate()
             .map(|(chunk, locations)| {
                 let numbered = (chunk * CHUNK..).zip(locations);
-                numbered.fold(Survey::NOTHING, |survey, (index, location)| {
-                    survey.with(index, location, cells)
-                })
+                numbered.fold(Survey::NOTHING, |survey, (index, location)| survey.with(index, location, cells))
             })
             .collect();
         let survey = surveys.iter().copied().fold(Survey::NOTHING, Survey::and);
@@ -82,14 +78,7 @@ impl<'a> Partition<'a> {
         } else {
             (None, Some(chunks), vec![all])
         };
-        Ok(Self {
-            order,
-            middle: bounds.is_compact().then(|| bounds.middle()),
-            chunks,
-            locations,
-            cells,
-            regions,
-        })
+        Ok(Self { order, middle: bounds.is_compact().then(|| bounds.middle()), chunks, locations, cells, regions })
     }
 
     /// Number of places on the plane for which lights are looked up: one for a point, up to eight in a superpixel.
@@ -111,9 +100,7 @@ impl<'a> Partition<'a> {
 
     /// Index in the caller's list of the location at position `place` of the order.
     pub fn index(&self, place: usize) -> usize {
-        self.order
-            .as_ref()
-            .map_or(place, |order| order[place] as usize)
+        self.order.as_ref().map_or(place, |order| order[place] as usize)
     }
 
     /// Location at position `place` of the order.
@@ -203,19 +190,12 @@ struct Survey {
 }
 
 impl Survey {
-    const NOTHING: Self = Self {
-        offender: None,
-        bounds: Bounds::NOTHING,
-        regions: [u64::MAX, 0],
-    };
+    const NOTHING: Self = Self { offender: None, bounds: Bounds::NOTHING, regions: [u64::MAX, 0] };
 
     fn with(self, index: usize, location: &SampleLocation, cells: Cells) -> Self {
         if check(location, index, cells).is_err() {
             let first = self.offender.unwrap_or(index).min(index);
-            return Self {
-                offender: Some(first),
-                ..self
-            };
+            return Self { offender: Some(first), ..self };
         }
         let key = region(location, cells);
         Self {
@@ -229,10 +209,7 @@ impl Survey {
         Self {
             offender: self.offender.into_iter().chain(other.offender).min(),
             bounds: self.bounds.and(other.bounds),
-            regions: [
-                self.regions[0].min(other.regions[0]),
-                self.regions[1].max(other.regions[1]),
-            ],
+            regions: [self.regions[0].min(other.regions[0]), self.regions[1].max(other.regions[1])],
         }
     }
 }
@@ -273,15 +250,9 @@ fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Boun
     keys.par_sort_unstable();
     let tile = |key: &u64| {
         let tile = key >> 32;
-        [
-            low[0] + (tile % columns) as i64,
-            low[1] + (tile / columns) as i64,
-        ]
+        [low[0] + (tile % columns) as i64, low[1] + (tile / columns) as i64]
     };
-    let chunks = keys
-        .par_chunks(CHUNK)
-        .map(|keys| keys.iter().map(tile).fold(Bounds::NOTHING, Bounds::with))
-        .collect();
+    let chunks = keys.par_chunks(CHUNK).map(|keys| keys.iter().map(tile).fold(Bounds::NOTHING, Bounds::with)).collect();
     (keys.into_iter().map(|key| key as u32).collect(), chunks)
 }
 
@@ -293,10 +264,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    const NOTHING: Self = Self {
-        low: [f64::INFINITY; 2],
-        high: [f64::NEG_INFINITY; 2],
-    };
+    const NOTHING: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
     fn of(tiles: impl ParallelIterator<Item = [i64; 2]>) -> Self {
         let bounds = tiles.fold(|| Self::NOTHING, Self::with);
@@ -305,10 +273,7 @@ impl Bounds {
 
     fn with(self, tile: [i64; 2]) -> Self {
         let corner = |beyond: i64| [0, 1].map(|axis| ((tile[axis] + beyond) * TILE[axis]) as f64);
-        self.and(Self {
-            low: corner(0),
-            high: corner(1),
-        })
+        self.and(Self { low: corner(0), high: corner(1) })
     }
 
     fn and(self, other: Self) -> Self {
@@ -343,11 +308,7 @@ fn tile_of(location: &SampleLocation) -> [i64; 2] {
 /// Half of the width and height, in pixels, of the axis-aligned rectangle around a location's cell; zero for points.
 pub(super) fn half_extent(location: &SampleLocation, cells: Cells) -> [f64; 2] {
     let [column, row] = location.jacobian;
-    if cells.are_points() {
-        [0.0; 2]
-    } else {
-        [0, 1].map(|axis| 0.5 * (column[axis].abs() + row[axis].abs()))
-    }
+    if cells.are_points() { [0.0; 2] } else { [0, 1].map(|axis| 0.5 * (column[axis].abs() + row[axis].abs())) }
 }
 
 fn check(location: &SampleLocation, index: usize, cells: Cells) -> Result<(), LocationError> {
@@ -355,22 +316,11 @@ fn check(location: &SampleLocation, index: usize, cells: Cells) -> Result<(), Lo
     let jacobian = location.jacobian;
     let numbers = [u, v].into_iter().chain(jacobian.into_iter().flatten());
     if !numbers.into_iter().all(f64::is_finite) {
-        return Err(LocationError::NotFinite {
-            index,
-            u,
-            v,
-            jacobian,
-        });
+        return Err(LocationError::NotFinite { index, u, v, jacobian });
     }
     let extent = half_extent(location, cells);
     if (0..2).any(|axis| location.uv[axis].abs() + extent[axis] > LocationError::FARTHEST) {
-        return Err(LocationError::TooFar {
-            index,
-            u,
-            v,
-            half_width: extent[0],
-            half_height: extent[1],
-        });
+        return Err(LocationError::TooFar { index, u, v, half_width: extent[0], half_height: extent[1] });
     }
     Ok(())
 }
@@ -382,11 +332,7 @@ fn region(location: &SampleLocation, cells: Cells) -> u64 {
     let region = [0, 1].map(|axis| tile[axis].div_euclid(REGION_TILES[axis]));
     let [width, height] = half_extent(location, cells);
     let extent = width.max(height);
-    let level = if extent <= 1.0 {
-        0
-    } else {
-        1 + (0.5 * extent.log2()) as u64
-    };
+    let level = if extent <= 1.0 { 0 } else { 1 + (0.5 * extent.log2()) as u64 };
     // Regions are at most 2^10 columns and rows from the region at the origin.
     let [column, row] = region.map(|index| (index + 1024) as u64 & 0x7ff);
     level << 22 | row << 11 | column
@@ -397,20 +343,14 @@ mod tests {
     use super::*;
 
     fn location(uv: [f64; 2]) -> SampleLocation {
-        SampleLocation {
-            uv,
-            jacobian: [[2.0, 0.0], [0.0, 1.0]],
-            output: 0,
-        }
+        SampleLocation { uv, jacobian: [[2.0, 0.0], [0.0, 1.0]], output: 0 }
     }
 
     #[test]
     fn runs_hold_every_location_once_and_windows_hold_runs() {
         // Seven locations are in one tile and one in the next. The last is left of the plane's corner by less than
         // 64-bit numbers resolve.
-        let mut locations: Vec<SampleLocation> = (0..7)
-            .map(|i| location([f64::from(i) + 0.5, 3.5]))
-            .collect();
+        let mut locations: Vec<SampleLocation> = (0..7).map(|i| location([f64::from(i) + 0.5, 3.5])).collect();
         locations.extend([location([9.0, 0.0]), location([-1e-20, 0.0])]);
         let partition = Partition::new(&locations, Cells::Superpixels).unwrap();
         // The location left of the corner is in a region of its own.
@@ -428,9 +368,7 @@ mod tests {
             for (place, listed) in run.clone().zip(&listed) {
                 let uv = partition.location(place).uv;
                 let [x, y] = [0, 1].map(|axis| {
-                    window.low[axis] as f64
-                        + f64::from(listed.pixel[axis])
-                        + f64::from(listed.within[axis])
+                    window.low[axis] as f64 + f64::from(listed.pixel[axis]) + f64::from(listed.within[axis])
                 });
                 assert!((x - uv[0]).abs() < 1e-7 && (y - uv[1]).abs() < 1e-7);
                 assert_eq!(listed.jacobian, [[2.0, 0.0], [0.0, 1.0]]);

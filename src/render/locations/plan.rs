@@ -58,24 +58,15 @@ impl LocationPlan {
             false => settings.sampler.cells.samples as usize,
         };
         let places = partition.places();
-        let mut longest = if may_stop && samples > 1 {
-            (MOST_STOPPABLE / samples).min(MOST_LOCATIONS)
-        } else {
-            MOST_LOCATIONS
-        };
+        let mut longest =
+            if may_stop && samples > 1 { (MOST_STOPPABLE / samples).min(MOST_LOCATIONS) } else { MOST_LOCATIONS };
         loop {
             let runs = partition.runs(longest);
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
             let words = casters.map_or(0, Casters::shadow_words);
-            let sizes = list_cells(cells, words).sizes(
-                layout,
-                scene,
-                &settings.sampler.cells,
-                room,
-                capacity,
-            );
+            let sizes = list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, room, capacity);
             let of_shadows = casters.map_or(0, |casters| {
                 let places = (places, &sizes);
                 ShadowFinder::bytes(layout, casters, &settings.sampler, capacity, places)
@@ -84,29 +75,15 @@ impl LocationPlan {
             let needed = prepared.memory_bytes() + held;
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && sizes.largest_texels() <= limits.max_texel_elements;
-            if fits
-                && settings
-                    .scene
-                    .max_memory
-                    .is_none_or(|allowed| needed <= allowed)
-            {
-                return Ok(Self {
-                    cells,
-                    places,
-                    runs,
-                    sizes,
-                    capacity,
-                });
+            if fits && settings.scene.max_memory.is_none_or(|allowed| needed <= allowed) {
+                return Ok(Self { cells, places, runs, sizes, capacity });
             }
             if longest <= FEWEST_LOCATIONS {
                 let (elements, most) = (sizes.largest_texels(), limits.max_texel_elements);
                 VulkanError::check_limit("a list of sample locations", elements, "elements", most)?;
                 return Err(RenderError::Engine(EngineError::Memory {
                     needed,
-                    allowed: settings
-                        .scene
-                        .max_memory
-                        .unwrap_or(limits.max_storage_bytes),
+                    allowed: settings.scene.max_memory.unwrap_or(limits.max_storage_bytes),
                 }));
             }
             longest /= 2;

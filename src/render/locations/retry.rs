@@ -40,9 +40,7 @@ impl Headless {
                 let (plan, larger) = make(capacity)?;
                 passes = larger;
                 let left = plan.runs.iter().rev().filter(|other| other.end > run.start);
-                waiting = left
-                    .map(|other| other.start.max(run.start)..other.end)
-                    .collect();
+                waiting = left.map(|other| other.start.max(run.start)..other.end).collect();
             } else {
                 return Ok(shortfall.check()?);
             }

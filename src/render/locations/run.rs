@@ -38,40 +38,17 @@ impl RunMemory {
         let scene = &*prepared.gpu_scene;
         let gpu = scene.memory().gpu().clone();
         let taken = prepared.memory_bytes();
-        let memory = Memory::new(
-            gpu.clone(),
-            settings
-                .scene
-                .max_memory
-                .map(|limit| limit.saturating_sub(taken)),
-        );
-        let targets = RasterTargets::new(
-            &memory,
-            1,
-            1,
-            vk::SampleCountFlags::TYPE_1,
-            scene.has_blend(),
-        )?;
+        let memory = Memory::new(gpu.clone(), settings.scene.max_memory.map(|limit| limit.saturating_sub(taken)));
+        let targets = RasterTargets::new(&memory, 1, 1, vk::SampleCountFlags::TYPE_1, scene.has_blend())?;
         let geometry = FrameGeometry::new(&memory, scene, false)?;
         let look = FrameLook::default();
         let mut shown = geometry.shown(scene);
         shown.extend(look.shown(scene));
-        let resources = Resources::new(
-            layout,
-            &memory,
-            scene,
-            &shown,
-            &targets.views(),
-            sizes,
-            &[offsets],
-        )?;
+        let resources = Resources::new(layout, &memory, scene, &shown, &targets.views(), sizes, &[offsets])?;
         Ok(Self {
             resources,
             settings: settings.clone(),
-            stroke: scene
-                .has_strokes()
-                .then(|| StrokePass::new(layout))
-                .transpose()?,
+            stroke: scene.has_strokes().then(|| StrokePass::new(layout)).transpose()?,
             geometry,
             targets,
             timings: Timings::new(&gpu).with_repetitions(settings.scene.time_rounds),
@@ -122,13 +99,7 @@ impl RunMemory {
             let sizes = StrokeSizes::new(&settings.scene, 1);
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
         }
-        let run = SamplerRun {
-            resources,
-            set,
-            uniform: &uniform,
-            list: (count as u32, ListLength::Known),
-            index: 0,
-        };
+        let run = SamplerRun { resources, set, uniform: &uniform, list: (count as u32, ListLength::Known), index: 0 };
         record(recorder, &run, is_first);
     }
 
@@ -138,16 +109,10 @@ impl RunMemory {
     }
 
     /// Adds the times of the last run's passes and the size of the memory to `statistics`.
-    pub fn add_statistics(
-        &self,
-        scene: &PreparedScene,
-        total: &mut Statistics,
-    ) -> Result<(), VulkanError> {
+    pub fn add_statistics(&self, scene: &PreparedScene, total: &mut Statistics) -> Result<(), VulkanError> {
         let scene = &scene.gpu_scene;
         total.triangles.total = scene.triangle_count();
-        total.memory_bytes = total
-            .memory_bytes
-            .max(self.memory.used() + scene.memory_bytes());
+        total.memory_bytes = total.memory_bytes.max(self.memory.used() + scene.memory_bytes());
         for time in self.timings.read()? {
             total.add_time(time);
         }

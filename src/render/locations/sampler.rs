@@ -5,9 +5,7 @@ use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::engine::data::{Cells, ListedLocation, Offsets};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::{
-    ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall,
-};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{ShadeSource, shade};
 use crate::render::plane::PlaneWindow;
@@ -20,12 +18,7 @@ use std::sync::Arc;
 
 /// Cells of a list with `shadow_words` words of shadows for each place.
 pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
-    ListCells {
-        cells,
-        attributes: cells == Cells::Points,
-        shadow_words,
-        lent: false,
-    }
+    ListCells { cells, attributes: cells == Cells::Points, shadow_words, lent: false }
 }
 
 /// Pipelines and memory for sampling runs of locations of one scene.
@@ -53,21 +46,12 @@ impl LocationSampler {
         settings: &ListSettings,
         plan: &LocationPlan,
     ) -> Result<Self, RenderError> {
-        let LocationPlan {
-            cells,
-            places,
-            sizes,
-            capacity,
-            ..
-        } = plan;
+        let LocationPlan { cells, places, sizes, capacity, .. } = plan;
         let capacity = *capacity;
         let scene = &*prepared.gpu_scene;
         let listed = list_cells(*cells, sizes.shadow_words);
         let (offsets, count) = listed.offsets(layout, &settings.sampler.cells)?;
-        let offsets = Offsets {
-            all: &offsets,
-            count,
-        };
+        let offsets = Offsets { all: &offsets, count };
         let run = RunMemory::new(layout, prepared, settings, *sizes, offsets)?;
         let resources = &run.resources;
         let output = settings.sampler.color_constants(scene);
@@ -86,15 +70,7 @@ impl LocationSampler {
         let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
         let shadows = |casters| {
             let shading = (scene, *cells, resources);
-            ShadowFinder::new(
-                layout,
-                &run.memory,
-                casters,
-                &settings.sampler,
-                capacity,
-                shading,
-                *places,
-            )
+            ShadowFinder::new(layout, &run.memory, casters, &settings.sampler, capacity, shading, *places)
         };
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
@@ -128,14 +104,7 @@ impl LocationSampler {
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let Self {
-            cells,
-            settings,
-            sampler,
-            shade,
-            shadows,
-            run,
-        } = self;
+        let Self { cells, settings, sampler, shade, shadows, run } = self;
         let looking = (&sight.pinhole, window);
         let background = settings.background_rgba();
         let cells = (*cells, sampler.samples());
@@ -158,16 +127,9 @@ impl LocationSampler {
             if let Some(shadows) = &*shadows {
                 shadows.record_planes(recorder, &views, set);
             }
-            let shadowed = Shadowed {
-                resources,
-                set,
-                size: [0; 2],
-                views: &views,
-            };
-            let shading = SceneShading {
-                shade: Some(shade),
-                shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
-            };
+            let shadowed = Shadowed { resources, set, size: [0; 2], views: &views };
+            let shading =
+                SceneShading { shade: Some(shade), shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)) };
             sampler.record(recorder, list, &shading);
             if let Some(shadows) = shadows {
                 shadows.record_end(recorder);
@@ -192,8 +154,7 @@ impl LocationSampler {
     /// Work that the last run could not finish.
     pub fn shortfall(&self, window: &PlaneWindow) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
-        self.sampler
-            .add_shortfall([window.tile_count()], &mut shortfall)?;
+        self.sampler.add_shortfall([window.tile_count()], &mut shortfall)?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }

@@ -16,11 +16,7 @@ pub(crate) fn pass(
     superpixels: bool,
     grown: bool,
 ) -> Result<Pass, VulkanError> {
-    let attributes = layout.kernel(&spirv::Attributes {
-        superpixels,
-        grown,
-        instanced: scene.is_instanced(),
-    })?;
+    let attributes = layout.kernel(&spirv::Attributes { superpixels, grown, instanced: scene.is_instanced() })?;
     let dispatch = attributes.dispatch((), Size::Items(1));
     Ok(Pass::named(spirv::Attributes::INTERFACE).dispatch(dispatch))
 }

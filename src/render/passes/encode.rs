@@ -152,9 +152,7 @@ mod tests {
 
     /// Number of thresholds that a quotient reaches.
     fn code(dividend: f32, divisor: f32, thresholds: &[[u32; 2]]) -> u8 {
-        let reached = thresholds
-            .iter()
-            .filter(|t| reaches(dividend, divisor, **t));
+        let reached = thresholds.iter().filter(|t| reaches(dividend, divisor, **t));
         reached.count() as u8
     }
 
@@ -172,11 +170,7 @@ mod tests {
         }
         let mut random = Random::new(7);
         let check = |dividend: f32, divisor: f32| {
-            assert_eq!(
-                code(dividend, divisor, colors),
-                exact(dividend, divisor),
-                "{dividend} / {divisor}"
-            );
+            assert_eq!(code(dividend, divisor, colors), exact(dividend, divisor), "{dividend} / {divisor}");
         };
         for extreme in [f32::MIN_POSITIVE, 1e-30, 0.003_130_8, 1.0, 7.0, f32::MAX] {
             check(extreme, 1.0);

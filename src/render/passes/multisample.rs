@@ -10,10 +10,8 @@ use crate::vulkan::{Specialized, VulkanError};
 /// If the driver refuses the pipeline.
 pub(crate) fn pass(layout: &FrameLayout) -> Result<Pass, VulkanError> {
     let teams = layout.gpu.limits().teams;
-    let multisample = layout.kernel(&spirv::Multisample {
-        teams: teams.in_workgroup,
-        cells_of_entry: teams.members,
-    })?;
+    let multisample =
+        layout.kernel(&spirv::Multisample { teams: teams.in_workgroup, cells_of_entry: teams.members })?;
     let dispatch = multisample.dispatch((), Size::Items(1));
     Ok(Pass::named(spirv::Multisample::INTERFACE).dispatch(dispatch))
 }

@@ -11,10 +11,8 @@ use crate::vulkan::{Specialized, VulkanError};
 /// # Errors
 /// If the driver refuses the pipeline.
 pub(crate) fn pass(layout: &FrameLayout, output: &ColorConstants) -> Result<Pass, VulkanError> {
-    let neighbours = layout.kernel(&spirv::Neighbours {
-        tonemap: output.tonemap,
-        tonemap_codes: output.tonemap_codes,
-    })?;
+    let neighbours =
+        layout.kernel(&spirv::Neighbours { tonemap: output.tonemap, tonemap_codes: output.tonemap_codes })?;
     let dispatch = neighbours.dispatch((), Size::Items(1));
     Ok(Pass::named(spirv::Neighbours::INTERFACE).dispatch(dispatch))
 }

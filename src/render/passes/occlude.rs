@@ -84,8 +84,7 @@ impl Occlude {
         match receiving {
             Receiving::Pixels(size) => {
                 let groups = size.map(|side| side.div_ceil(SIDE));
-                self.kernel
-                    .record_teams(recorder, &push, groups[0] * groups[1]);
+                self.kernel.record_teams(recorder, &push, groups[0] * groups[1]);
             }
             Receiving::Records => {
                 let size = (&resources.arguments, Argument::Sort);

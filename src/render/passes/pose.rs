@@ -18,35 +18,22 @@ impl PosePass {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        Ok(Self {
-            kernel: layout.kernel(&spirv::Pose)?,
-        })
+        Ok(Self { kernel: layout.kernel(&spirv::Pose)? })
     }
 
     /// Records the pass for a moment, which was written to the frame's memory.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        scene: &GpuScene,
-        geometry: &FrameGeometry,
-        moment: &Moment,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, geometry: &FrameGeometry, moment: &Moment) {
         let (Some(motion), Some(_)) = (&scene.geometry.motion, &geometry.moving) else {
             return;
         };
-        let tangents = if scene.geometry.has_tangents {
-            spirv::POSE_TANGENTS
-        } else {
-            0
-        };
+        let tangents = if scene.geometry.has_tangents { spirv::POSE_TANGENTS } else { 0 };
         recorder.pass(spirv::Pose::INTERFACE, || {
             // Parts write different vertices.
             recorder.unordered(|| {
                 for (part, at) in motion.parts.iter().zip(&moment.parts) {
                     let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-                    let flags = flag(spirv::POSE_FLAT, part.is_flat)
-                        | flag(spirv::POSE_INSIDE_OUT, part.mirrored)
-                        | tangents;
+                    let flags =
+                        flag(spirv::POSE_FLAT, part.is_flat) | flag(spirv::POSE_INSIDE_OUT, part.mirrored) | tangents;
                     let push = spirv::PosePush {
                         count: part.vertex_count,
                         first_vertex: part.first_vertex,

@@ -50,12 +50,7 @@ impl Prefilter {
     ///
     /// # Errors
     /// If the driver refuses it, or memory runs out.
-    pub fn new(
-        layout: &FrameLayout,
-        memory: &Memory,
-        texels: Buffer,
-        side: u32,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, memory: &Memory, texels: Buffer, side: u32) -> Result<Self, VulkanError> {
         let mut rays = Vec::new();
         let mut cubes = Vec::new();
         let steps = levels(side).count() as u32 - 1;
@@ -72,10 +67,7 @@ impl Prefilter {
         }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let rays = memory.filled("prefilter rays", bytemuck::cast_slice(&rays), usage)?;
-        let shown = [
-            (prefilter_set::TEXELS, (&texels).into()),
-            (prefilter_set::RAYS, (&rays).into()),
-        ];
+        let shown = [(prefilter_set::TEXELS, (&texels).into()), (prefilter_set::RAYS, (&rays).into())];
         Ok(Self {
             kernel: layout.kernel(&spirv::Prefilter)?,
             // SAFETY: both buffers live as long as the set.

@@ -17,11 +17,7 @@ impl LightPlane {
     pub const BEGINS: u32 = spirv::RECEIVERS_BEGINS;
     /// Further places in a pixel that are probed, relative to its centre. `shaders/receivers.comp` explains the
     /// choice.
-    pub const PROBES: [[f64; 2]; 3] = [
-        [0.34375, 0.34375],
-        [-0.296875, 0.40625],
-        [0.46875, -0.296875],
-    ];
+    pub const PROBES: [[f64; 2]; 3] = [[0.34375, 0.34375], [-0.296875, 0.40625], [0.46875, -0.296875]];
 
     /// Numbers of the probes.
     pub fn probes() -> impl Iterator<Item = u32> {
@@ -31,10 +27,7 @@ impl LightPlane {
     /// This plane for the probe with this number, for which no shadow words are written.
     pub fn of(self, probe: u32) -> Self {
         let light = self.step & spirv::RECEIVERS_LIGHT;
-        Self {
-            step: light | probe << spirv::RECEIVERS_PROBE_SHIFT,
-            ..self
-        }
+        Self { step: light | probe << spirv::RECEIVERS_PROBE_SHIFT, ..self }
     }
 }
 
@@ -70,10 +63,7 @@ impl Receivers {
     ) -> Result<Self, VulkanError> {
         let shown = [
             (receivers_set::LOCATIONS_OUT, locations.into()),
-            (
-                receivers_set::WORDS,
-                (&resources.shadow_words.buffer).into(),
-            ),
+            (receivers_set::WORDS, (&resources.shadow_words.buffer).into()),
         ];
         let kernel = |pixels: bool| {
             let shader = spirv::Receivers {
@@ -96,13 +86,7 @@ impl Receivers {
     }
 
     /// Records the pass for a plane. Passes use the sets `set` from here on.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        set: &SampleSet,
-        receiving: Receiving,
-        plane: &LightPlane,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, set: &SampleSet, receiving: Receiving, plane: &LightPlane) {
         set.show(recorder);
         recorder.show(&self.own);
         match receiving {
@@ -110,8 +94,7 @@ impl Receivers {
                 self.of_pixels.record(recorder, plane, width * height);
             }
             Receiving::Records => {
-                self.of_records
-                    .record_indirect(recorder, plane, Argument::Records);
+                self.of_records.record_indirect(recorder, plane, Argument::Records);
             }
         }
     }

@@ -39,10 +39,7 @@ pub(crate) fn pass(
         ShadeSource::Pixels { .. } => (true, Cells::Pixels),
         ShadeSource::Records { cells } => (false, cells),
     };
-    let display_codes = source
-        == ShadeSource::Pixels {
-            display_codes: true,
-        };
+    let display_codes = source == ShadeSource::Pixels { display_codes: true };
     let one_bin = scene.bins.len() <= 1;
     let common = spirv::Shade {
         pixels,
@@ -63,11 +60,7 @@ pub(crate) fn pass(
         ..spirv::Shade::default()
     };
     let dispatch = |(number, bin): (u32, &MaterialBin)| {
-        let textures = if output.box_filter {
-            &bin.averaged_textures
-        } else {
-            &bin.textures
-        };
+        let textures = if output.box_filter { &bin.averaged_textures } else { &bin.textures };
         let size = if one_bin && !pixels {
             Size::from(Argument::Records)
         } else {

@@ -45,11 +45,7 @@ impl Shadow {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(
-        layout: &FrameLayout,
-        receivers: &Resources,
-        unshadowed: &Unshadowed,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, receivers: &Resources, unshadowed: &Unshadowed) -> Result<Self, VulkanError> {
         let shown = [
             (shadow_set::WORDS, (&receivers.shadow_words.buffer).into()),
             (shadow_set::LEFT, unshadowed.buffer().into()),
@@ -68,23 +64,14 @@ impl Shadow {
     pub fn record(&self, recorder: &Recorder<'_>, target: ShadowTarget, light: u32) {
         self.sizes.record(recorder, 0);
         let (first_place, width) = target.pushed();
-        let push = spirv::ShadowPush {
-            first_place,
-            light,
-            width,
-            ..spirv::ShadowPush::default()
-        };
+        let push = spirv::ShadowPush { first_place, light, width, ..spirv::ShadowPush::default() };
         recorder.show(&self.own);
-        self.kernel
-            .record_indirect(recorder, &push, Argument::Records);
+        self.kernel.record_indirect(recorder, &push, Argument::Records);
     }
 
     /// Records the count of unfinished work, after the last round.
     pub fn record_left(&self, recorder: &Recorder<'_>) {
-        let push = spirv::ShadowPush {
-            ends: 1,
-            ..spirv::ShadowPush::default()
-        };
+        let push = spirv::ShadowPush { ends: 1, ..spirv::ShadowPush::default() };
         recorder.show(&self.own);
         self.kernel.record(recorder, &push, 1_u32);
     }

@@ -25,9 +25,5 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, Vu
     let list = spans.dispatch(spirv::SpansPush { scatter: 1 }, Size::Items(1));
     let sizes = arguments::dispatch(layout, CountedBy::Spans)?;
     let pass = Pass::named(spirv::Spans::INTERFACE).clear(frame_set::BINS);
-    Ok(if one_bin {
-        pass.dispatch(list).dispatch(sizes)
-    } else {
-        pass.dispatch(count).dispatch(sizes).dispatch(list)
-    })
+    Ok(if one_bin { pass.dispatch(list).dispatch(sizes) } else { pass.dispatch(count).dispatch(sizes).dispatch(list) })
 }

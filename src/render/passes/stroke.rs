@@ -34,12 +34,7 @@ pub struct StrokeSizes {
 impl StrokeSizes {
     /// Sizes of a scene's points and lines, in an image with `side` x `side` rendered pixels for each output pixel.
     pub(in crate::render) fn new(scene: &SceneSettings, side: u32) -> Self {
-        Self {
-            line_width: scene.line_width,
-            point_size: scene.point_size,
-            edge_width: scene.edge_width,
-            side,
-        }
+        Self { line_width: scene.line_width, point_size: scene.point_size, edge_width: scene.edge_width, side }
     }
 }
 
@@ -49,9 +44,7 @@ impl StrokePass {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        Ok(Self {
-            kernel: layout.kernel(&spirv::Stroke)?,
-        })
+        Ok(Self { kernel: layout.kernel(&spirv::Stroke)? })
     }
 
     /// Records the pass for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled clip space.
@@ -81,8 +74,7 @@ impl StrokePass {
             apart: EDGE_OFFSET * side,
             edges: strokes.edge_count,
         };
-        let corners = u64::from(strokes.corner_count)
-            + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
+        let corners = u64::from(strokes.corner_count) + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
         self.kernel.record(recorder, &push, corners);
     }
 }
@@ -106,16 +98,11 @@ mod tests {
 
     #[test]
     fn steps_are_pixels_at_any_distance() {
-        let mut camera =
-            Camera::look_at(DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, 50.0, 0.1).unwrap();
+        let mut camera = Camera::look_at(DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, 50.0, 0.1).unwrap();
         let origin = DVec3::new(1.0, -2.0, 0.5);
         for orthographic in [false, true] {
             if orthographic {
-                camera.projection = Projection::Orthographic {
-                    half_height: 2.0,
-                    near: 0.5,
-                    far: 10.0,
-                };
+                camera.projection = Projection::Orthographic { half_height: 2.0, near: 0.5, far: 10.0 };
             }
             camera.shift = DVec2::new(0.1, -0.2);
             let to_clip = camera.pixel_matrix(origin, 300.0, 200.0);

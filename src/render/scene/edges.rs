@@ -29,10 +29,7 @@ impl Edges {
 impl Default for Edges {
     /// Black edges with the default threshold.
     fn default() -> Self {
-        Self {
-            color: [0.0; 3],
-            crease: Self::DEFAULT_CREASE,
-        }
+        Self { color: [0.0; 3], crease: Self::DEFAULT_CREASE }
     }
 }
 
@@ -40,19 +37,14 @@ impl Default for Edges {
 pub fn add(scene: &mut Scene, edges: &Edges) {
     let [r, g, b] = edges.color;
     let material = scene.materials.len();
-    scene.materials.push(Material {
-        base_color: [r, g, b, 1.0],
-        unlit: true,
-        ..Material::default()
-    });
+    scene.materials.push(Material { base_color: [r, g, b, 1.0], unlit: true, ..Material::default() });
     let materials = &scene.materials;
     scene.document.meshes.par_iter_mut().for_each(|mesh| {
         let mut groups: Vec<Vec<&Primitive>> = Vec::new();
         for primitive in mesh.iter().filter(|primitive| !primitive.is_strokes()) {
             // Primitives whose numbers of joint sets or morph targets differ do not move in the same way.
             let alike = |other: &&Primitive| {
-                other.influences.len() == primitive.influences.len()
-                    && other.targets.len() == primitive.targets.len()
+                other.influences.len() == primitive.influences.len() && other.targets.len() == primitive.targets.len()
             };
             match groups.iter_mut().find(|g| g.first().is_some_and(alike)) {
                 Some(group) => group.push(primitive),
@@ -98,11 +90,7 @@ impl HalfEdge {
 
 impl<'p> MergedPrimitives<'p> {
     fn new(primitives: &'p [&'p Primitive], materials: &[Material]) -> Self {
-        let mut surface = Self {
-            primitives,
-            vertices: Vec::new(),
-            faces: Vec::new(),
-        };
+        let mut surface = Self { primitives, vertices: Vec::new(), faces: Vec::new() };
         let mut at_place: HashMap<[u32; 3], u32> = HashMap::new();
         let mut known: HashMap<[u32; 3], usize> = HashMap::new();
         for (index, primitive) in primitives.iter().enumerate() {
@@ -129,10 +117,7 @@ impl<'p> MergedPrimitives<'p> {
                 match surface.faces.get_mut(face) {
                     // Two faces with the same corners in opposite order are one double-sided face.
                     Some(face) => face.is_double_sided = true,
-                    None => surface.faces.push(MergedFace {
-                        corners,
-                        is_double_sided,
-                    }),
+                    None => surface.faces.push(MergedFace { corners, is_double_sided }),
                 }
             }
         }
@@ -150,12 +135,7 @@ impl<'p> MergedPrimitives<'p> {
             .zip(&self.faces)
             .flat_map(|(face, MergedFace { corners, .. })| {
                 let [a, b, c] = *corners;
-                [[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, opposite]| HalfEdge {
-                    from,
-                    to,
-                    opposite,
-                    face,
-                })
+                [[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, opposite]| HalfEdge { from, to, opposite, face })
             })
             .collect();
         sides.par_sort_unstable_by_key(|side| (side.key(), side.face));
@@ -182,20 +162,13 @@ impl<'p> MergedPrimitives<'p> {
             edges.push(Edge {
                 first_vertex: 0,
                 ends: [first.from, first.to],
-                opposite: [
-                    first.opposite,
-                    second.map_or(first.from, |side| side.opposite),
-                ],
-                is_smooth: normals
-                    .is_some_and(|[normal, other]| normal.dot(other) >= smallest_cosine),
-                is_double_sided: group.iter().any(is_double_sided)
-                    || rest.iter().any(turned)
-                    || rest.len() > 1,
+                opposite: [first.opposite, second.map_or(first.from, |side| side.opposite)],
+                is_smooth: normals.is_some_and(|[normal, other]| normal.dot(other) >= smallest_cosine),
+                is_double_sided: group.iter().any(is_double_sided) || rest.iter().any(turned) || rest.len() > 1,
             });
         }
         let sources = compact(&mut edges, self.vertices.len());
-        let sources: Vec<(usize, usize)> =
-            sources.iter().map(|&v| self.vertices[v as usize]).collect();
+        let sources: Vec<(usize, usize)> = sources.iter().map(|&v| self.vertices[v as usize]).collect();
         self.primitive(edges, &sources, material)
     }
 
@@ -210,12 +183,7 @@ impl<'p> MergedPrimitives<'p> {
     }
 
     /// Makes a primitive of edges with these vertices, which move like the surface's vertices.
-    fn primitive(
-        &self,
-        edges: Vec<Edge>,
-        sources: &[(usize, usize)],
-        material: usize,
-    ) -> Primitive {
+    fn primitive(&self, edges: Vec<Edge>, sources: &[(usize, usize)], material: usize) -> Primitive {
         let first = self.primitives.first();
         let targets = (0..first.map_or(0, |p| p.targets.len())).map(|target| {
             let displacement = |&(primitive, v): &(usize, usize)| {
@@ -223,10 +191,7 @@ impl<'p> MergedPrimitives<'p> {
                 let own = target.and_then(|target| target.positions.get(v));
                 own.copied().unwrap_or_default()
             };
-            Displacements {
-                positions: sources.iter().map(displacement).collect(),
-                ..Displacements::default()
-            }
+            Displacements { positions: sources.iter().map(displacement).collect(), ..Displacements::default() }
         });
         let influences = (0..first.map_or(0, |p| p.influences.len())).map(|set| {
             let sets = sources.iter().filter_map(|&(primitive, v)| {
@@ -238,10 +203,7 @@ impl<'p> MergedPrimitives<'p> {
         });
         Primitive {
             material,
-            positions: sources
-                .iter()
-                .map(|&(primitive, v)| self.primitives[primitive].positions[v])
-                .collect(),
+            positions: sources.iter().map(|&(primitive, v)| self.primitives[primitive].positions[v]).collect(),
             targets: targets.collect(),
             influences: influences.collect(),
             triangles: edges.iter().flat_map(Edge::triangles).collect(),

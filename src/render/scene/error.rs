@@ -84,9 +84,7 @@ pub enum SceneError {
         known: String,
     },
     /// Scene that is too large to be posed, most likely because a small file repeats its content.
-    #[error(
-        "{file}: {count} {what} exceed the limit of {limit}; split the scene or draw fewer instances"
-    )]
+    #[error("{file}: {count} {what} exceed the limit of {limit}; split the scene or draw fewer instances")]
     TooLarge {
         /// Name of the file.
         file: String,
@@ -110,10 +108,7 @@ pub(super) struct Fault {
 
 impl Fault {
     pub fn new(place: impl Into<String>, reason: impl Into<String>) -> Self {
-        Self {
-            place: place.into(),
-            reason: reason.into(),
-        }
+        Self { place: place.into(), reason: reason.into() }
     }
 
     /// Adds the consequence to the fault's reason.
@@ -123,11 +118,7 @@ impl Fault {
     }
 
     pub fn into_error(self, file: &str) -> SceneError {
-        SceneError::Malformed {
-            file: file.to_owned(),
-            place: self.place,
-            reason: self.reason,
-        }
+        SceneError::Malformed { file: file.to_owned(), place: self.place, reason: self.reason }
     }
 }
 
@@ -189,12 +180,7 @@ impl Warnings {
     const KEPT: usize = 100;
 
     pub fn new(file: &str) -> Self {
-        Self {
-            file: file.to_owned(),
-            list: Vec::new(),
-            dropped: 0,
-            left_out: BTreeMap::new(),
-        }
+        Self { file: file.to_owned(), list: Vec::new(), dropped: 0, left_out: BTreeMap::new() }
     }
 
     /// Empty list of warnings about the same file.
@@ -240,16 +226,12 @@ impl Warnings {
 
     pub fn into_vec(mut self) -> Vec<String> {
         if self.dropped > 0 {
-            self.list
-                .push(format!("{}: and {} more warnings", self.file, self.dropped));
+            self.list.push(format!("{}: and {} more warnings", self.file, self.dropped));
         }
         if !self.left_out.is_empty() {
             let kinds = self.left_out.iter();
-            let kinds: Vec<String> = kinds
-                .map(|(kind, left_out)| format!("{kind} {left_out}"))
-                .collect();
-            self.list
-                .push(format!("{}: left out: {}", self.file, kinds.join("; ")));
+            let kinds: Vec<String> = kinds.map(|(kind, left_out)| format!("{kind} {left_out}")).collect();
+            self.list.push(format!("{}: left out: {}", self.file, kinds.join("; ")));
         }
         self.list
     }
@@ -278,10 +260,7 @@ mod tests {
         let mut many = Warnings::new("file");
         (0..50).for_each(|i| many.leave_out("properties", 1, &format!("p{i}")));
         let [line] = many.into_vec().try_into().unwrap();
-        assert!(
-            line.starts_with("file: left out: properties (50: p0, p1,"),
-            "{line}"
-        );
+        assert!(line.starts_with("file: left out: properties (50: p0, p1,"), "{line}");
         assert!(line.ends_with("p19, ...)"), "{line}");
     }
 }

@@ -240,9 +240,7 @@ pub enum InstanceFault {
     Triangles,
     /// First index that is below the end of the previous instance or no multiple of 64, or last index that needs more
     /// than 32 bits.
-    #[error(
-        "its first index is no multiple of 64 after the instance before it, or its last passes 32 bits"
-    )]
+    #[error("its first index is no multiple of 64 after the instance before it, or its last passes 32 bits")]
     Index,
     /// Transform that is not finite.
     #[error("its transform is not finite")]
@@ -263,13 +261,7 @@ impl Geometry {
     /// [`GeometryError`] about the first contradiction.
     pub fn check(&self, materials: usize) -> Result<(), GeometryError> {
         let vertices = self.positions.len();
-        let VertexStreams {
-            normals,
-            tangents,
-            uvs,
-            scales,
-            colors,
-        } = &self.streams;
+        let VertexStreams { normals, tangents, uvs, scales, colors } = &self.streams;
         for (stream, found) in [
             ("normals", normals.len()),
             ("tangents", tangents.len()),
@@ -280,30 +272,18 @@ impl Geometry {
             // Only normals are required.
             let may_be_empty = stream != "normals";
             if found != vertices && !(may_be_empty && found == 0) {
-                return Err(GeometryError::Stream {
-                    stream,
-                    found,
-                    vertices,
-                });
+                return Err(GeometryError::Stream { stream, found, vertices });
             }
         }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
-                return Err(GeometryError::Index {
-                    triangle,
-                    index,
-                    vertices,
-                });
+                return Err(GeometryError::Index { triangle, index, vertices });
             }
         }
         for (stroke, corner) in self.strokes.iter().enumerate() {
             let named = [corner.vertex, corner.at, corner.other, corner.beyond];
             if let Some(&index) = named.iter().find(|index| **index as usize >= vertices) {
-                return Err(GeometryError::Stroke {
-                    stroke,
-                    index,
-                    vertices,
-                });
+                return Err(GeometryError::Stroke { stroke, index, vertices });
             }
         }
         for (edge, found) in self.edges.iter().enumerate() {
@@ -311,11 +291,7 @@ impl Geometry {
             let last_corner = u64::from(found.first_vertex) + u64::from(Edge::CORNERS - 1);
             let named = [a, b, c, d].map(u64::from).into_iter().chain([last_corner]);
             if let Some(index) = named.into_iter().find(|&index| index >= vertices as u64) {
-                return Err(GeometryError::Edge {
-                    edge,
-                    index,
-                    vertices,
-                });
+                return Err(GeometryError::Edge { edge, index, vertices });
             }
         }
         let triangles = self.triangles.len();
@@ -323,35 +299,18 @@ impl Geometry {
         for (draw, found) in self.draws.iter().enumerate() {
             let end = expected + found.triangle_count as usize;
             if found.first_triangle as usize != expected || end > triangles {
-                return Err(GeometryError::Draw {
-                    draw,
-                    first: found.first_triangle,
-                    expected,
-                    triangles,
-                });
+                return Err(GeometryError::Draw { draw, first: found.first_triangle, expected, triangles });
             }
             if found.class < class {
-                return Err(GeometryError::Order {
-                    draw,
-                    class: found.class,
-                });
+                return Err(GeometryError::Order { draw, class: found.class });
             }
             if found.material as usize >= materials {
-                return Err(GeometryError::Material {
-                    draw,
-                    material: found.material,
-                    materials,
-                });
+                return Err(GeometryError::Material { draw, material: found.material, materials });
             }
             (expected, class) = (end, found.class);
         }
         if expected != triangles {
-            return Err(GeometryError::Draw {
-                draw: self.draws.len(),
-                first: triangles as u32,
-                expected,
-                triangles,
-            });
+            return Err(GeometryError::Draw { draw: self.draws.len(), first: triangles as u32, expected, triangles });
         }
         self.check_instances()
     }
@@ -364,9 +323,7 @@ impl Geometry {
             if own.is_empty() || own.end > self.triangles.len() {
                 return error(InstanceFault::Triangles);
             }
-            if instance.first_index < next
-                || !instance.first_index.is_multiple_of(Instance::ALIGNMENT)
-            {
+            if instance.first_index < next || !instance.first_index.is_multiple_of(Instance::ALIGNMENT) {
                 return error(InstanceFault::Index);
             }
             match instance.first_index.checked_add(instance.triangle_count) {
@@ -377,10 +334,7 @@ impl Geometry {
                 return error(InstanceFault::Transform);
             }
             let touched = self.draws_of(instance).map(|draw| draw.class);
-            if touched
-                .clone()
-                .any(|other| Some(other) != touched.clone().next())
-            {
+            if touched.clone().any(|other| Some(other) != touched.clone().next()) {
                 return error(InstanceFault::Classes);
             }
             match touched.clone().next() {
@@ -394,9 +348,7 @@ impl Geometry {
     /// Draws that contain triangles of an instance.
     fn draws_of(&self, instance: &Instance) -> impl Iterator<Item = &Draw> + Clone {
         let own = instance.triangles();
-        let first = self
-            .draws
-            .partition_point(|draw| draw.triangles().end <= own.start);
+        let first = self.draws.partition_point(|draw| draw.triangles().end <= own.start);
         let after = self.draws.get(first..).unwrap_or(&[]).iter();
         after.take_while(move |draw| draw.triangles().start < own.end)
     }
@@ -422,9 +374,7 @@ impl Geometry {
     pub fn triangle_slots(&self) -> u64 {
         self.instances
             .last()
-            .map_or(self.triangles.len() as u64, |last| {
-                u64::from(last.first_index) + u64::from(last.triangle_count)
-            })
+            .map_or(self.triangles.len() as u64, |last| u64::from(last.first_index) + u64::from(last.triangle_count))
     }
 
     /// Lowest and highest corner of the axis-aligned box around all vertices of drawn triangles, in world space;
@@ -434,15 +384,9 @@ impl Geometry {
         let whole = [DAffine3::IDENTITY].map(|place| self.box_of(0..self.triangles.len(), place));
         let boxes: Vec<_> = match self.instances.as_slice() {
             [] => whole.to_vec(),
-            all => all
-                .par_iter()
-                .map(|instance| self.box_of(instance.triangles(), instance.transform))
-                .collect(),
+            all => all.par_iter().map(|instance| self.box_of(instance.triangles(), instance.transform)).collect(),
         };
-        let (low, high) = boxes
-            .into_iter()
-            .flatten()
-            .reduce(|(low, high), (l, h)| (low.min(l), high.max(h)))?;
+        let (low, high) = boxes.into_iter().flatten().reduce(|(low, high), (l, h)| (low.min(l), high.max(h)))?;
         Some((low + self.origin, high + self.origin))
     }
 
@@ -492,11 +436,7 @@ impl Geometry {
             return;
         };
         let stays = instance.transform == DAffine3::IDENTITY;
-        let first = if stays {
-            low
-        } else {
-            self.place(low as usize..=high as usize, instance, flat)
-        };
+        let first = if stays { low } else { self.place(low as usize..=high as usize, instance, flat) };
 
         // Indices that belong to no triangle become part of the draw before them.
         let gap = instance.first_index as usize - flat.triangles.len();
@@ -530,30 +470,23 @@ impl Geometry {
         let sign = if instance.mirrored() { -1.0 } else { 1.0 };
         let turn = |[x, y, z]: [f32; 3]| {
             let n = DVec3::from_array([x, y, z].map(f64::from));
-            let cofactors = m.y_axis.cross(m.z_axis) * n.x
-                + m.z_axis.cross(m.x_axis) * n.y
-                + m.x_axis.cross(m.y_axis) * n.z;
-            (cofactors * sign)
-                .normalize_or(DVec3::Z)
-                .as_vec3()
-                .to_array()
+            let cofactors =
+                m.y_axis.cross(m.z_axis) * n.x + m.z_axis.cross(m.x_axis) * n.y + m.x_axis.cross(m.y_axis) * n.z;
+            (cofactors * sign).normalize_or(DVec3::Z).as_vec3().to_array()
         };
         let vertices = used.clone().map(|v| v as u32);
         let placed = vertices.map(|v| place.transform_point3(self.position(v)));
-        flat.positions
-            .extend(placed.map(|p| p.as_vec3().to_array()));
+        flat.positions.extend(placed.map(|p| p.as_vec3().to_array()));
         let streams = &mut flat.streams;
         if let Some(normals) = self.streams.normals.get(used.clone()) {
             streams.normals.extend(normals.iter().map(|&n| turn(n)));
         }
         if let Some(tangents) = self.streams.tangents.get(used.clone()) {
-            streams
-                .tangents
-                .extend(tangents.iter().map(|&[x, y, z, w]| {
-                    let along = m * DVec3::from_array([x, y, z].map(f64::from));
-                    let [x, y, z] = along.normalize_or(DVec3::X).as_vec3().to_array();
-                    [x, y, z, w * sign as f32]
-                }));
+            streams.tangents.extend(tangents.iter().map(|&[x, y, z, w]| {
+                let along = m * DVec3::from_array([x, y, z].map(f64::from));
+                let [x, y, z] = along.normalize_or(DVec3::X).as_vec3().to_array();
+                [x, y, z, w * sign as f32]
+            }));
         }
         if let Some(scales) = self.streams.scales.get(used.clone()) {
             let scale = instance.scale() as f32;

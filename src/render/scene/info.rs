@@ -182,14 +182,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         materials,
         variants: document.variants().map(str::to_owned).collect(),
         textures: scene.textures.len(),
-        images: scene
-            .images
-            .iter()
-            .map(|image| ImageInfo {
-                width: image.width,
-                height: image.height,
-            })
-            .collect(),
+        images: scene.images.iter().map(|image| ImageInfo { width: image.width, height: image.height }).collect(),
         lights: nodes()
             .filter(|&(index, _)| visible[index])
             .filter_map(|(_, node)| pose::light_of(&document.lights, node))

@@ -179,11 +179,7 @@ impl Material {
     /// Textures that the material uses, with their roles.
     pub fn textures(&self) -> impl Iterator<Item = (TextureRole, TextureUse)> + use<> {
         let mut copy = self.clone();
-        let used: Vec<_> = copy
-            .texture_slots()
-            .into_iter()
-            .filter_map(|(role, slot)| Some((role, (*slot)?)))
-            .collect();
+        let used: Vec<_> = copy.texture_slots().into_iter().filter_map(|(role, slot)| Some((role, (*slot)?))).collect();
         used.into_iter()
     }
 
@@ -192,10 +188,7 @@ impl Material {
         use TextureRole as Role;
         let mut slots = vec![
             (Role::BaseColor, &mut self.base_color_texture),
-            (
-                Role::MetallicRoughness,
-                &mut self.metallic_roughness_texture,
-            ),
+            (Role::MetallicRoughness, &mut self.metallic_roughness_texture),
             (Role::Normal, &mut self.normal_texture),
             (Role::Occlusion, &mut self.occlusion_texture),
             (Role::Emissive, &mut self.emissive_texture),

@@ -50,18 +50,14 @@ pub use edges::Edges;
 pub(crate) use environment::Sun;
 pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
-pub use geometry::{
-    Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams,
-};
+pub use geometry::{Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use lobes::{
-    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular,
-    SpecularGlossiness, Transmission,
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular, SpecularGlossiness, Transmission,
 };
 pub use material::{
-    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
-    TextureUse, Wrap,
+    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform, TextureUse, Wrap,
 };
 pub use pose::{Moment, Motion, Pose, PoseRequest};
 pub(crate) use pose::{MotionPart, MovingBounds};
@@ -185,8 +181,6 @@ impl Scene {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
-    std::fs::read(path).map_err(|source| SceneError::Read {
-        file: path.display().to_string(),
-        source: Arc::new(source),
-    })
+    std::fs::read(path)
+        .map_err(|source| SceneError::Read { file: path.display().to_string(), source: Arc::new(source) })
 }

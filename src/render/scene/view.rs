@@ -34,9 +34,7 @@ impl SceneCamera {
     /// Index of the camera with this name, or otherwise with this index.
     #[must_use]
     pub fn find(cameras: &[Self], asked: &str) -> Option<usize> {
-        let by_name = cameras
-            .iter()
-            .position(|camera| camera.name.as_deref() == Some(asked));
+        let by_name = cameras.iter().position(|camera| camera.name.as_deref() == Some(asked));
         let by_index = || asked.parse().ok().filter(|index| *index < cameras.len());
         by_name.or_else(by_index)
     }

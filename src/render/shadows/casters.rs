@@ -3,8 +3,7 @@
 use crate::engine::data::Content;
 use crate::render::data::GpuScene;
 use crate::scene::{
-    AlphaMode, DrawClass, Image, Light, Material, Moment, Motion, MovingBounds, Pose, Scene,
-    TextureUse,
+    AlphaMode, DrawClass, Image, Light, Material, Moment, Motion, MovingBounds, Pose, Scene, TextureUse,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -36,11 +35,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     };
     let image = |(index, image): (usize, &Image)| match used(index as u32) {
         true => image.clone(),
-        false => Image {
-            width: 1,
-            height: 1,
-            pixels: vec![255; 4],
-        },
+        false => Image { width: 1, height: 1, pixels: vec![255; 4] },
     };
     let images = scene.images.iter().enumerate().map(image).collect();
     let mut geometry = pose.geometry.flat().into_owned();
@@ -66,17 +61,11 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
 
 /// The part of a material that its shadow needs.
 fn casting(material: &Material) -> Material {
-    let opaque = Material {
-        alpha_mode: material.alpha_mode,
-        unlit: true,
-        ..Material::default()
-    };
+    let opaque = Material { alpha_mode: material.alpha_mode, unlit: true, ..Material::default() };
     match material.alpha_mode {
-        AlphaMode::Mask { .. } | AlphaMode::Blend => Material {
-            base_color: material.base_color,
-            base_color_texture: material.base_color_texture,
-            ..opaque
-        },
+        AlphaMode::Mask { .. } | AlphaMode::Blend => {
+            Material { base_color: material.base_color, base_color_texture: material.base_color_texture, ..opaque }
+        }
         AlphaMode::Opaque => opaque,
     }
 }
@@ -84,12 +73,7 @@ fn casting(material: &Material) -> Material {
 /// A moment with the part of its materials that shadows need.
 pub(super) fn caster_moment(moment: &Moment) -> Moment {
     let changed = moment.materials.iter();
-    Moment {
-        materials: changed
-            .map(|(index, material)| (*index, casting(material)))
-            .collect(),
-        ..moment.clone()
-    }
+    Moment { materials: changed.map(|(index, material)| (*index, casting(material))).collect(), ..moment.clone() }
 }
 
 fn seen_from_both_sides(class: DrawClass) -> DrawClass {
@@ -104,10 +88,7 @@ impl Casters {
     pub(super) fn new(scene: Arc<GpuScene>, pose: &Pose, motion: Option<&Motion>) -> Self {
         Self {
             scene,
-            lit: Lit {
-                lights: pose.lights.clone(),
-                bounds: pose.geometry.bounds(),
-            },
+            lit: Lit { lights: pose.lights.clone(), bounds: pose.geometry.bounds() },
             moving: motion.map(|motion| MovingBounds::new(&pose.geometry, motion)),
         }
     }

@@ -2,21 +2,17 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, most_planes, views};
-use crate::engine::data::{
-    Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet,
-};
+use crate::engine::data::{Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet};
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{
-    Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings,
-    Shortfall, TileLists,
+    Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall, TileLists,
 };
 use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget,
-    Unshadowed, shade,
+    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, Unshadowed, shade,
 };
 use crate::scene::Moment;
 use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
@@ -102,12 +98,7 @@ impl RecordShading for Occlusion<'_> {
 }
 
 /// Kind of the lists with which casters are sampled.
-const OCCLUDERS: ListCells = ListCells {
-    cells: Cells::Occluders,
-    attributes: false,
-    shadow_words: 0,
-    lent: true,
-};
+const OCCLUDERS: ListCells = ListCells { cells: Cells::Occluders, attributes: false, shadow_words: 0, lent: true };
 
 /// Number of bytes that the lists of all planes of the lights may take. With more, receivers are sampled.
 const MOST_LIST_BYTES: u64 = 768 << 20;
@@ -135,20 +126,14 @@ impl SearchPlan {
             planes: most_planes(&casters.lit, casters.scene.moves()).max(1),
             looks_up: true,
         };
-        let fits = listed
-            .sizes
-            .check("the lists of a light", layout.gpu.limits());
+        let fits = listed.sizes.check("the lists of a light", layout.gpu.limits());
         // Opacities of casters are known only where they are sampled.
         let looks_up = capacity.looks_up_occluders && !scene.has_blend() && fits.is_ok();
         if looks_up && u64::from(listed.planes) * listed.sizes.bytes() <= MOST_LIST_BYTES {
             return listed;
         }
         let room = (shading.receivers(), region);
-        Self {
-            sizes: OCCLUDERS.sizes(layout, scene, options, room, capacity),
-            planes: 1,
-            looks_up: false,
-        }
+        Self { sizes: OCCLUDERS.sizes(layout, scene, options, room, capacity), planes: 1, looks_up: false }
     }
 
     fn bytes(&self) -> u64 {
@@ -187,20 +172,11 @@ impl ShadowFinder {
         places: u64,
     ) -> Result<Self, RenderError> {
         let occluding = &*casters.scene;
-        let plan = SearchPlan::new(
-            layout,
-            casters,
-            settings,
-            capacity,
-            (places, shading.sizes()),
-        );
+        let plan = SearchPlan::new(layout, casters, settings, capacity, (places, shading.sizes()));
         let sizes = plan.sizes;
         sizes.check("the largest list of shadows", layout.gpu.limits())?;
         let (offsets, count) = OCCLUDERS.offsets(layout, &settings.cells)?;
-        let offsets = Offsets {
-            all: &offsets,
-            count,
-        };
+        let offsets = Offsets { all: &offsets, count };
         let once = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(memory, 1, 1, once, false)?;
         let geometry = FrameGeometry::new(memory, occluding, true)?;
@@ -228,10 +204,7 @@ impl ShadowFinder {
             settings,
             output: &output,
             sizes: &sizes,
-            capacity: Capacity {
-                samples_unlisted: !plan.looks_up,
-                ..capacity
-            },
+            capacity: Capacity { samples_unlisted: !plan.looks_up, ..capacity },
             // `shadow` and `occlude` count on the device, so that no runs are counted here.
             runs: 0,
         };
@@ -239,12 +212,9 @@ impl ShadowFinder {
         let search = match planes.first() {
             Some(resources) if !plan.looks_up => {
                 // SAFETY: the list lives as long as this, and has room for that many locations.
-                let sampler =
-                    unsafe { OCCLUDERS.sampler(&context, (resources, locations.texels())) }?;
+                let sampler = unsafe { OCCLUDERS.sampler(&context, (resources, locations.texels())) }?;
                 let opacities = || {
-                    let source = ShadeSource::Records {
-                        cells: Cells::Occluders,
-                    };
+                    let source = ShadeSource::Records { cells: Cells::Occluders };
                     shade::pass(layout, occluding, (source, 0), &output)
                 };
                 Search::Samples {
@@ -259,19 +229,10 @@ impl ShadowFinder {
             },
         };
         Ok(Self {
-            receivers: Receivers::new(
-                layout,
-                scene,
-                cells,
-                shading,
-                (&locations.buffer, plan.looks_up),
-            )?,
+            receivers: Receivers::new(layout, scene, cells, shading, (&locations.buffer, plan.looks_up))?,
             search,
             unshadowed,
-            pose: occluding
-                .moves()
-                .then(|| PosePass::new(layout))
-                .transpose()?,
+            pose: occluding.moves().then(|| PosePass::new(layout)).transpose()?,
             lit: casters.lit.clone(),
             moment: None,
             casters: casters.clone(),
@@ -371,9 +332,7 @@ impl ShadowFinder {
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.section(PassTime::SHADOWS, || {
             let receiving = Receiving::Pixels(shaded.size);
-            let target = ShadowTarget::Marks {
-                width: shaded.size[0],
-            };
+            let target = ShadowTarget::Marks { width: shaded.size[0] };
             for probe in LightPlane::probes() {
                 self.record_search(recorder, shaded, receiving, |plane| plane.of(probe), target);
             }
@@ -404,11 +363,7 @@ impl ShadowFinder {
                     }
                 }
             }
-            Search::Samples {
-                sampler,
-                shade,
-                shadow,
-            } => {
+            Search::Samples { sampler, shade, shadow } => {
                 let Some(resources) = self.planes.first() else {
                     return;
                 };
@@ -424,23 +379,11 @@ impl ShadowFinder {
                     }
                 };
                 for view in shaded.views {
-                    self.receivers
-                        .record(recorder, shaded.set, receiving, &plane(view.plane));
+                    self.receivers.record(recorder, shaded.set, receiving, &plane(view.plane));
                     let uniform = self.uniform(view, sampler.samples(), resources);
                     resources.record_begin(recorder, set, &uniform);
-                    let run = SamplerRun {
-                        resources,
-                        set,
-                        uniform: &uniform,
-                        list: (most, length),
-                        index: 0,
-                    };
-                    let occlusion = Occlusion {
-                        shade: shade.as_ref(),
-                        shadow,
-                        target,
-                        light: view.bit,
-                    };
+                    let run = SamplerRun { resources, set, uniform: &uniform, list: (most, length), index: 0 };
+                    let occlusion = Occlusion { shade: shade.as_ref(), shadow, target, light: view.bit };
                     sampler.record(recorder, &run, &occlusion);
                     shadow.record_left(recorder);
                 }

@@ -85,11 +85,7 @@ pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> 
         let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();
         let single = pinholes.len() == 1;
         for (face, pinhole) in (0..).zip(pinholes) {
-            let begins = if views.is_empty() {
-                LightPlane::BEGINS
-            } else {
-                0
-            };
+            let begins = if views.is_empty() { LightPlane::BEGINS } else { 0 };
             let parallel = pinhole.is_parallel();
             let window = match parallel {
                 true => window_around(&pinhole, side, &sight.corners_within(sight.part, bounds)),
@@ -97,11 +93,7 @@ pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> 
             };
             let middle = window.middle;
             let to_plane = pinhole.pixel_matrix(sight.origin, DVec2::from_array(middle));
-            let place = if parallel {
-                -light.direction
-            } else {
-                light.position - sight.origin
-            };
+            let place = if parallel { -light.direction } else { light.position - sight.origin };
             let cosine = match light.kind {
                 LightKind::Spot { outer_angle, .. } => f64::from(outer_angle).cos(),
                 LightKind::Directional | LightKind::Point => -2.0,
@@ -109,10 +101,7 @@ pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> 
             views.push(LightView {
                 plane: LightPlane {
                     to_plane: to_plane.as_mat4().to_cols_array(),
-                    light: place
-                        .extend(if parallel { 0.0 } else { 1.0 })
-                        .as_vec4()
-                        .to_array(),
+                    light: place.extend(if parallel { 0.0 } else { 1.0 }).as_vec4().to_array(),
                     cone: light.direction.extend(cosine).as_vec4().to_array(),
                     low: [0, 1].map(|axis| window.low[axis] as i32 - middle[axis] as i32),
                     size: window.size(),
@@ -137,11 +126,7 @@ fn around(places: impl Iterator<Item = DVec2>) -> Rectangle {
 
 /// Window that covers a whole plane.
 fn whole_window(side: u32) -> PlaneWindow {
-    PlaneWindow {
-        low: [0; 2],
-        tiles: tiles([side; 2]),
-        middle: [0.5 * f64::from(side); 2],
-    }
+    PlaneWindow { low: [0; 2], tiles: tiles([side; 2]), middle: [0.5 * f64::from(side); 2] }
 }
 
 /// Window with the tiles of a plane around places in the world.
@@ -162,12 +147,7 @@ fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> PlaneWindow 
 }
 
 /// Pinholes of a light; `None` if the scene's extent vanishes in double precision.
-fn pinholes(
-    light: &Light,
-    bounds: (DVec3, DVec3),
-    sight: &Sight,
-    side: u32,
-) -> Option<Vec<Pinhole>> {
+fn pinholes(light: &Light, bounds: (DVec3, DVec3), sight: &Sight, side: u32) -> Option<Vec<Pinhole>> {
     match light.kind {
         LightKind::Directional => Some(vec![distant(light.direction, bounds, sight, side)?]),
         LightKind::Point | LightKind::Spot { .. } => local(light, bounds, side),
@@ -213,12 +193,7 @@ fn local(light: &Light, (low, high): (DVec3, DVec3), side: u32) -> Option<Vec<Pi
             let pinhole = Pinhole::new(eye.extend(1.0), origin, a * pixel, b * pixel, near, None);
             Some(vec![pinhole.ok()?])
         }
-        _ => Some(
-            Rig::cube(eye, DMat3::IDENTITY, side, near)
-                .ok()?
-                .pinholes()
-                .to_vec(),
-        ),
+        _ => Some(Rig::cube(eye, DMat3::IDENTITY, side, near).ok()?.pinholes().to_vec()),
     }
 }
 
@@ -226,12 +201,7 @@ impl Sight {
     /// Corners of the part of a box that is visible through a rectangle; the corners of the box if no part is.
     fn corners_within(&self, seen: Rectangle, (low, high): (DVec3, DVec3)) -> Vec<DVec3> {
         let [first, last] = seen;
-        let around = [
-            first,
-            DVec2::new(last.x, first.y),
-            last,
-            DVec2::new(first.x, last.y),
-        ];
+        let around = [first, DVec2::new(last.x, first.y), last, DVec2::new(first.x, last.y)];
         let rays = around.map(|at| self.pinhole.ray(at));
         let tips = rays.map(|ray| ray.start + ray.direction);
         let middle = tips.iter().sum::<DVec3>() * 0.25;
@@ -245,30 +215,15 @@ impl Sight {
         let sides = [0, 1, 2, 3].map(side);
         let corner = |bits: usize| {
             let pick = |axis: usize| {
-                if bits >> axis & 1 == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
+                if bits >> axis & 1 == 0 { low[axis] } else { high[axis] }
             };
             DVec3::new(pick(0), pick(1), pick(2))
         };
-        let faces = [
-            [0, 1, 3, 2],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 3, 7, 6],
-            [0, 2, 6, 4],
-            [1, 3, 7, 5],
-        ];
+        let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let mut corners = Vec::new();
         for face in faces {
             let whole: Vec<DVec3> = face.map(corner).to_vec();
-            corners.extend(
-                sides
-                    .iter()
-                    .fold(whole, |polygon, side| clip(&polygon, *side)),
-            );
+            corners.extend(sides.iter().fold(whole, |polygon, side| clip(&polygon, *side)));
         }
         let eye = self.pinhole.eye();
         if !self.pinhole.is_parallel() && eye.cmpge(low).all() && eye.cmple(high).all() {
@@ -322,8 +277,7 @@ mod tests {
         let mut random = || (numbers.bits() >> 40) as f64 / f64::from(1 << 24);
         let (mut held, mut in_part) = (0, 0);
         for view in 0..50 {
-            let mut place =
-                || bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
+            let mut place = || bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
             // Every other view looks at the box from outside.
             let (eye, target) = (place() * if view % 2 == 0 { 1.0 } else { 5.0 }, place());
             let seen = sight(eye, target);
@@ -334,17 +288,14 @@ mod tests {
             let [low, size] = [window.low.map(|v| v as f64), window.size().map(f64::from)];
             let (low, size) = (DVec2::from_array(low), DVec2::from_array(size));
             for _ in 0..200 {
-                let place =
-                    bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
-                let is_seen = seen.pinhole.project(place).is_some_and(|at| {
-                    at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::new(100.0, 50.0)).all()
-                });
+                let place = bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
+                let is_seen = seen
+                    .pinhole
+                    .project(place)
+                    .is_some_and(|at| at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::new(100.0, 50.0)).all());
                 if is_seen {
                     let at = pinhole.project(place).unwrap();
-                    assert!(
-                        at.min_element() > 0.0 && at.max_element() < 128.0,
-                        "{at} of {place}"
-                    );
+                    assert!(at.min_element() > 0.0 && at.max_element() < 128.0, "{at} of {place}");
                     let seen_at = seen.pinhole.project(place).unwrap();
                     if seen_at.cmpge(part[0]).all() && seen_at.cmple(part[1]).all() {
                         assert!((at - low).min_element() > 0.0, "{at} {low}");
@@ -361,10 +312,7 @@ mod tests {
     #[test]
     fn a_plane_is_no_larger_than_what_is_seen() {
         // The window has 2 x 1 units, at distance 10, on a plane that is perpendicular to the view and to the light.
-        let bounds = (
-            DVec3::new(-100.0, -100.0, -10.0),
-            DVec3::new(100.0, 100.0, -10.0),
-        );
+        let bounds = (DVec3::new(-100.0, -100.0, -10.0), DVec3::new(100.0, 100.0, -10.0));
         let seen = sight(DVec3::ZERO, DVec3::NEG_Z);
         let pinhole = distant(DVec3::NEG_Z, bounds, &seen, 128).unwrap();
         let width = 2.0 * 2.0 * 10.0 * 20.0_f64.to_radians().tan();

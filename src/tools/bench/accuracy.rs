@@ -100,15 +100,9 @@ impl Yardstick {
             let differences = a.iter().zip(b).take(3).map(|(a, b)| (a - b).abs());
             differences.fold(0.0, f32::max)
         };
-        let triples = self
-            .shown
-            .pixels
-            .iter()
-            .zip(&self.one_sample.pixels)
-            .zip(&image.pixels);
-        let count = triples
-            .filter(|((wanted, one), found)| apart(wanted, one) < STEP && apart(found, one) > STEP)
-            .count();
+        let triples = self.shown.pixels.iter().zip(&self.one_sample.pixels).zip(&image.pixels);
+        let count =
+            triples.filter(|((wanted, one), found)| apart(wanted, one) < STEP && apart(found, one) > STEP).count();
         count as f64 / self.shown.pixels.len() as f64
     }
 }
@@ -117,10 +111,7 @@ impl Yardstick {
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.
-pub(super) fn squares(
-    reference: &DecodedImage,
-    image: &DecodedImage,
-) -> Result<Vec<f64>, CompareError> {
+pub(super) fn squares(reference: &DecodedImage, image: &DecodedImage) -> Result<Vec<f64>, CompareError> {
     let errors = differences(reference, image)?;
     let square = |errors: [f64; 3]| errors.iter().map(|error| error * error).sum();
     Ok(errors.into_iter().map(square).collect())
@@ -130,19 +121,12 @@ pub(super) fn squares(
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.
-pub(super) fn differences(
-    reference: &DecodedImage,
-    image: &DecodedImage,
-) -> Result<Vec<[f64; 3]>, CompareError> {
+pub(super) fn differences(reference: &DecodedImage, image: &DecodedImage) -> Result<Vec<[f64; 3]>, CompareError> {
     if reference.size != image.size {
-        return Err(CompareError::Size {
-            first: reference.size,
-            second: image.size,
-        });
+        return Err(CompareError::Size { first: reference.size, second: image.size });
     }
-    let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
-        [0, 1, 2].map(|channel| f64::from(b[channel]) - f64::from(a[channel]))
-    };
+    let difference =
+        |(a, b): (&[f32; 4], &[f32; 4])| [0, 1, 2].map(|channel| f64::from(b[channel]) - f64::from(a[channel]));
     let pairs = reference.pixels.iter().zip(&image.pixels);
     Ok(pairs.map(difference).collect())
 }
@@ -175,10 +159,7 @@ mod tests {
     fn measure(reference: [f64; 4], one: [f64; 4], image: [f64; 4]) -> Accuracy {
         let (reference, one, image) = (grey(reference), grey(one), grey(image));
         let picture = |pixels| Picture::new([2, 2], pixels).unwrap();
-        Yardstick::new(&picture(&reference), &picture(&one))
-            .unwrap()
-            .measure(&picture(&image))
-            .unwrap()
+        Yardstick::new(&picture(&reference), &picture(&one)).unwrap().measure(&picture(&image)).unwrap()
     }
 
     #[test]

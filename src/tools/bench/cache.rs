@@ -44,17 +44,9 @@ impl Fingerprint {
         (&limits.device_name, &limits.driver).hash(&mut hasher);
         // The debug format of floats loses no bits.
         let places = &geometry.instances;
-        let sizes = [
-            probe.scene.line_width,
-            probe.scene.point_size,
-            probe.scene.edge_width,
-        ];
+        let sizes = [probe.scene.line_width, probe.scene.point_size, probe.scene.edge_width];
         let strokes = (&geometry.strokes, &geometry.edges, sizes);
-        format!(
-            "{camera:?} {:?} {places:?} {strokes:?}",
-            probe.scene.footprint
-        )
-        .hash(&mut hasher);
+        format!("{camera:?} {:?} {places:?} {strokes:?}", probe.scene.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));
         hasher.write(bytemuck::cast_slice(&image.colors));
@@ -72,23 +64,15 @@ impl Cache {
     /// Opens a cache in a folder, which need not exist yet.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
-        Self {
-            folder: folder.to_path_buf(),
-        }
+        Self { folder: folder.to_path_buf() }
     }
 
     /// Default folder of the cache: `gpc` in the user's cache folder, `$XDG_CACHE_HOME` or otherwise `~/.cache` (XDG
     /// Base Directory Specification 0.8); `None` for a user without either.
     #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
-        let absolute = |name: &str| {
-            std::env::var_os(name)
-                .map(PathBuf::from)
-                .filter(|path| path.is_absolute())
-        };
-        absolute("XDG_CACHE_HOME")
-            .or_else(|| Some(absolute("HOME")?.join(".cache")))
-            .map(|folder| folder.join("gpc"))
+        let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+        absolute("XDG_CACHE_HOME").or_else(|| Some(absolute("HOME")?.join(".cache"))).map(|folder| folder.join("gpc"))
     }
 
     /// Pixels of the reference with this fingerprint and size, if the cache holds them. An unusable file counts as
@@ -116,16 +100,12 @@ impl Cache {
     /// [`OutputError`] if its file can't be written.
     pub fn put(&self, fingerprint: Fingerprint, picture: &Picture<'_>) -> Result<(), OutputError> {
         let path = self.path(fingerprint);
-        std::fs::create_dir_all(&self.folder).map_err(|source| OutputError::Write {
-            path: path.clone(),
-            source,
-        })?;
+        std::fs::create_dir_all(&self.folder).map_err(|source| OutputError::Write { path: path.clone(), source })?;
         output::write_atomically(&path, &output::encode(Format::Exr, picture, &[])?)
     }
 
     fn path(&self, fingerprint: Fingerprint) -> PathBuf {
-        self.folder
-            .join(format!("reference-{:016x}.exr", fingerprint.0))
+        self.folder.join(format!("reference-{:016x}.exr", fingerprint.0))
     }
 }
 
@@ -140,9 +120,7 @@ mod tests {
         let (kept, other) = (Fingerprint(7), Fingerprint(8));
         let pixels = [[0.1, 0.2, 1.5, 1.0], [1e-9, -0.0, 0.3, 0.25]];
         assert_eq!(cache.get(kept, [2, 1]), None);
-        cache
-            .put(kept, &Picture::new([2, 1], &pixels).unwrap())
-            .unwrap();
+        cache.put(kept, &Picture::new([2, 1], &pixels).unwrap()).unwrap();
         assert_eq!(cache.get(kept, [2, 1]).as_deref(), Some(&pixels[..]));
         assert_eq!(cache.get(other, [2, 1]), None);
         assert_eq!(cache.get(kept, [1, 2]), None);

@@ -5,9 +5,7 @@ use super::accuracy::squares;
 use crate::camera::Camera;
 use crate::compare::CompareError;
 use crate::output::{DecodedImage, Picture};
-use crate::render::{
-    Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings, SuperpixelOptions,
-};
+use crate::render::{Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings, SuperpixelOptions};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 use serde::Serialize;
@@ -77,14 +75,10 @@ impl PixelTriangles {
         let mut several = unseen.clone();
         let size = DVec2::from(settings.size.map(f64::from));
         for place in owen_sobol(LOOKS, SEED) {
-            let camera = Camera {
-                shift: camera.shift + DVec2::from(place.map(f64::from)) / size,
-                ..*camera
-            };
+            let camera = Camera { shift: camera.shift + DVec2::from(place.map(f64::from)) / size, ..*camera };
             let seen = headless.render(&mut frame, &camera)?.attributes;
             for (pixel, (unseen, looked)) in unseen.iter_mut().zip(&seen).enumerate() {
-                *unseen =
-                    *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
+                *unseen = *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
             }
             for (several, (centre, looked)) in several.iter_mut().zip(centres.iter().zip(&seen)) {
                 *several = *several || centre.id != looked.id;
@@ -141,11 +135,7 @@ fn with_attributes(settings: &Settings, method: Method) -> Settings {
 }
 
 /// IDs at the centres of a pixel and its neighbours.
-fn around(
-    centres: &[PixelAttributes],
-    [width, height]: [u32; 2],
-    pixel: usize,
-) -> impl Iterator<Item = u32> {
+fn around(centres: &[PixelAttributes], [width, height]: [u32; 2], pixel: usize) -> impl Iterator<Item = u32> {
     let [width, height] = [width, height].map(|side| side as usize);
     let beside = |at: usize, side: usize| -> RangeInclusive<usize> {
         at.saturating_sub(1)..=(at + 1).min(side.saturating_sub(1))
@@ -202,32 +192,16 @@ mod tests {
         // The pixels: a superpixel; one with a single triangle; one with two triangles that neighbours show; one with
         // a triangle that no centre shows.
         let centres: Vec<_> = (0..4)
-            .map(|pixel| PixelAttributes {
-                superpixel: u32::from(pixel == 0),
-                ..PixelAttributes::default()
-            })
+            .map(|pixel| PixelAttributes { superpixel: u32::from(pixel == 0), ..PixelAttributes::default() })
             .collect();
-        let looks = PixelTriangles {
-            unseen: vec![true, false, false, true],
-            several: vec![true, false, true, true],
-        };
-        let expected = [
-            Cause::Superpixel,
-            Cause::Inside,
-            Cause::BelowThreshold,
-            Cause::Unseen,
-        ];
+        let looks = PixelTriangles { unseen: vec![true, false, false, true], several: vec![true, false, true, true] };
+        let expected = [Cause::Superpixel, Cause::Inside, Cause::BelowThreshold, Cause::Unseen];
         assert_eq!(looks.classify(&centres), expected);
     }
 
     #[test]
     fn neighbours_end_at_the_image() {
-        let centres: Vec<_> = (0..12)
-            .map(|id| PixelAttributes {
-                id,
-                ..PixelAttributes::default()
-            })
-            .collect();
+        let centres: Vec<_> = (0..12).map(|id| PixelAttributes { id, ..PixelAttributes::default() }).collect();
         let at = |pixel| around(&centres, [4, 3], pixel).collect::<Vec<_>>();
         assert_eq!(at(0), [0, 1, 4, 5]);
         assert_eq!(at(5), [0, 1, 2, 4, 5, 6, 8, 9, 10]);
@@ -237,20 +211,10 @@ mod tests {
     #[test]
     fn shares_add_up_to_what_is_left() {
         let pixels = |codes: [f32; 4]| codes.map(|v| [v, v, v, 1.0]);
-        let [reference, one, image] = [
-            [0.2, 0.4, 0.6, 0.8],
-            [0.1, 0.5, 0.4, 0.9],
-            [0.2, 0.45, 0.7, 0.8],
-        ]
-        .map(pixels);
+        let [reference, one, image] = [[0.2, 0.4, 0.6, 0.8], [0.1, 0.5, 0.4, 0.9], [0.2, 0.45, 0.7, 0.8]].map(pixels);
         let picture = |pixels| Picture::new([4, 1], pixels).unwrap();
         let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
-        let causes = [
-            Cause::Superpixel,
-            Cause::BelowThreshold,
-            Cause::Unseen,
-            Cause::Inside,
-        ];
+        let causes = [Cause::Superpixel, Cause::BelowThreshold, Cause::Unseen, Cause::Inside];
         let image = picture(&image);
         let split = yardstick.split(&image, &causes).unwrap();
         let removed = yardstick.measure(&image).unwrap().removed;

@@ -106,19 +106,12 @@ impl Suspects<'_> {
             let picture = Picture::new(rendered.size, &rendered.colors)?;
             Ok::<_, FaultError>(DecodedImage::from(&picture))
         };
-        let every_sample = settings
-            .clone()
-            .map_superpixels(|options| options.shading(Shading::Sample));
-        let everywhere = settings
-            .clone()
-            .map_superpixels(|options| options.detection(Detection::Every));
+        let every_sample = settings.clone().map_superpixels(|options| options.shading(Shading::Sample));
+        let everywhere = settings.clone().map_superpixels(|options| options.detection(Detection::Every));
         // No two 8-bit codes differ by more than this threshold.
-        let nowhere = settings.clone().map_superpixels(|options| {
-            options
-                .contrast(Some(u8::MAX))
-                .detection(Detection::Contrast)
-                .thin(false)
-        });
+        let nowhere = settings
+            .clone()
+            .map_superpixels(|options| options.contrast(Some(u8::MAX)).detection(Detection::Contrast).thin(false));
         let image = squares(yardstick.reference(), &DecodedImage::from(picture))?;
         let sampled = squares(yardstick.reference(), &render(self.scene, &every_sample)?)?;
         let mut errors = |half: Half<'_>| -> Result<Errors, FaultError> {
@@ -134,12 +127,7 @@ impl Suspects<'_> {
                 Cause::Superpixel => at(&errors.superpixels, pixel),
                 _ => at(&errors.inside, pixel),
             });
-            fault(
-                *cause,
-                self.looks.holds_several(pixel),
-                at(&sampled, pixel) / at(&image, pixel),
-                [paint, light],
-            )
+            fault(*cause, self.looks.holds_several(pixel), at(&sampled, pixel) / at(&image, pixel), [paint, light])
         };
         Ok(causes.iter().enumerate().map(fault).collect())
     }
@@ -206,11 +194,7 @@ mod tests {
             (Unseen, true, 0.9, [3.0, 1.0], None),
         ];
         for (cause, several, stays, halves, expected) in cases {
-            assert_eq!(
-                fault(cause, several, stays, halves),
-                expected,
-                "{cause:?} {several} {stays} {halves:?}"
-            );
+            assert_eq!(fault(cause, several, stays, halves), expected, "{cause:?} {several} {stays} {halves:?}");
         }
     }
 
@@ -223,14 +207,7 @@ mod tests {
         let picture = |pixels| Picture::new([6, 1], pixels).unwrap();
         let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
         let (superpixel, inside) = (Cause::Superpixel, Cause::Inside);
-        let causes = [
-            superpixel,
-            superpixel,
-            superpixel,
-            inside,
-            inside,
-            Cause::Unseen,
-        ];
+        let causes = [superpixel, superpixel, superpixel, inside, inside, Cause::Unseen];
         let faults = [
             Some(Fault::Edges),
             Some(Fault::Texture),
@@ -242,15 +219,11 @@ mod tests {
         let image = picture(&image);
         let split = yardstick.split(&image, &causes).unwrap();
         let within = yardstick.split_within(&image, &causes, &faults).unwrap();
-        let superpixels =
-            within.superpixel_edges + within.superpixel_texture + within.superpixel_light;
+        let superpixels = within.superpixel_edges + within.superpixel_texture + within.superpixel_light;
         let amid = within.inside_texture + within.inside_light;
         assert!((superpixels - split.superpixels).abs() < 1e-9, "{within:?}");
         assert!((amid - split.inside).abs() < 1e-9, "{within:?}");
-        assert!(
-            within.superpixel_edges > within.superpixel_texture,
-            "{within:?}"
-        );
+        assert!(within.superpixel_edges > within.superpixel_texture, "{within:?}");
         assert!(within.inside_texture > within.inside_light, "{within:?}");
     }
 }

@@ -48,9 +48,7 @@ impl Motion {
                 };
                 shifts.map(pan).collect()
             }
-            Self::Turn => (0..FRAMES)
-                .map(|frame| camera.turned(target, f64::from(frame) * TURN))
-                .collect(),
+            Self::Turn => (0..FRAMES).map(|frame| camera.turned(target, f64::from(frame) * TURN)).collect(),
         }
     }
 }
@@ -129,10 +127,7 @@ mod tests {
     use super::*;
 
     fn frame(values: [f32; 2]) -> DecodedImage {
-        DecodedImage {
-            size: [2, 1],
-            pixels: values.map(|v| [v, v, v, 1.0]).to_vec(),
-        }
+        DecodedImage { size: [2, 1], pixels: values.map(|v| [v, v, v, 1.0]).to_vec() }
     }
 
     fn steadiness(frames: &[([f32; 2], [f32; 2])]) -> Steadiness {
@@ -170,10 +165,7 @@ mod tests {
     fn frames_have_one_size() {
         let mut sequence = SequenceErrors::default();
         sequence.add(&frame([0.0; 2]), &frame([0.0; 2])).unwrap();
-        let other = DecodedImage {
-            size: [1, 1],
-            pixels: vec![[0.0; 4]],
-        };
+        let other = DecodedImage { size: [1, 1], pixels: vec![[0.0; 4]] };
         assert!(sequence.add(&frame([0.0; 2]), &other).is_err());
     }
 

@@ -1,9 +1,7 @@
 //! Reference images: supersampling with thousands of samples a pixel.
 
 use crate::camera::Camera;
-use crate::render::{
-    EngineError, Footprint, Headless, Method, PreparedScene, RenderError, Settings,
-};
+use crate::render::{EngineError, Footprint, Headless, Method, PreparedScene, RenderError, Settings};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 
@@ -47,9 +45,7 @@ pub fn brute_force(
     samples: u32,
     mut progress: impl FnMut(),
 ) -> Result<Vec<[f32; 4]>, RenderError> {
-    if !(GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(&samples)
-        || !samples.is_multiple_of(GRID_SAMPLES)
-    {
+    if !(GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(&samples) || !samples.is_multiple_of(GRID_SAMPLES) {
         return Err(RenderError::Engine(EngineError::Samples {
             method: "the reference",
             asked: samples,
@@ -65,10 +61,7 @@ pub fn brute_force(
         // The shift is in cells of the grid: divided by its side it is in pixels, and divided by the size in image
         // widths and heights.
         let moved = DVec2::from(shift.map(f64::from)) / f64::from(SIDE) / size;
-        let camera = Camera {
-            shift: camera.shift + moved,
-            ..*camera
-        };
+        let camera = Camera { shift: camera.shift + moved, ..*camera };
         let colors = headless.render(&mut frame, &camera)?.colors;
         sums.resize(colors.len(), [0.0; 4]);
         for (sum, color) in sums.iter_mut().zip(&colors) {
@@ -79,10 +72,7 @@ pub fn brute_force(
         progress();
     }
     let weight = 1.0 / shifts.len() as f64;
-    Ok(sums
-        .into_iter()
-        .map(|sum| sum.map(|value| (value * weight) as f32))
-        .collect())
+    Ok(sums.into_iter().map(|sum| sum.map(|value| (value * weight) as f32)).collect())
 }
 
 /// Settings of one rendering of a reference, with `samples` samples a pixel.

@@ -26,12 +26,7 @@ impl Spread {
         };
         let upper = sorted.len() / 2;
         let lower = (sorted.len() - 1) / 2;
-        Self {
-            median: 0.5 * (sorted[lower] + sorted[upper]),
-            min: *min,
-            spread: max - min,
-            count: sorted.len(),
-        }
+        Self { median: 0.5 * (sorted[lower] + sorted[upper]), min: *min, spread: max - min, count: sorted.len() }
     }
 }
 
@@ -42,10 +37,7 @@ mod tests {
     #[test]
     fn the_median_is_the_middle_one_or_between_two() {
         let odd = Spread::of([5.0, 1.0, 2.0]);
-        assert_eq!(
-            (odd.median, odd.min, odd.spread, odd.count),
-            (2.0, 1.0, 4.0, 3)
-        );
+        assert_eq!((odd.median, odd.min, odd.spread, odd.count), (2.0, 1.0, 4.0, 3));
         assert_eq!(Spread::of([4.0, 1.0, 2.0, 30.0]).median, 3.0);
         assert_eq!(Spread::of([]), Spread::default());
     }

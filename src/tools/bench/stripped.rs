@@ -62,10 +62,7 @@ fn flatten(scene: &mut Scene, index: usize) {
     }
     read.texture = scene.textures.len() as u32;
     material.base_color_texture = Some(read);
-    scene.textures.push(Texture {
-        image: scene.images.len() as u32,
-        ..texture
-    });
+    scene.textures.push(Texture { image: scene.images.len() as u32, ..texture });
     scene.images.push(white);
 }
 
@@ -78,9 +75,7 @@ fn tint(material: &mut Material, color: [f64; 3]) {
 /// Mean colour of an image in linear light, weighted by alpha unless `alpha_mode` is opaque; white if the image is
 /// transparent everywhere.
 fn mean(image: &Image, alpha_mode: AlphaMode) -> [f64; 3] {
-    let linear: Vec<f64> = (0..=255)
-        .map(|code| srgb::decode(f64::from(code) / 255.0))
-        .collect();
+    let linear: Vec<f64> = (0..=255).map(|code| srgb::decode(f64::from(code) / 255.0)).collect();
     let (mut sum, mut weights) = ([0.0; 3], 0.0);
     let full = image.levels().next().unwrap_or_default();
     for [r, g, b, a] in full.as_chunks::<4>().0 {
@@ -93,11 +88,7 @@ fn mean(image: &Image, alpha_mode: AlphaMode) -> [f64; 3] {
         }
         weights += weight;
     }
-    if weights > 0.0 {
-        sum.map(|sum| sum / weights)
-    } else {
-        [1.0; 3]
-    }
+    if weights > 0.0 { sum.map(|sum| sum / weights) } else { [1.0; 3] }
 }
 
 #[cfg(test)]
@@ -108,23 +99,12 @@ mod tests {
     fn painted(alpha_mode: AlphaMode) -> Scene {
         let mut scene = Scene::from_materials(vec![Material {
             base_color: [0.5, 1.0, 1.0, 1.0],
-            base_color_texture: Some(TextureUse {
-                texture: 0,
-                uv_set: 0,
-                transform: TextureTransform::default(),
-            }),
+            base_color_texture: Some(TextureUse { texture: 0, uv_set: 0, transform: TextureTransform::default() }),
             alpha_mode,
             ..Material::default()
         }]);
-        scene.images = vec![Image {
-            width: 2,
-            height: 1,
-            pixels: vec![255, 0, 0, 255, 0, 255, 0, 0],
-        }];
-        scene.textures = vec![Texture {
-            image: 0,
-            sampler: Sampler::default(),
-        }];
+        scene.images = vec![Image { width: 2, height: 1, pixels: vec![255, 0, 0, 255, 0, 255, 0, 0] }];
+        scene.textures = vec![Texture { image: 0, sampler: Sampler::default() }];
         scene
     }
 

@@ -53,11 +53,7 @@ impl Contender {
     ) -> Result<(Self, Rendered), RenderError> {
         let mut frame = headless.prepare(scene, settings)?;
         let rendered = headless.render(&mut frame, camera)?;
-        let contender = Self {
-            frame,
-            frames: Vec::new(),
-            spent: Duration::ZERO,
-        };
+        let contender = Self { frame, frames: Vec::new(), spent: Duration::ZERO };
         Ok((contender, rendered))
     }
 
@@ -67,19 +63,12 @@ impl Contender {
         self.frame.settings()
     }
 
-    fn time_a_frame(
-        &mut self,
-        headless: &mut Headless,
-        camera: &Camera,
-    ) -> Result<(), RenderError> {
+    fn time_a_frame(&mut self, headless: &mut Headless, camera: &Camera) -> Result<(), RenderError> {
         let start = Instant::now();
         let rendered = headless.render(&mut self.frame, camera)?;
         let wall = start.elapsed();
         self.spent += wall;
-        self.frames.push(Timed {
-            wall_ms: 1e3 * wall.as_secs_f64(),
-            passes: rendered.statistics.passes,
-        });
+        self.frames.push(Timed { wall_ms: 1e3 * wall.as_secs_f64(), passes: rendered.statistics.passes });
         Ok(())
     }
 
@@ -106,13 +95,7 @@ impl Contender {
         Cost {
             gpu_ms: Spread::of(self.frames.iter().map(total)),
             wall_ms: Spread::of(self.frames.iter().map(|frame| frame.wall_ms)),
-            passes: passes
-                .iter()
-                .map(|time| PassCost {
-                    pass: time.pass,
-                    ms: of_pass(time.pass),
-                })
-                .collect(),
+            passes: passes.iter().map(|time| PassCost { pass: time.pass, ms: of_pass(time.pass) }).collect(),
         }
     }
 }

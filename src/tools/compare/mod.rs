@@ -47,11 +47,7 @@ pub enum CompareError {
 pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Comparison, CompareError> {
     check_size(reference, image)?;
     let opaque = |image: &DecodedImage| image.pixels.iter().all(|pixel| pixel[3] >= 1.0);
-    let channels = if opaque(reference) && opaque(image) {
-        3
-    } else {
-        4
-    };
+    let channels = if opaque(reference) && opaque(image) { 3 } else { 4 };
     let (mut sum, mut max) = (0.0_f64, 0.0_f64);
     let (mut over_2, mut over_8) = (0, 0);
     for (a, b) in reference.pixels.iter().zip(&image.pixels) {
@@ -93,18 +89,11 @@ pub fn heat_color(share: f32) -> [u8; 3] {
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.
-pub fn heatmap(
-    reference: &DecodedImage,
-    image: &DecodedImage,
-) -> Result<Vec<[u8; 3]>, CompareError> {
+pub fn heatmap(reference: &DecodedImage, image: &DecodedImage) -> Result<Vec<[u8; 3]>, CompareError> {
     check_size(reference, image)?;
     let errors = error_map(reference, image).to_vec();
     let alphas = reference.pixels.iter().zip(&image.pixels);
-    Ok(errors
-        .iter()
-        .zip(alphas)
-        .map(|(error, (a, b))| heat_color(error.max((a[3] - b[3]).abs())))
-        .collect())
+    Ok(errors.iter().zip(alphas).map(|(error, (a, b))| heat_color(error.max((a[3] - b[3]).abs()))).collect())
 }
 
 /// Difference of channels that is above `count` codes of 8 bits, apart from the rounding of decoded codes.
@@ -116,27 +105,16 @@ fn check_size(first: &DecodedImage, second: &DecodedImage) -> Result<(), Compare
     if first.size == second.size {
         return Ok(());
     }
-    Err(CompareError::Size {
-        first: first.size,
-        second: second.size,
-    })
+    Err(CompareError::Size { first: first.size, second: second.size })
 }
 
 fn error_map(reference: &DecodedImage, image: &DecodedImage) -> nv_flip::FlipImageFloat {
     let bytes = |image: &DecodedImage| {
         let code = |v: f32| (v * 255.0).round() as u8;
-        let colors: Vec<_> = image
-            .pixels
-            .iter()
-            .flat_map(|[r, g, b, _]| [*r, *g, *b].map(code))
-            .collect();
+        let colors: Vec<_> = image.pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b].map(code)).collect();
         FlipImageRgb8::with_data(image.size[0], image.size[1], &colors)
     };
-    nv_flip::flip(
-        bytes(reference),
-        bytes(image),
-        nv_flip::DEFAULT_PIXELS_PER_DEGREE,
-    )
+    nv_flip::flip(bytes(reference), bytes(image), nv_flip::DEFAULT_PIXELS_PER_DEGREE)
 }
 
 #[cfg(test)]
@@ -149,16 +127,8 @@ mod tests {
             let channels = heat_color(share).map(u32::from);
             channels.iter().sum::<u32>()
         };
-        let lights: Vec<_> = (0..=8_u8)
-            .map(|eighth| light(f32::from(eighth) / 8.0))
-            .collect();
-        assert!(
-            lights.is_sorted() && lights[0] < 30 && lights[8] > 500,
-            "{lights:?}"
-        );
-        assert_eq!(
-            (heat_color(-1.0), heat_color(7.0)),
-            (heat_color(0.0), heat_color(1.0))
-        );
+        let lights: Vec<_> = (0..=8_u8).map(|eighth| light(f32::from(eighth) / 8.0)).collect();
+        assert!(lights.is_sorted() && lights[0] < 30 && lights[8] > 500, "{lights:?}");
+        assert_eq!((heat_color(-1.0), heat_color(7.0)), (heat_color(0.0), heat_color(1.0)));
     }
 }

@@ -23,13 +23,7 @@ pub enum AovKind {
 
 impl AovKind {
     /// All kinds of AOVs.
-    pub const ALL: [Self; 5] = [
-        Self::Depth,
-        Self::Id,
-        Self::Normal,
-        Self::Superpixels,
-        Self::Samples,
-    ];
+    pub const ALL: [Self; 5] = [Self::Depth, Self::Id, Self::Normal, Self::Superpixels, Self::Samples];
 
     /// Name of the kind on the command line and in file names.
     #[must_use]
@@ -80,22 +74,12 @@ impl Aov {
     pub fn from_attributes(kind: AovKind, attributes: &[PixelAttributes]) -> Self {
         let pixels = attributes.iter();
         match kind {
-            AovKind::Depth => Self::Depth(
-                pixels
-                    .map(|pixel| {
-                        if pixel.id == 0 {
-                            f32::INFINITY
-                        } else {
-                            pixel.depth
-                        }
-                    })
-                    .collect(),
-            ),
+            AovKind::Depth => {
+                Self::Depth(pixels.map(|pixel| if pixel.id == 0 { f32::INFINITY } else { pixel.depth }).collect())
+            }
             AovKind::Id => Self::Id(pixels.map(|pixel| pixel.id).collect()),
             AovKind::Normal => Self::Normal(pixels.map(|pixel| pixel.normal).collect()),
-            AovKind::Superpixels => {
-                Self::Superpixels(pixels.map(|pixel| pixel.superpixel != 0).collect())
-            }
+            AovKind::Superpixels => Self::Superpixels(pixels.map(|pixel| pixel.superpixel != 0).collect()),
             AovKind::Samples => Self::Samples(pixels.map(|pixel| pixel.samples).collect()),
         }
     }

@@ -23,15 +23,7 @@ pub struct DecodedImage {
 impl From<&Picture<'_>> for DecodedImage {
     /// Converts a rendered image to the image that a display shows, without the rounding of a file.
     fn from(picture: &Picture<'_>) -> Self {
-        Self {
-            size: picture.size(),
-            pixels: picture
-                .pixels()
-                .par_iter()
-                .copied()
-                .map(show_linear)
-                .collect(),
-        }
+        Self { size: picture.size(), pixels: picture.pixels().par_iter().copied().map(show_linear).collect() }
     }
 }
 
@@ -42,10 +34,7 @@ const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// # Errors
 /// [`OutputError::Read`] if the file can't be read, otherwise as [`decode`].
 pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
-    let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
-        path: path.to_path_buf(),
-        source,
-    })?;
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.to_path_buf(), source })?;
     decode(&bytes, &path.display().to_string())
 }
 
@@ -67,17 +56,10 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     })?;
     if let Some(index) = pixels.iter().position(|p| p.iter().any(|v| v.is_nan())) {
         let width = size[0] as usize;
-        return Err(OutputError::NotANumber {
-            file: name.to_owned(),
-            x: index % width,
-            y: index / width,
-        });
+        return Err(OutputError::NotANumber { file: name.to_owned(), x: index % width, y: index / width });
     }
     let show = if linear { show_linear } else { show_straight };
-    Ok(DecodedImage {
-        size,
-        pixels: pixels.into_par_iter().map(show).collect(),
-    })
+    Ok(DecodedImage { size, pixels: pixels.into_par_iter().map(show).collect() })
 }
 
 /// Decodes an EXR or Radiance (.hdr) image to [width, height] and its unchanged values: linear light, premultiplied
@@ -127,11 +109,7 @@ pub fn bound_light(colors: &mut [[f32; 3]]) -> (usize, f32) {
 }
 
 fn not_linear(name: &str, reason: String) -> OutputError {
-    OutputError::Decode {
-        file: name.to_owned(),
-        reason,
-        expected: "an EXR or Radiance (.hdr) image",
-    }
+    OutputError::Decode { file: name.to_owned(), reason, expected: "an EXR or Radiance (.hdr) image" }
 }
 
 /// Size and sRGB-encoded pixels with straight alpha, of a PNG or JPEG.

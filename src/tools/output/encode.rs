@@ -52,10 +52,7 @@ pub fn encode_aov(size: [u32; 2], aov: &Aov) -> Result<Vec<u8>, OutputError> {
     let grey16 = |codes: Vec<u16>| png(size, bytemuck::cast_slice(&codes), ExtendedColorType::L16);
     match aov {
         Aov::Depth(depths) => grey16(depth_codes(depths)),
-        Aov::Id(ids) => encode_rgb(
-            size,
-            &ids.iter().map(|id| id_color(*id)).collect::<Vec<_>>(),
-        ),
+        Aov::Id(ids) => encode_rgb(size, &ids.iter().map(|id| id_color(*id)).collect::<Vec<_>>()),
         Aov::Normal(normals) => {
             let code = |v: f32| ((f64::from(v) * 0.5 + 0.5) * 255.0).round() as u8;
             let color = |normal: &[f32; 3]| match normal {
@@ -97,10 +94,7 @@ pub fn encode_rgba(size: [u32; 2], pixels: &[[u8; 4]]) -> Result<Vec<u8>, Output
     if pixels.par_iter().any(|pixel| pixel[3] < u8::MAX) {
         return png(size, pixels.as_flattened(), ExtendedColorType::Rgba8);
     }
-    let colors: Vec<_> = pixels
-        .iter()
-        .flat_map(|[r, g, b, _]| [*r, *g, *b])
-        .collect();
+    let colors: Vec<_> = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
     png(size, &colors, ExtendedColorType::Rgb8)
 }
 
@@ -156,12 +150,7 @@ fn jpeg(picture: &Picture<'_>) -> Result<Vec<u8>, OutputError> {
     let [width, height] = picture.size();
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY)
-        .write_image(
-            pixels.as_flattened(),
-            width,
-            height,
-            ExtendedColorType::Rgb8,
-        )
+        .write_image(pixels.as_flattened(), width, height, ExtendedColorType::Rgb8)
         .map_err(|error| OutputError::Encode(error.to_string()))?;
     Ok(bytes)
 }
@@ -176,9 +165,8 @@ fn png(size: [u32; 2], samples: &[u8], color: ExtendedColorType) -> Result<Vec<u
 
 fn depth_codes(depths: &[f32]) -> Vec<u16> {
     let finite = depths.iter().copied().filter(|depth| depth.is_finite());
-    let (near, far) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(near, far), depth| {
-        (near.min(depth), far.max(depth))
-    });
+    let (near, far) =
+        finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(near, far), depth| (near.min(depth), far.max(depth)));
     let [near, far] = [near, far].map(f64::from);
     let code = |depth: &f32| {
         if !depth.is_finite() {

@@ -7,10 +7,7 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 /// Encodes a file with one part: the picture's R, G, B and A, and a layer for each AOV.
-pub(super) fn encode(
-    picture: &Picture<'_>,
-    aovs: &[Aov],
-) -> std::result::Result<Vec<u8>, OutputError> {
+pub(super) fn encode(picture: &Picture<'_>, aovs: &[Aov]) -> std::result::Result<Vec<u8>, OutputError> {
     let channel = |i: usize| picture.pixels().iter().map(|pixel| pixel[i]).collect();
     let mut channels: Vec<_> = ["R", "G", "B", "A"]
         .into_iter()
@@ -29,18 +26,13 @@ pub(super) fn encode(
         AnyChannels::sort(channels.into_iter().collect()),
     ));
     let mut bytes = Cursor::new(Vec::new());
-    image
-        .write()
-        .to_buffered(&mut bytes)
-        .map_err(|error| OutputError::Encode(error.to_string()))?;
+    image.write().to_buffered(&mut bytes).map_err(|error| OutputError::Encode(error.to_string()))?;
     Ok(bytes.into_inner())
 }
 
 fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
     let kind = aov.kind();
-    let channel = |name: &str, samples| {
-        AnyChannel::new(Text::new_or_panic(format!("{kind}.{name}")), samples)
-    };
+    let channel = |name: &str, samples| AnyChannel::new(Text::new_or_panic(format!("{kind}.{name}")), samples);
     match aov {
         Aov::Depth(depths) => vec![channel("Z", FlatSamples::F32(depths.clone()))],
         Aov::Id(values) | Aov::Samples(values) => {
@@ -85,17 +77,11 @@ impl Chosen {
     fn of(headers: &[Header]) -> std::result::Result<Self, String> {
         let colors = |layer: &str| {
             let name = |channel: &str| Text::new_or_none(format!("{layer}{channel}"));
-            Some(Self::Colors {
-                rgb: [name("R")?, name("G")?, name("B")?],
-                alpha: name("A")?,
-            })
+            Some(Self::Colors { rgb: [name("R")?, name("G")?, name("B")?], alpha: name("A")? })
         };
         let is_there = |chosen: &Self| headers.iter().any(|header| chosen.are_in(header));
-        let names: Vec<String> = headers
-            .iter()
-            .flat_map(|header| &header.channels.list)
-            .map(|channel| channel.name.to_string())
-            .collect();
+        let names: Vec<String> =
+            headers.iter().flat_map(|header| &header.channels.list).map(|channel| channel.name.to_string()).collect();
         let has = |name: &str| names.iter().any(|known| known == name);
         let luminance = Some(Self::Luminance).filter(|_| !has("RY") && !has("BY"));
         let first = [colors(""), luminance].into_iter().flatten().find(is_there);
@@ -110,11 +96,7 @@ impl Chosen {
             (1, Some(layer)) => Ok(layer),
             _ => Err(format!(
                 "{}it has the channels {}; what is read is R, G and B, Y alone, or a layer's R, G and B if only one layer has them",
-                if headers.iter().all(|header| header.deep) {
-                    "its data are deep; "
-                } else {
-                    ""
-                },
+                if headers.iter().all(|header| header.deep) { "its data are deep; " } else { "" },
                 names.join(", ")
             )),
         }
@@ -142,10 +124,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
     }
     let along = |start: i32, end: i32| i64::from(start) - i64::from(end);
     let start = header.own_attributes.layer_position;
-    let (left, top) = (
-        along(start.x(), window.position.x()),
-        along(start.y(), window.position.y()),
-    );
+    let (left, top) = (along(start.x(), window.position.x()), along(start.y(), window.position.y()));
     let (width, height) = (window.size.width(), window.size.height());
     let place = |start: i64, at: usize, side: usize| {
         let at = usize::try_from(start + at as i64).ok();
@@ -159,16 +138,10 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
         }
     };
     let black = move || vec![[0.0; 4]; width * height];
-    let reader = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .specific_channels();
+    let reader = read().no_deep_data().largest_resolution_level().specific_channels();
     let bytes = Cursor::new(bytes);
     let pixels = match chosen {
-        Chosen::Colors {
-            rgb: [r, g, b],
-            alpha,
-        } => reader
+        Chosen::Colors { rgb: [r, g, b], alpha } => reader
             .required(r)
             .required(g)
             .required(b)
@@ -184,10 +157,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
         Chosen::Luminance => reader
             .required("Y")
             .optional("A", 1.0_f32)
-            .collect_pixels(
-                move |_, _| black(),
-                move |pixels, at, (y, a): (f32, f32)| set(pixels, at, [y, y, y, a]),
-            )
+            .collect_pixels(move |_, _| black(), move |pixels, at, (y, a): (f32, f32)| set(pixels, at, [y, y, y, a]))
             .first_valid_layer()
             .all_attributes()
             .from_buffered(bytes)

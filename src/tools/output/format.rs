@@ -23,9 +23,7 @@ impl Format {
     /// # Errors
     /// [`UnknownFormat`], whose message lists the endings.
     pub fn of(path: &Path) -> Result<Self, UnknownFormat> {
-        let name = path.file_name().map_or_else(String::new, |name| {
-            name.to_string_lossy().to_ascii_lowercase()
-        });
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_ascii_lowercase());
         let endings = [
             (".16.png", Self::Png16),
             (".png", Self::Png8),

@@ -67,11 +67,7 @@ fn check_count(size: [u32; 2], found: usize) -> Result<(), OutputError> {
     let [width, height] = size;
     let expected = u64::from(width) * u64::from(height);
     if expected == 0 || expected != found as u64 {
-        return Err(OutputError::PixelCount {
-            width,
-            height,
-            found,
-        });
+        return Err(OutputError::PixelCount { width, height, found });
     }
     Ok(())
 }

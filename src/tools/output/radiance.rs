@@ -23,8 +23,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> 
     decoder.set_limits(limits).map_err(text)?;
     let image = DynamicImage::from_decoder(decoder).map_err(text)?;
     let numbers = image.into_rgb32f().into_raw();
-    let colors = bytemuck::try_cast_vec(numbers)
-        .unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
+    let colors = bytemuck::try_cast_vec(numbers).unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
     Ok(head.upright(colors))
 }
 
@@ -68,15 +67,12 @@ impl Head {
             let format = line.strip_prefix(b"FORMAT=").map(<[u8]>::trim_ascii);
             if let Some(other) = format.filter(|format| *format != b"32-bit_rle_rgbe") {
                 let other = String::from_utf8_lossy(other);
-                return Err(format!(
-                    "its FORMAT is {other}, and only 32-bit_rle_rgbe is read"
-                ));
+                return Err(format!("its FORMAT is {other}, and only 32-bit_rle_rgbe is read"));
             }
         }
         let text = String::from_utf8_lossy(line()?).into_owned();
-        let resolution = Self::resolution(&text).ok_or_else(|| {
-            format!("its resolution is \"{text}\", and not like \"-Y 512 +X 1024\"")
-        })?;
+        let resolution = Self::resolution(&text)
+            .ok_or_else(|| format!("its resolution is \"{text}\", and not like \"-Y 512 +X 1024\""))?;
         Ok(Self { length, resolution })
     }
 
@@ -92,11 +88,7 @@ impl Head {
                 _ => return None,
             };
             let length = length.parse().ok().filter(|length| *length > 0)?;
-            Some(Axis {
-                is_vertical,
-                is_forward,
-                length,
-            })
+            Some(Axis { is_vertical, is_forward, length })
         };
         let [major, length, minor, minor_length] = *words.as_slice() else {
             return None;
@@ -108,11 +100,7 @@ impl Head {
     /// Size and colours in rows from the top.
     fn upright(&self, colors: Vec<[f32; 3]>) -> ([u32; 2], Vec<[f32; 3]>) {
         let [major, minor] = self.resolution;
-        let [rows, columns] = if major.is_vertical {
-            [major, minor]
-        } else {
-            [minor, major]
-        };
+        let [rows, columns] = if major.is_vertical { [major, minor] } else { [minor, major] };
         let size = [columns.length, rows.length];
         if major.is_vertical && rows.is_forward && columns.is_forward {
             return (size, colors);
@@ -125,8 +113,7 @@ impl Head {
                 false => column * rows.length as usize + row,
             }
         };
-        let all =
-            (0..rows.length).flat_map(|row| (0..columns.length).map(move |column| (row, column)));
+        let all = (0..rows.length).flat_map(|row| (0..columns.length).map(move |column| (row, column)));
         let turned = all.filter_map(|(row, column)| colors.get(stored(row, column)).copied());
         (size, turned.collect())
     }
@@ -145,9 +132,8 @@ mod tests {
 
     #[test]
     fn every_orientation_is_turned_upright() {
-        let expected: Vec<[f32; 3]> = (0..3)
-            .flat_map(|y| [0.0, 1.0].map(|x| [x, f32::from(y as u8) / 2.0, 0.0]))
-            .collect();
+        let expected: Vec<[f32; 3]> =
+            (0..3).flat_map(|y| [0.0, 1.0].map(|x| [x, f32::from(y as u8) / 2.0, 0.0])).collect();
         let mut forms = 0;
         for vertical in ["-Y", "+Y"] {
             for horizontal in ["+X", "-X"] {
@@ -183,10 +169,7 @@ mod tests {
     #[test]
     fn what_is_no_picture_is_refused_by_what_it_has() {
         let refused = |head: &str| decode(head.as_bytes()).unwrap_err();
-        assert!(
-            refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n")
-                .contains("32-bit_rle_xyze")
-        );
+        assert!(refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n").contains("32-bit_rle_xyze"));
         assert!(refused("#?RADIANCE\n\n-Y 2 +Y 2\n").contains("\"-Y 2 +Y 2\""));
         assert!(refused("#?RADIANCE\n\n-Y 0 +X 2\n").contains("-Y 0 +X 2"));
         assert!(refused("#?RADIANCE\n\n-Y 2").contains("does not end"));

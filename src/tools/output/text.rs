@@ -20,9 +20,7 @@ pub fn add_text(png: &[u8], keyword: &str, text: &str) -> Result<Vec<u8>, Output
         return Err(OutputError::Encode(reason.to_owned()));
     };
     let mut noted = header.to_vec();
-    TEXtChunk::new(keyword, text)
-        .encode(&mut noted)
-        .map_err(|error| OutputError::Encode(error.to_string()))?;
+    TEXtChunk::new(keyword, text).encode(&mut noted).map_err(|error| OutputError::Encode(error.to_string()))?;
     noted.extend(rest);
     Ok(noted)
 }
@@ -34,9 +32,7 @@ pub fn find_text(png: &[u8], keyword: &str) -> Option<String> {
     // Text chunks may also follow the pixels.
     reader.finish().ok()?;
     let mut texts = reader.info().uncompressed_latin1_text.iter();
-    texts
-        .find(|text| text.keyword == keyword)
-        .map(|text| text.text.clone())
+    texts.find(|text| text.keyword == keyword).map(|text| text.text.clone())
 }
 
 #[cfg(test)]

@@ -53,12 +53,7 @@ impl<W: Write> VideoWriter<W> {
     ///
     /// # Errors
     /// [`OutputError::Stream`] if writing to `out` fails.
-    pub fn new(
-        out: W,
-        format: VideoFormat,
-        size: [u32; 2],
-        rate: f64,
-    ) -> Result<Self, OutputError> {
+    pub fn new(out: W, format: VideoFormat, size: [u32; 2], rate: f64) -> Result<Self, OutputError> {
         let out = Unbuffered(out);
         let stream = match format {
             VideoFormat::Y4m => {
@@ -80,10 +75,7 @@ impl<W: Write> VideoWriter<W> {
     /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if writing fails.
     pub fn write(&mut self, picture: &Picture<'_>) -> Result<(), OutputError> {
         if picture.size() != self.size {
-            return Err(OutputError::FrameSize {
-                found: picture.size(),
-                expected: self.size,
-            });
+            return Err(OutputError::FrameSize { found: picture.size(), expected: self.size });
         }
         match &mut self.stream {
             VideoOutput::Y4m(encoder) => {
@@ -119,12 +111,7 @@ fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
 fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let chroma = |difference: f64, range: f64| 128.0 + 224.0 * difference / range;
-    [
-        16.0 + 219.0 * luma,
-        chroma(b - luma, 1.8556),
-        chroma(r - luma, 1.5748),
-    ]
-    .map(|code| code.round() as u8)
+    [16.0 + 219.0 * luma, chroma(b - luma, 1.8556), chroma(r - luma, 1.5748)].map(|code| code.round() as u8)
 }
 
 /// Frame rate as a fraction of whole numbers, as [`VideoWriter::new`] describes.
@@ -140,11 +127,7 @@ fn ratio(rate: f64) -> Ratio {
 }
 
 fn greatest_common_divisor(a: usize, b: usize) -> usize {
-    if b == 0 {
-        a
-    } else {
-        greatest_common_divisor(b, a % b)
-    }
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
 #[cfg(test)]
@@ -173,9 +156,7 @@ mod tests {
     #[test]
     fn codes_are_the_nearest() {
         let steps = || (0..=20).map(|step| f64::from(step) / 20.0);
-        for (r, g, b) in
-            steps().flat_map(|r| steps().flat_map(move |g| steps().map(move |b| (r, g, b))))
-        {
+        for (r, g, b) in steps().flat_map(|r| steps().flat_map(move |g| steps().map(move |b| (r, g, b)))) {
             let [y, cb, cr] = bt709([r, g, b]).map(f64::from);
             let luma = (y - 16.0) / 219.0;
             let red = luma + 1.5748 * (cr - 128.0) / 224.0;
@@ -210,9 +191,7 @@ mod tests {
         let mut out = Vec::new();
         let mut writer = VideoWriter::new(&mut out, VideoFormat::Raw, [2, 1], 24.0).unwrap();
         let pixels = [[1.0, 0.25, 0.0, 1.0], [0.25, 0.0, 0.0, 0.5]];
-        writer
-            .write(&Picture::new([2, 1], &pixels).unwrap())
-            .unwrap();
+        writer.write(&Picture::new([2, 1], &pixels).unwrap()).unwrap();
         let refused = writer.write(&Picture::new([1, 2], &pixels).unwrap());
         assert!(matches!(refused, Err(OutputError::FrameSize { .. })));
         let half = srgb::encode_u8(0.5);

@@ -20,11 +20,7 @@ impl SampleGrid {
     pub(super) fn new(jacobian: DMat2) -> Self {
         // Eigenvalues and eigenvectors of J J^T = ((p, q), (q, r)).
         let rows = jacobian.transpose();
-        let (p, q, r) = (
-            rows.x_axis.length_squared(),
-            rows.x_axis.dot(rows.y_axis),
-            rows.y_axis.length_squared(),
-        );
+        let (p, q, r) = (rows.x_axis.length_squared(), rows.x_axis.dot(rows.y_axis), rows.y_axis.length_squared());
         let (mean, half) = (0.5 * (p + r), 0.5 * (p - r));
         let spread = half.hypot(q);
         let major = DVec2::from_angle(0.5 * q.atan2(half));
@@ -34,11 +30,7 @@ impl SampleGrid {
             axes: [major * widths[0], major.perp() * widths[1]],
             counts: widths.map(|width| {
                 // Places are at most half a pixel apart, because the reconstruction is not linear between pixels.
-                if width > 0.0 {
-                    ((2.0 * width).ceil() + 1.0).min(MOST) as u32
-                } else {
-                    1
-                }
+                if width > 0.0 { ((2.0 * width).ceil() + 1.0).min(MOST) as u32 } else { 1 }
             }),
         }
     }
@@ -52,8 +44,6 @@ impl SampleGrid {
         let [across, down] = self.counts;
         let place = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;
         let axes = self.axes;
-        (0..down).flat_map(move |j| {
-            (0..across).map(move |i| axes[0] * place(i, across) + axes[1] * place(j, down))
-        })
+        (0..down).flat_map(move |j| (0..across).map(move |i| axes[0] * place(i, across) + axes[1] * place(j, down)))
     }
 }

@@ -29,19 +29,13 @@ impl From<&DecodedImage> for Photograph {
     fn from(image: &DecodedImage) -> Self {
         let linear = |v: f32| srgb::decode(f64::from(v)) as f32;
         let pixel = |[r, g, b, a]: &[f32; 4]| [linear(*r), linear(*g), linear(*b), *a];
-        Self {
-            size: image.size,
-            pixels: image.pixels.par_iter().map(pixel).collect(),
-        }
+        Self { size: image.size, pixels: image.pixels.par_iter().map(pixel).collect() }
     }
 }
 
 impl From<&Picture<'_>> for Photograph {
     fn from(picture: &Picture<'_>) -> Self {
-        Self {
-            size: picture.size(),
-            pixels: picture.pixels().to_vec(),
-        }
+        Self { size: picture.size(), pixels: picture.pixels().to_vec() }
     }
 }
 
@@ -81,11 +75,7 @@ impl Photograph {
     /// pixels of the output, `look` returns the location in the photograph and its Jacobian, both as [`Self::sample`]
     /// takes them.
     #[must_use]
-    pub fn resample(
-        &self,
-        size: [u32; 2],
-        look: impl Fn(DVec2) -> (DVec2, DMat2) + Sync,
-    ) -> Vec<[f32; 4]> {
+    pub fn resample(&self, size: [u32; 2], look: impl Fn(DVec2) -> (DVec2, DMat2) + Sync) -> Vec<[f32; 4]> {
         let row = |row: u32| {
             let look = &look;
             (0..size[0]).into_par_iter().map(move |col| {

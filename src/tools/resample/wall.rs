@@ -29,9 +29,7 @@ pub fn light_on_wall(size: [u32; 2], frames: &[(&Projector, &Photograph)]) -> Ve
     };
     let row = |row: u32| {
         let light = &light;
-        (0..size[0])
-            .into_par_iter()
-            .map(move |col| light(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)))
+        (0..size[0]).into_par_iter().map(move |col| light(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)))
     };
     (0..size[1]).into_par_iter().flat_map(row).collect()
 }

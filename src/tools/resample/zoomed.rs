@@ -72,12 +72,8 @@ impl Zoomed {
     /// # Errors
     /// [`OutputError::Encode`] if the bytes are no PNG.
     pub fn add_map(png: &[u8], size: [u32; 2], map: &ZoomMap) -> Result<Vec<u8>, OutputError> {
-        let record = Record {
-            size,
-            regions: map.regions().to_vec(),
-        };
-        let text = serde_json::to_string(&record)
-            .map_err(|error| OutputError::Encode(error.to_string()))?;
+        let record = Record { size, regions: map.regions().to_vec() };
+        let text = serde_json::to_string(&record).map_err(|error| OutputError::Encode(error.to_string()))?;
         output::add_text(png, KEYWORD, &text)
     }
 
@@ -104,11 +100,7 @@ impl Zoomed {
         let found = photograph.size();
         if record.size != found {
             let recorded = record.size;
-            return Err(ZoomedError::Size {
-                name,
-                recorded,
-                found,
-            });
+            return Err(ZoomedError::Size { name, recorded, found });
         }
         match ZoomMap::new(record.regions) {
             Ok(map) => Ok(Self { photograph, map }),

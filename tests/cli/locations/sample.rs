@@ -24,51 +24,25 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
         write!(csv, "\n{},{},{},{}", place.x, place.y, i / 64, i % 64).unwrap();
     }
     std::fs::write(folder.path().join("s.csv"), csv).unwrap();
-    let render = [
-        "render",
-        &scene,
-        "-o",
-        "r.exr",
-        "--aa",
-        "none",
-        "--tonemap",
-        "none",
-    ];
+    let render = ["render", &scene, "-o", "r.exr", "--aa", "none", "--tonemap", "none"];
     gpc(folder.path(), &[&render[..], &options].concat()).ok();
     for out in ["a.csv", "a.npy"] {
         let sample = ["sample", &scene, "--samples", "s.csv", "-o", out];
         gpc(folder.path(), &[&sample[..], &options].concat()).ok();
     }
     // Arranged by row and column, the samples form the image.
-    let sample = [
-        "sample",
-        &scene,
-        "--samples",
-        "s.csv",
-        "-o",
-        "a.exr",
-        "--tonemap",
-        "none",
-    ];
+    let sample = ["sample", &scene, "--samples", "s.csv", "-o", "a.exr", "--tonemap", "none"];
     gpc(folder.path(), &[&sample[..], &options].concat()).ok();
     let compare = ["compare", "r.exr", "a.exr", "--max-rmse", "0.02"];
     gpc(folder.path(), &compare).ok();
     let text = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
     let (names, rows) = table(&text);
-    assert_eq!(
-        names,
-        [
-            "u", "v", "r", "g", "b", "a", "depth", "id", "hit", "nx", "ny", "nz"
-        ]
-    );
+    assert_eq!(names, ["u", "v", "r", "g", "b", "a", "depth", "id", "hit", "nx", "ny", "nz"]);
     let (_, pixels) = linear(&folder.path().join("r.exr"));
     let mut different = 0;
     for ((_, place), (row, pixel)) in places(size).zip(rows.iter().zip(&pixels)) {
         assert_eq!(row[..2], [place.x, place.y]);
-        let near = row[2..6]
-            .iter()
-            .zip(pixel)
-            .all(|(a, b)| (a - f64::from(*b)).abs() < 2e-3);
+        let near = row[2..6].iter().zip(pixel).all(|(a, b)| (a - f64::from(*b)).abs() < 2e-3);
         different += usize::from(!near);
         let hit = row[8] == 1.0;
         assert_eq!(hit, row[7] > 0.0 && row[6] > 0.0);
@@ -83,10 +57,7 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
     let (numbers, _) = npy[npy.len() - rows.len() * 96..].as_chunks::<8>();
     for (number, expected) in numbers.iter().zip(rows.iter().flatten()) {
         let number = f64::from_le_bytes(*number);
-        assert!(
-            (number - expected).abs() <= 1e-6 * expected.abs(),
-            "{number} {expected}"
-        );
+        assert!((number - expected).abs() <= 1e-6 * expected.abs(), "{number} {expected}");
     }
 }
 
@@ -100,38 +71,18 @@ fn antialiased_samples_are_means_of_their_surroundings() {
         write!(csv, "\n{},24.3", f64::from(i) * 0.32).unwrap();
     }
     std::fs::write(folder.path().join("s.csv"), csv).unwrap();
-    let sample = [
-        "sample",
-        &scene,
-        "--samples",
-        "s.csv",
-        "-o",
-        "-",
-        "--size",
-        "64x48",
-        "--azimuth",
-        "20",
-    ];
+    let sample = ["sample", &scene, "--samples", "s.csv", "-o", "-", "--size", "64x48", "--azimuth", "20"];
     let points = String::from_utf8(gpc(folder.path(), &sample).ok().stdout).unwrap();
     let aa = ["--aa", "superpixel", "--supersamples", "64"];
     let means = gpc(folder.path(), &[&sample[..], &aa].concat()).ok().stdout;
     let means = String::from_utf8(means).unwrap();
-    let alphas = |text: &str| {
-        table(text)
-            .1
-            .into_iter()
-            .map(|row| row[5])
-            .collect::<Vec<_>>()
-    };
+    let alphas = |text: &str| table(text).1.into_iter().map(|row| row[5]).collect::<Vec<_>>();
     assert!(alphas(&points).iter().all(|a| *a == 0.0 || *a == 1.0));
     let [points, means] = [&points, &means].map(|text| alphas(text));
     let partial = means.iter().filter(|a| **a > 1e-4 && **a < 0.9999);
     let partial = partial.count();
     assert!(partial > 2, "silhouettes are crossed");
-    let equal = points
-        .iter()
-        .zip(&means)
-        .filter(|(a, b)| (*a - *b).abs() <= 1e-4);
+    let equal = points.iter().zip(&means).filter(|(a, b)| (*a - *b).abs() <= 1e-4);
     let equal = equal.count();
     assert!(equal > 150 && equal + partial == 200);
 }
@@ -142,10 +93,7 @@ fn files_of_samples_that_are_wrong_are_refused() {
     let scene = asset("spheres.glb");
     let sample = |text: &str| {
         std::fs::write(folder.path().join("s.csv"), text).unwrap();
-        gpc(
-            folder.path(),
-            &["sample", &scene, "--samples", "s.csv", "-o", "a.csv"],
-        )
+        gpc(folder.path(), &["sample", &scene, "--samples", "s.csv", "-o", "a.csv"])
     };
     for (text, expected) in [
         ("x,y\n1,2\n", "u,v or u,v,row,col"),
@@ -160,15 +108,11 @@ fn files_of_samples_that_are_wrong_are_refused() {
         sample(text).exits(1).says(&["s.csv", expected]);
     }
     let out = ["sample", &scene, "--samples", "s.csv", "-o", "a.txt"];
-    gpc(folder.path(), &out)
-        .exits(2)
-        .says(&[".csv or .npy", ".png"]);
+    gpc(folder.path(), &out).exits(2).says(&[".csv or .npy", ".png"]);
     let image = ["sample", &scene, "--samples", "s.csv", "-o", "a.png"];
     std::fs::write(folder.path().join("s.csv"), "u,v\n1,2\n").unwrap();
     gpc(folder.path(), &image).exits(2).says(&["u,v,row,col"]);
     let many = ["--supersamples", "4"];
-    gpc(folder.path(), &[&image[..], &many].concat())
-        .exits(2)
-        .says(&["none"]);
+    gpc(folder.path(), &[&image[..], &many].concat()).exits(2).says(&["none"]);
     assert_eq!(files(folder.path()), ["s.csv"]);
 }

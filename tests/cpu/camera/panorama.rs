@@ -11,8 +11,7 @@ fn panorama(projection: PanoramaProjection, fov: f64, size: [u32; 2]) -> Panoram
 }
 
 fn camera() -> Camera {
-    let mut camera =
-        Camera::look_at(DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO, DVec3::Y, 50.0, 0.1).unwrap();
+    let mut camera = Camera::look_at(DVec3::new(1.0, 2.0, 3.0), DVec3::ZERO, DVec3::Y, 50.0, 0.1).unwrap();
     camera.axes = DMat3::from_quat(DQuat::from_euler(glam::EulerRot::YXZ, 0.4, -0.3, 0.1));
     camera
 }
@@ -21,31 +20,19 @@ fn camera() -> Camera {
 fn directions_are_those_of_closed_form() {
     let near = |found: Option<DVec3>, expected: [f64; 3]| {
         let expected = DVec3::from(expected).normalize();
-        assert!(
-            found.unwrap().distance(expected) < 1e-12,
-            "{found:?} {expected}"
-        );
+        assert!(found.unwrap().distance(expected) < 1e-12, "{found:?} {expected}");
     };
     let full = panorama(Equirectangular, 360.0, [400, 200]);
     near(full.look(DVec2::new(200.0, 100.0)), [0.0, 0.0, -1.0]);
     near(full.look(DVec2::new(300.0, 100.0)), [1.0, 0.0, 0.0]);
     near(full.look(DVec2::new(0.0, 100.0)), [0.0, 0.0, 1.0]);
     near(full.look(DVec2::new(123.0, 0.0)), [0.0, 1.0, 0.0]);
-    near(
-        full.look(DVec2::new(250.0, 50.0)),
-        [1.0, 2.0_f64.sqrt(), -1.0],
-    );
+    near(full.look(DVec2::new(250.0, 50.0)), [1.0, 2.0_f64.sqrt(), -1.0]);
     let cylinder = panorama(Cylindrical, 180.0, [314, 200]);
     // The height equals the distance, so that a radian is 314 / pi pixels.
     let radian = 314.0 / std::f64::consts::PI;
-    near(
-        cylinder.look(DVec2::new(157.0, 100.0 - radian)),
-        [0.0, 1.0, -1.0],
-    );
-    near(
-        cylinder.look(DVec2::new(314.0, 100.0 + radian)),
-        [1.0, -1.0, 0.0],
-    );
+    near(cylinder.look(DVec2::new(157.0, 100.0 - radian)), [0.0, 1.0, -1.0]);
+    near(cylinder.look(DVec2::new(314.0, 100.0 + radian)), [1.0, -1.0, 0.0]);
     let fisheye = panorama(Fisheye, 180.0, [300, 200]);
     near(fisheye.look(DVec2::new(150.0, 100.0)), [0.0, 0.0, -1.0]);
     near(fisheye.look(DVec2::new(250.0, 100.0)), [1.0, 0.0, 0.0]);
@@ -106,24 +93,12 @@ fn every_pixel_is_sampled_once_exactly_where_it_looks() {
             }
         }
         let looks = locations.crop(&looks, None);
-        assert_eq!(
-            looks.len(),
-            (panorama.size()[0] * panorama.size()[1]) as usize
-        );
+        assert_eq!(looks.len(), (panorama.size()[0] * panorama.size()[1]) as usize);
         for (index, found) in looks.into_iter().enumerate() {
-            let (x, y) = (
-                index as u32 % panorama.size()[0],
-                index as u32 / panorama.size()[0],
-            );
+            let (x, y) = (index as u32 % panorama.size()[0], index as u32 / panorama.size()[0]);
             let place = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let expected = panorama
-                .look(place)
-                .map(|direction| camera.axes * direction);
-            assert_eq!(
-                found.is_some(),
-                expected.is_some(),
-                "{projection:?} {place}"
-            );
+            let expected = panorama.look(place).map(|direction| camera.axes * direction);
+            assert_eq!(found.is_some(), expected.is_some(), "{projection:?} {place}");
             if let (Some(found), Some(expected)) = (found, expected) {
                 assert!(found.distance(expected) < 1e-12, "{projection:?} {place}");
             }
@@ -152,22 +127,10 @@ fn impossible_panoramas_are_refused() {
     assert!(matches!(high, Err(PanoramaError::Latitudes { .. })));
     let narrow = Panorama::new(Cubemap, 90.0, [400, 300]);
     assert!(matches!(narrow, Err(PanoramaError::CubemapFieldOfView(_))));
-    assert!(matches!(
-        Panorama::new(Cubemap, 360.0, [3, 3]),
-        Err(PanoramaError::Size(_))
-    ));
-    assert!(matches!(
-        Panorama::new(Fisheye, 90.0, [0, 3]),
-        Err(PanoramaError::Size(_))
-    ));
-    let orthographic = Camera {
-        projection: Projection::Orthographic {
-            half_height: 1.0,
-            near: 0.0,
-            far: 1.0,
-        },
-        ..camera()
-    };
+    assert!(matches!(Panorama::new(Cubemap, 360.0, [3, 3]), Err(PanoramaError::Size(_))));
+    assert!(matches!(Panorama::new(Fisheye, 90.0, [0, 3]), Err(PanoramaError::Size(_))));
+    let orthographic =
+        Camera { projection: Projection::Orthographic { half_height: 1.0, near: 0.0, far: 1.0 }, ..camera() };
     let refused = panorama(Fisheye, 90.0, [9, 9]).locations(&orthographic);
     assert_eq!(refused, Err(PanoramaError::Orthographic));
 }

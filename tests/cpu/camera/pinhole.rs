@@ -8,16 +8,8 @@ const SIZE: [u32; 2] = [320, 200];
 /// Perspective cameras with and without a far plane, and an orthographic one; moved, turned and shifted.
 fn cameras() -> Vec<Camera> {
     let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.7, -0.3, 0.2);
-    let perspective = |far| Projection::Perspective {
-        fov: 0.9,
-        near: 0.25,
-        far,
-    };
-    let orthographic = Projection::Orthographic {
-        half_height: 3.0,
-        near: -1.0,
-        far: 40.0,
-    };
+    let perspective = |far| Projection::Perspective { fov: 0.9, near: 0.25, far };
+    let orthographic = Projection::Orthographic { half_height: 3.0, near: -1.0, far: 40.0 };
     [perspective(None), perspective(Some(90.0)), orthographic]
         .map(|projection| Camera {
             eye: DVec3::new(100.0, -20.0, 7.0),
@@ -58,10 +50,7 @@ fn a_projection_matrix_gives_its_pinhole_back() {
         let near = |found: DVec3, expected: DVec3| (found - expected).length() < 1e-10;
         assert_eq!(from_matrix.is_parallel(), expected.is_parallel());
         let window = DVec2::new(160.0, 100.0);
-        assert_near(
-            from_matrix.pixel_matrix(camera.eye, window),
-            expected.pixel_matrix(camera.eye, window),
-        );
+        assert_near(from_matrix.pixel_matrix(camera.eye, window), expected.pixel_matrix(camera.eye, window));
         if !expected.is_parallel() {
             assert!(near(from_matrix.eye(), expected.eye()));
         }
@@ -91,9 +80,7 @@ fn a_point_on_a_ray_projects_to_its_location() {
 
 #[test]
 fn the_corners_of_the_image_are_those_of_the_field_of_view() {
-    let pinhole =
-        Pinhole::from_field_of_view(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 90.0, 0.1, [200, 100])
-            .unwrap();
+    let pinhole = Pinhole::from_field_of_view(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 90.0, 0.1, [200, 100]).unwrap();
     let corner = pinhole.ray(DVec2::ZERO).direction;
     assert!((corner - DVec3::new(-2.0, 1.0, -1.0).normalize()).length() < 1e-14);
     let centre = pinhole.ray(DVec2::new(100.0, 50.0)).direction;
@@ -103,21 +90,15 @@ fn the_corners_of_the_image_are_those_of_the_field_of_view() {
 #[test]
 fn an_oblique_parallel_pinhole_keeps_depths_along_the_normal() {
     let light = DVec4::new(1.0, 0.0, 1.0, 0.0);
-    let pinhole =
-        Pinhole::new(light, DVec3::ZERO, DVec3::X, DVec3::NEG_Y, 0.0, Some(10.0)).unwrap();
+    let pinhole = Pinhole::new(light, DVec3::ZERO, DVec3::X, DVec3::NEG_Y, 0.0, Some(10.0)).unwrap();
     assert_eq!(pinhole.direction(), DVec3::NEG_Z);
     let found = pinhole.pixel_matrix(DVec3::ZERO, DVec2::ZERO) * DVec4::new(0.0, 0.0, -5.0, 1.0);
-    assert!(
-        (found - DVec4::new(5.0, 0.0, 0.5, 1.0)).length() < 1e-14,
-        "{found}"
-    );
+    assert!((found - DVec4::new(5.0, 0.0, 0.5, 1.0)).length() < 1e-14, "{found}");
 }
 
 #[test]
 fn what_is_no_pinhole_is_refused() {
-    let new = |centre: [f64; 4], a, b, near, far| {
-        Pinhole::new(DVec4::from(centre), DVec3::NEG_Z, a, b, near, far)
-    };
+    let new = |centre: [f64; 4], a, b, near, far| Pinhole::new(DVec4::from(centre), DVec3::NEG_Z, a, b, near, far);
     let (x, y) = (DVec3::X, DVec3::Y);
     let eye = [0.0, 0.0, 0.0, 1.0];
     assert!(new(eye, x, y, 0.1, None).is_ok());
@@ -125,14 +106,8 @@ fn what_is_no_pinhole_is_refused() {
     let cases: [Case; 9] = [
         (new(eye, x, x * 2.0, 0.1, None), "span no image plane"),
         (new(eye, x, DVec3::ZERO, 0.1, None), "span no image plane"),
-        (
-            new([3.0, 1.0, -1.0, 1.0], x, y, 0.1, None),
-            "lies in the image plane",
-        ),
-        (
-            new([1.0, 0.0, 0.0, 0.0], x, y, 0.1, Some(1.0)),
-            "lies in the image plane",
-        ),
+        (new([3.0, 1.0, -1.0, 1.0], x, y, 0.1, None), "lies in the image plane"),
+        (new([1.0, 0.0, 0.0, 0.0], x, y, 0.1, Some(1.0)), "lies in the image plane"),
         (new([0.0; 4], x, y, 0.1, Some(1.0)), "direction"),
         (new([0.0, 0.0, 0.0, 2.0], x, y, 0.1, None), "(x, y, z, 1)"),
         (new(eye, DVec3::NAN, y, 0.1, None), "the step a"),

@@ -2,9 +2,7 @@
 
 use glam::{DMat3, DVec2};
 use gpc::camera::LocationMap;
-use gpc::camera::projector::{
-    Correspondence, Homography, Projector, ProjectorError, blend_weights,
-};
+use gpc::camera::projector::{Correspondence, Homography, Projector, ProjectorError, blend_weights};
 
 const SIZE: [u32; 2] = [96, 64];
 
@@ -12,9 +10,7 @@ const SIZE: [u32; 2] = [96, 64];
 fn random(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -31,18 +27,13 @@ fn map(matrix: DMat3, place: DVec2) -> DVec2 {
 }
 
 fn pair(matrix: DMat3, place: DVec2) -> Correspondence {
-    Correspondence {
-        place: place.to_array(),
-        location: map(matrix, place).to_array(),
-    }
+    Correspondence { place: place.to_array(), location: map(matrix, place).to_array() }
 }
 
 /// Correspondences on a grid over the projector.
 fn grid(matrix: DMat3) -> Vec<Correspondence> {
     let places = (0..8).flat_map(|y| (0..8).map(move |x| DVec2::new(f64::from(x), f64::from(y))));
-    places
-        .map(|place| pair(matrix, place * 9.0 + 3.0))
-        .collect()
+    places.map(|place| pair(matrix, place * 9.0 + 3.0)).collect()
 }
 
 /// Largest distance between the two maps over the projector.
@@ -61,17 +52,10 @@ fn four_or_more_exact_pairs_give_the_homography() {
     let fitted = Homography::fit(&four).unwrap();
     assert!(error(&fitted, matrix) < 1e-9);
     let place = DVec2::new(33.0, 21.0);
-    assert!(
-        fitted
-            .inverse(fitted.location(place))
-            .unwrap()
-            .distance(place)
-            < 1e-9
-    );
+    assert!(fitted.inverse(fitted.location(place)).unwrap().distance(place) < 1e-9);
     let h = 1e-5;
-    let differences = [DVec2::X, DVec2::Y].map(|axis| {
-        (fitted.location(place + h * axis) - fitted.location(place - h * axis)) / (2.0 * h)
-    });
+    let differences = [DVec2::X, DVec2::Y]
+        .map(|axis| (fitted.location(place + h * axis) - fitted.location(place - h * axis)) / (2.0 * h));
     let jacobian = fitted.jacobian(place);
     assert!((jacobian.x_axis - differences[0]).length() < 1e-7);
     assert!((jacobian.y_axis - differences[1]).length() < 1e-7);
@@ -89,29 +73,17 @@ fn noise_is_averaged_and_outliers_are_left_out() {
     }
     let (fitted, agree) = Homography::fit_robust(&pairs, 1.5, 1).unwrap();
     assert!(error(&fitted, matrix) < 0.4);
-    assert!(
-        agree
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| i % 3 != 0)
-            .all(|(_, agrees)| *agrees)
-    );
+    assert!(agree.iter().enumerate().filter(|(i, _)| i % 3 != 0).all(|(_, agrees)| *agrees));
     assert!(agree.iter().step_by(3).filter(|agrees| **agrees).count() < 3);
     // The same seed gives the same result; the plain fit to all pairs is much worse.
-    assert_eq!(
-        Homography::fit_robust(&pairs, 1.5, 1).unwrap(),
-        (fitted, agree)
-    );
+    assert_eq!(Homography::fit_robust(&pairs, 1.5, 1).unwrap(), (fitted, agree));
     assert!(error(&Homography::fit(&pairs).unwrap(), matrix) > 2.0);
     // If most pairs are wrong, there is no agreement.
     for pair in &mut pairs {
         pair.location = [200.0 * random(), 200.0 * random()];
     }
     let refused = Homography::fit_robust(&pairs, 1.5, 1);
-    assert!(
-        matches!(refused, Err(ProjectorError::Outliers { count: 64, .. })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(ProjectorError::Outliers { count: 64, .. })), "{refused:?}");
 }
 
 #[test]
@@ -124,25 +96,13 @@ fn what_determines_no_homography_is_refused() {
     // All points but one are on a line.
     let mut nearly = collinear.clone();
     nearly.push(pair(matrix, DVec2::new(0.0, 90.0)));
-    assert!(matches!(
-        Homography::fit(&nearly),
-        Err(ProjectorError::Collinear(_))
-    ));
+    assert!(matches!(Homography::fit(&nearly), Err(ProjectorError::Collinear(_))));
     let onto_line: Vec<_> = grid(matrix)
         .into_iter()
-        .map(|pair| Correspondence {
-            location: [pair.place[0], 2.0 * pair.place[0]],
-            ..pair
-        })
+        .map(|pair| Correspondence { location: [pair.place[0], 2.0 * pair.place[0]], ..pair })
         .collect();
-    assert_eq!(
-        Homography::fit(&onto_line),
-        Err(ProjectorError::Collinear("image plane"))
-    );
-    assert_eq!(
-        Homography::fit(&grid(matrix)[..3]),
-        Err(ProjectorError::TooFew(3))
-    );
+    assert_eq!(Homography::fit(&onto_line), Err(ProjectorError::Collinear("image plane")));
+    assert_eq!(Homography::fit(&grid(matrix)[..3]), Err(ProjectorError::TooFew(3)));
     let mut broken = grid(matrix);
     broken[7].location[1] = f64::NAN;
     assert_eq!(Homography::fit(&broken), Err(ProjectorError::NotFinite(7)));
@@ -150,10 +110,7 @@ fn what_determines_no_homography_is_refused() {
     let horizon = DMat3::from_cols_array(&[1.0, 0.0, -0.02, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     let places = [(1.0, 1.0), (30.0, 2.0), (2.0, 40.0), (33.0, 35.0)];
     let fitted = Homography::fit(&places.map(|place| pair(horizon, place.into()))).unwrap();
-    assert_eq!(
-        Projector::planar(SIZE, fitted),
-        Err(ProjectorError::Horizon(SIZE))
-    );
+    assert_eq!(Projector::planar(SIZE, fitted), Err(ProjectorError::Horizon(SIZE)));
 }
 
 /// Map through a lens that bends straight lines, followed by a homography.
@@ -183,34 +140,19 @@ fn a_dense_map_is_inverted_where_it_is_lit() {
         let found = projector.place(distorted(matrix, place)).unwrap();
         assert!(found.distance(place) < 0.01, "{found} {place}");
     }
-    assert_eq!(
-        projector.place(distorted(matrix, DVec2::new(-3.0, 10.0))),
-        None
-    );
+    assert_eq!(projector.place(distorted(matrix, DVec2::new(-3.0, 10.0))), None);
     assert_eq!(projector.place(DVec2::new(1e5, -1e5)), None);
     // Dark pixels are left out of the set, and no place is found for their locations.
-    let mut locations: Vec<_> = (0..SIZE[0] * SIZE[1])
-        .map(|i| {
-            projector
-                .location(i / SIZE[0], i % SIZE[0])
-                .unwrap()
-                .to_array()
-        })
-        .collect();
+    let mut locations: Vec<_> =
+        (0..SIZE[0] * SIZE[1]).map(|i| projector.location(i / SIZE[0], i % SIZE[0]).unwrap().to_array()).collect();
     for row in 20..30 {
         locations[row * 96 + 40..row * 96 + 60].fill([f64::NAN; 2]);
     }
     let holed = Projector::dense(SIZE, locations).unwrap();
     assert_eq!(holed.set().unwrap().samples().len(), 96 * 64 - 200);
     assert_eq!(holed.place(distorted(matrix, DVec2::new(50.0, 25.0))), None);
-    assert_eq!(
-        Projector::dense([2, 2], vec![[f64::NAN; 2]; 4]),
-        Err(ProjectorError::Dark)
-    );
-    assert!(matches!(
-        Projector::dense([2, 2], vec![]),
-        Err(ProjectorError::Size { .. })
-    ));
+    assert_eq!(Projector::dense([2, 2], vec![[f64::NAN; 2]; 4]), Err(ProjectorError::Dark));
+    assert!(matches!(Projector::dense([2, 2], vec![]), Err(ProjectorError::Size { .. })));
 }
 
 /// Light that the wall should show at a location.
@@ -221,11 +163,7 @@ fn ideal(location: DVec2) -> f64 {
 #[test]
 fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
     // Two projectors are planar, calibrated from noisy pairs with outliers; one has a bent lens.
-    let matrices = [
-        keystone(0.0, 0.001),
-        keystone(70.0, -0.001),
-        keystone(140.0, 0.0015),
-    ];
+    let matrices = [keystone(0.0, 0.001), keystone(70.0, -0.001), keystone(140.0, 0.0015)];
     let mut random = random(11);
     let mut calibrated = |matrix: DMat3| {
         let mut pairs = grid(matrix);
@@ -237,18 +175,9 @@ fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
         let (homography, _) = Homography::fit_robust(&pairs, 1.0, 3).unwrap();
         Projector::planar(SIZE, homography).unwrap()
     };
-    let projectors = vec![
-        calibrated(matrices[0]),
-        calibrated(matrices[1]),
-        dense(matrices[2]),
-    ];
+    let projectors = vec![calibrated(matrices[0]), calibrated(matrices[1]), dense(matrices[2])];
     let weights = blend_weights(&projectors);
-    assert!(
-        weights
-            .iter()
-            .flatten()
-            .all(|weight| (0.0..=1.0).contains(weight))
-    );
+    assert!(weights.iter().flatten().all(|weight| (0.0..=1.0).contains(weight)));
     // Each frame shows the picture at the locations that the calibration claims.
     let frames: Vec<Vec<f64>> = projectors
         .iter()
@@ -278,10 +207,7 @@ fn the_light_of_overlapping_projectors_adds_up_to_the_picture() {
             let cell = from_first.floor();
             let [x, y] = (from_first - cell).to_array();
             let at = |dx: f64, dy: f64| {
-                let [col, row] = [
-                    (cell.x + dx).clamp(0.0, 95.0),
-                    (cell.y + dy).clamp(0.0, 63.0),
-                ];
+                let [col, row] = [(cell.x + dx).clamp(0.0, 95.0), (cell.y + dy).clamp(0.0, 63.0)];
                 frame[row as usize * 96 + col as usize]
             };
             sum += (at(0.0, 0.0) * (1.0 - x) + at(1.0, 0.0) * x) * (1.0 - y)

@@ -23,10 +23,7 @@ fn every_direction_is_in_one_face_of_a_cube_and_inside_of_it() {
         assert!((ray.direction - direction).length() < 1e-12);
         counts[face] += 1;
     }
-    assert!(
-        counts.iter().all(|count| (3000..3700).contains(count)),
-        "{counts:?}"
-    );
+    assert!(counts.iter().all(|count| (3000..3700).contains(count)), "{counts:?}");
 }
 
 #[test]
@@ -70,14 +67,8 @@ fn what_is_no_rig_is_refused() {
     };
     let first = at(DVec3::ZERO, 1.0, None);
     assert_eq!(Rig::new(vec![]), Err(RigError::Empty));
-    assert_eq!(
-        Rig::new(vec![first, at(DVec3::Z, 1.0, None)]),
-        Err(RigError::Centre(1))
-    );
-    assert_eq!(
-        Rig::new(vec![first, at(DVec3::Z, 0.0, Some(9.0))]),
-        Err(RigError::Parallel(1))
-    );
+    assert_eq!(Rig::new(vec![first, at(DVec3::Z, 1.0, None)]), Err(RigError::Centre(1)));
+    assert_eq!(Rig::new(vec![first, at(DVec3::Z, 0.0, Some(9.0))]), Err(RigError::Parallel(1)));
     assert!(Rig::cube(DVec3::ZERO, DMat3::IDENTITY, 0, 0.1).is_err());
     assert!(Rig::cube(DVec3::NAN, DMat3::IDENTITY, 4, 0.1).is_err());
     // A single plane sees neither the sides nor the back.

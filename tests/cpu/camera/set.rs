@@ -9,19 +9,13 @@ use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 fn random() -> impl FnMut() -> f64 {
     let mut state = 7_u64;
     move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
 fn scattered(count: u32, mut place: impl FnMut() -> [f64; 2]) -> Vec<Sample> {
-    let sample = |col| Sample {
-        uv: place(),
-        row: 0,
-        col,
-    };
+    let sample = |col| Sample { uv: place(), row: 0, col };
     (0..count).map(sample).collect()
 }
 
@@ -101,27 +95,10 @@ fn no_grid_parts_samples_that_coincide() {
         let mut places = samples.into_iter();
         let samples = scattered(4, || places.next().unwrap());
         let error = SamplingSet::offset([4, 1], samples).unwrap_err();
-        assert!(
-            matches!(
-                error,
-                SetError::NoGrid {
-                    first: 1,
-                    second: 3,
-                    ..
-                }
-            ),
-            "{error}"
-        );
+        assert!(matches!(error, SetError::NoGrid { first: 1, second: 3, .. }), "{error}");
     }
     let error = SamplingSet::offset([3, 1], scattered(3, || [7.25, 7.25])).unwrap_err();
-    assert!(matches!(
-        error,
-        SetError::NoGrid {
-            first: 0,
-            second: 1,
-            ..
-        }
-    ));
+    assert!(matches!(error, SetError::NoGrid { first: 0, second: 1, .. }));
     assert!(SamplingSet::offset([1, 1], scattered(1, || [7.25, 7.25])).is_ok());
 }
 
@@ -138,13 +115,7 @@ fn superpixels_have_two_rates() {
     let reds: Vec<_> = set.image(&colors).iter().map(|color| color[0]).collect();
     assert_eq!(reds, [0.0, 2.0, 4.0, 5.0, 6.0, 8.0]);
     let error = SamplingSet::superpixel([3, 2], &marks[1..], &offsets);
-    assert_eq!(
-        error,
-        Err(SetError::Marks {
-            expected: 6,
-            found: 5
-        })
-    );
+    assert_eq!(error, Err(SetError::Marks { expected: 6, found: 5 }));
 }
 
 #[test]
@@ -160,17 +131,10 @@ fn leaves_tile_the_window_and_hold_no_more_than_asked() {
     assert!((leaves.iter().map(|leaf| leaf.side * leaf.side).sum::<f64>() - 4e4).abs() < 1e-6);
     for (leaf, members) in leaves.iter().zip(set.cells()) {
         assert!(members.len() <= 9);
-        assert!(
-            members
-                .iter()
-                .all(|i| leaf.contains(samples[*i as usize].uv))
-        );
+        assert!(members.iter().all(|i| leaf.contains(samples[*i as usize].uv)));
     }
     // Samples to the right of the window are in a cell after the leaves.
-    let outside = samples
-        .iter()
-        .filter(|sample| sample.uv[0] >= 200.0)
-        .count();
+    let outside = samples.iter().filter(|sample| sample.uv[0] >= 200.0).count();
     assert!(outside > 100);
     assert_eq!(set.cells().count(), leaves.len() + 1);
     assert_eq!(set.cells().last().unwrap().len(), outside);
@@ -218,17 +182,9 @@ fn cells_far_apart_cost_no_memory() {
     // The samples are at the corners of an output with a quarter of a billion cells, and beside the last one.
     let (last, far) = ((1 << 14) - 1, [0.5, 0.5]);
     let at = |row, col, uv| Sample { uv, row, col };
-    let samples = vec![
-        at(last, last, [9.0, 9.0]),
-        at(0, 0, far),
-        at(last, last - 1, [8.0, 8.5]),
-    ];
+    let samples = vec![at(last, last, [9.0, 9.0]), at(0, 0, far), at(last, last - 1, [8.0, 8.5])];
     let set = SamplingSet::no_pattern([1 << 14; 2], samples, None, 4).unwrap();
-    let jacobians: Vec<_> = set
-        .locations()
-        .iter()
-        .map(|location| location.jacobian)
-        .collect();
+    let jacobians: Vec<_> = set.locations().iter().map(|location| location.jacobian).collect();
     assert_eq!(jacobians[0], [[1.0, 0.5], [-0.5, 1.0]]);
     assert_eq!(jacobians[1], [[1.0, 0.0], [0.0, 1.0]]);
     assert_eq!(set.statistics().quads, 0);
@@ -264,43 +220,16 @@ fn impossible_samples_are_refused_by_name() {
         SamplingSet::no_pattern([4, 4], samples, None, 8)
     };
     assert!(with([2.0e5, 0.0], 3).is_ok());
-    assert!(matches!(
-        with([f64::NAN, 0.0], 1),
-        Err(SetError::NotFinite { index: 5, .. })
-    ));
-    assert!(matches!(
-        with([0.0, f64::INFINITY], 1),
-        Err(SetError::NotFinite { index: 5, .. })
-    ));
-    assert!(matches!(
-        with([0.0, -2e6], 1),
-        Err(SetError::Far { index: 5, .. })
-    ));
-    assert!(matches!(
-        with([0.0, 0.0], 4),
-        Err(SetError::Cell { index: 5, .. })
-    ));
-    assert_eq!(
-        SamplingSet::no_pattern([4, 4], vec![], None, 8),
-        Err(SetError::Empty)
-    );
+    assert!(matches!(with([f64::NAN, 0.0], 1), Err(SetError::NotFinite { index: 5, .. })));
+    assert!(matches!(with([0.0, f64::INFINITY], 1), Err(SetError::NotFinite { index: 5, .. })));
+    assert!(matches!(with([0.0, -2e6], 1), Err(SetError::Far { index: 5, .. })));
+    assert!(matches!(with([0.0, 0.0], 4), Err(SetError::Cell { index: 5, .. })));
+    assert_eq!(SamplingSet::no_pattern([4, 4], vec![], None, 8), Err(SetError::Empty));
     assert_eq!(SamplingSet::offset([4, 4], vec![]), Err(SetError::Empty));
-    assert!(matches!(
-        SamplingSet::planar([0, 4]),
-        Err(SetError::Size { .. })
-    ));
-    assert!(matches!(
-        SamplingSet::planar([60_000, 60_000]),
-        Err(SetError::Size { .. })
-    ));
+    assert!(matches!(SamplingSet::planar([0, 4]), Err(SetError::Size { .. })));
+    assert!(matches!(SamplingSet::planar([60_000, 60_000]), Err(SetError::Size { .. })));
     let samples = scattered(4, || [0.0, 0.0]);
-    assert_eq!(
-        SamplingSet::no_pattern([4, 1], samples.clone(), None, 0),
-        Err(SetError::LeafSize)
-    );
+    assert_eq!(SamplingSet::no_pattern([4, 1], samples.clone(), None, 0), Err(SetError::LeafSize));
     let empty = Some([[0.0, 0.0], [0.0, 5.0]]);
-    assert!(matches!(
-        SamplingSet::no_pattern([4, 1], samples, empty, 3),
-        Err(SetError::Window { .. })
-    ));
+    assert!(matches!(SamplingSet::no_pattern([4, 1], samples, empty, 3), Err(SetError::Window { .. })));
 }

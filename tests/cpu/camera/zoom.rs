@@ -19,17 +19,8 @@ fn regions() -> Vec<ZoomRegion> {
     let mut all = Vec::new();
     for multiplicity in MULTIPLICITIES {
         for transition in [Transition::Linear, Transition::Smooth] {
-            for (shape, radius) in [
-                (Shape::Circle, [20.0, 20.0]),
-                (Shape::Rectangle, [30.0, 12.0]),
-            ] {
-                all.push(ZoomRegion {
-                    radius,
-                    multiplicity,
-                    shape,
-                    transition,
-                    ..REGION
-                });
+            for (shape, radius) in [(Shape::Circle, [20.0, 20.0]), (Shape::Rectangle, [30.0, 12.0])] {
+                all.push(ZoomRegion { radius, multiplicity, shape, transition, ..REGION });
             }
         }
     }
@@ -134,18 +125,15 @@ fn jacobians_are_the_differences_of_locations() {
     for region in regions() {
         let map = map(region);
         for p in places() {
-            let difference =
-                |step: DVec2| (map.location(p + step) - map.location(p - step)) / (2.0 * h);
+            let difference = |step: DVec2| (map.location(p + step) - map.location(p - step)) / (2.0 * h);
             let columns = [DVec2::X * h, DVec2::Y * h].map(difference);
             let error = map.jacobian(p) - DMat2::from_cols(columns[0], columns[1]);
             let size = error.x_axis.length().max(error.y_axis.length());
             // On a border or a rectangle's diagonal, the one-sided derivatives differ.
-            let kinked = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y]
-                .into_iter()
-                .any(|step| {
-                    let change = map.jacobian(p + 2.0 * h * step) - map.jacobian(p);
-                    change.x_axis.length().max(change.y_axis.length()) > 1e-3
-                });
+            let kinked = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].into_iter().any(|step| {
+                let change = map.jacobian(p + 2.0 * h * step) - map.jacobian(p);
+                change.x_axis.length().max(change.y_axis.length()) > 1e-3
+            });
             assert!(size < 1e-6 || kinked, "{region:?} at {p}: {size}");
         }
     }
@@ -172,10 +160,7 @@ fn rates_at_the_borders_are_as_derived() {
             other => unimplemented!("{other:?}"),
         };
         for (found, expected) in areas(region).into_iter().zip(expected) {
-            assert!(
-                (found - expected).abs() < 1e-6,
-                "{region:?}: {found} {expected}"
-            );
+            assert!((found - expected).abs() < 1e-6, "{region:?}: {found} {expected}");
         }
     }
 }
@@ -190,9 +175,7 @@ fn a_smooth_transition_has_a_continuous_rate_along_rays() {
                 1.0 / map.jacobian(DVec2::from(region.center) + way).determinant()
             };
             let count = (region.outer() * 40.0 / step).min(200_000.0) as u32;
-            (1..count)
-                .map(|i| (rate(i + 1) - rate(i)).abs() * region.multiplicity.powi(2))
-                .fold(0.0, f64::max)
+            (1..count).map(|i| (rate(i + 1) - rate(i)).abs() * region.multiplicity.powi(2)).fold(0.0, f64::max)
         };
         if region.multiplicity < 0.95 && region.multiplicity > 0.1 {
             let (coarse, fine) = (steepest(0.02), steepest(0.002));
@@ -209,12 +192,7 @@ fn a_smooth_transition_has_a_continuous_rate_along_rays() {
 #[test]
 fn regions_are_composed_in_order() {
     let first = REGION;
-    let second = ZoomRegion {
-        center: [90.0, 55.0],
-        shape: Shape::Rectangle,
-        transition: Transition::Smooth,
-        ..REGION
-    };
+    let second = ZoomRegion { center: [90.0, 55.0], shape: Shape::Rectangle, transition: Transition::Smooth, ..REGION };
     let both = ZoomMap::new(vec![first, second]).unwrap();
     for p in places() {
         let expected = map(second).location(map(first).location(p));
@@ -228,18 +206,10 @@ fn regions_are_composed_in_order() {
 #[test]
 fn impossible_regions_are_refused() {
     for multiplicity in [0.0, -0.5, 1.0001, 1.5, f64::NAN, f64::INFINITY] {
-        let error = ZoomMap::new(vec![ZoomRegion {
-            multiplicity,
-            ..REGION
-        }]);
+        let error = ZoomMap::new(vec![ZoomRegion { multiplicity, ..REGION }]);
         assert!(matches!(error, Err(ZoomError::Multiplicity(_))));
     }
-    for radius in [
-        [0.0, 1.0],
-        [1.0, -1.0],
-        [f64::NAN, 1.0],
-        [f64::INFINITY, 1.0],
-    ] {
+    for radius in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [f64::INFINITY, 1.0]] {
         let error = ZoomMap::new(vec![ZoomRegion { radius, ..REGION }]);
         assert!(matches!(error, Err(ZoomError::Radius(_))));
     }

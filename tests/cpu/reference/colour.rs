@@ -45,18 +45,10 @@ fn tone_mapping_compresses_below_one_without_a_step() {
         let value = f64::from(step) / 200.0;
         let [red, green, _] = neutral([value, value / 2.0, value / 2.0]);
         assert!(red > previous && red < 1.0, "{value}");
-        assert!(
-            red - previous < 0.006,
-            "{value}: a step from {previous} to {red}"
-        );
+        assert!(red - previous < 0.006, "{value}: a step from {previous} to {red}");
         assert!(green <= red);
         previous = red;
     }
     let bright = neutral([1e6, 1e3, 0.0]);
-    assert!(
-        bright
-            .into_iter()
-            .all(|channel| channel > 0.99 && channel < 1.0),
-        "{bright:?}"
-    );
+    assert!(bright.into_iter().all(|channel| channel > 0.99 && channel < 1.0), "{bright:?}");
 }

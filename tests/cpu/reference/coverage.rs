@@ -26,21 +26,11 @@ fn assert_owned_once(mesh: &Mesh, offsets: &[[f32; 2]], top: f64) -> u64 {
         if centre[1] - 0.5 < top {
             continue;
         }
-        let near: Vec<&EdgeFunctions> = triangles
-            .iter()
-            .filter(|t| t.margin(centre) > -0.75)
-            .collect();
+        let near: Vec<&EdgeFunctions> = triangles.iter().filter(|t| t.margin(centre) > -0.75).collect();
         for offset in offsets {
             let sample = [0, 1].map(|axis| centre[axis] + f64::from(offset[axis]));
-            let owners = near
-                .iter()
-                .filter(|triangle| triangle.covers(sample))
-                .count();
-            assert_eq!(
-                owners, 1,
-                "{}: owners of the sample at {sample:?}",
-                mesh.name
-            );
+            let owners = near.iter().filter(|triangle| triangle.covers(sample)).count();
+            assert_eq!(owners, 1, "{}: owners of the sample at {sample:?}", mesh.name);
             samples += 1;
         }
     }
@@ -49,12 +39,9 @@ fn assert_owned_once(mesh: &Mesh, offsets: &[[f32; 2]], top: f64) -> u64 {
 
 #[test]
 fn every_sample_of_a_tiling_has_one_owner() {
-    for (pattern, count, seeds) in [
-        (Pattern::Grid, 1, 8),
-        (Pattern::Lattice, 7, 4),
-        (Pattern::Grid, 64, 2),
-        (Pattern::Sobol, 1024, 1),
-    ] {
+    for (pattern, count, seeds) in
+        [(Pattern::Grid, 1, 8), (Pattern::Lattice, 7, 4), (Pattern::Grid, 64, 2), (Pattern::Sobol, 1024, 1)]
+    {
         let offsets = pattern.offsets(count).unwrap();
         for mesh in (0..seeds).flat_map(|seed| tilings(seed, HALF)) {
             let samples = assert_owned_once(&mesh, &offsets, f64::NEG_INFINITY);
@@ -74,10 +61,7 @@ fn snapped_tilings_have_samples_on_edges() {
             let Some(edges) = EdgeFunctions::new(corners, true) else {
                 continue;
             };
-            on_edges += offsets
-                .iter()
-                .filter(|offset| edges.margin(offset.map(|v| f64::from(v) + 0.5)) == 0.0)
-                .count();
+            on_edges += offsets.iter().filter(|offset| edges.margin(offset.map(|v| f64::from(v) + 0.5)) == 0.0).count();
         }
     }
     assert!(on_edges > 10, "{on_edges} samples on edges");
@@ -91,16 +75,9 @@ fn planes_through_the_eye_have_one_owner_below_the_horizon() {
         let mesh = ground(seed, HALF, 1.0, 9);
         for vertices_behind in 0..3 {
             let crosses = mesh.triangles.iter().any(|triangle| {
-                triangle
-                    .iter()
-                    .filter(|&&corner| mesh.vertices[corner][3] < 0.0)
-                    .count()
-                    == vertices_behind
+                triangle.iter().filter(|&&corner| mesh.vertices[corner][3] < 0.0).count() == vertices_behind
             });
-            assert!(
-                crosses,
-                "no triangle with {vertices_behind} vertices behind the eye"
-            );
+            assert!(crosses, "no triangle with {vertices_behind} vertices behind the eye");
         }
         samples += assert_owned_once(&mesh, &offsets, 1.0);
     }
@@ -125,22 +102,16 @@ fn nothing_behind_the_eye_is_covered() {
 fn covers_in_integers(vertices: [[i64; 3]; 3], sample: [i64; 2]) -> bool {
     let cross = |a: [i64; 3], b: [i64; 3]| {
         let [a, b] = [a, b].map(|v| v.map(i128::from));
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let [v0, v1, v2] = vertices;
     let dot = |a: [i128; 3], b: [i64; 3]| (0..3).map(|i| a[i] * i128::from(b[i])).sum::<i128>();
     let sign = dot(cross(v0, v1), v2).signum();
-    [(v0, v1), (v1, v2), (v2, v0)]
-        .into_iter()
-        .all(|(from, to)| {
-            let [a, b, c] = cross(from, to).map(|v| v * sign);
-            let value = dot([a, b, c], [sample[0], sample[1], 16]);
-            value > 0 || (value == 0 && (a > 0 || (a == 0 && b > 0)))
-        })
+    [(v0, v1), (v1, v2), (v2, v0)].into_iter().all(|(from, to)| {
+        let [a, b, c] = cross(from, to).map(|v| v * sign);
+        let value = dot([a, b, c], [sample[0], sample[1], 16]);
+        value > 0 || (value == 0 && (a > 0 || (a == 0 && b > 0)))
+    })
 }
 
 #[test]
@@ -156,8 +127,7 @@ fn decisions_agree_with_integer_arithmetic() {
         } else {
             // The coordinates have every magnitude, and w has both signs and is also zero.
             let bits = 3 + round % 20;
-            let vertices =
-                [0; 3].map(|_| [coordinate(bits), coordinate(bits), coordinate(2 + bits / 8)]);
+            let vertices = [0; 3].map(|_| [coordinate(bits), coordinate(bits), coordinate(2 + bits / 8)]);
             (vertices, [coordinate(4), coordinate(4)])
         };
         let expected = covers_in_integers(vertices, sample);
@@ -168,10 +138,7 @@ fn decisions_agree_with_integer_arithmetic() {
         covered += u32::from(found);
         ties += u32::from(edges.is_some_and(|edges| edges.margin(position) == 0.0));
     }
-    assert!(
-        covered > 1000 && ties > 1000,
-        "{covered} covered, {ties} ties"
-    );
+    assert!(covered > 1000 && ties > 1000, "{covered} covered, {ties} ties");
 }
 
 #[test]
@@ -191,13 +158,7 @@ fn degenerate_triangles_cover_nothing() {
     let point = [1.0, 2.0, 1.0];
     let line = [[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [3.0, 3.0, 1.0]];
     let edge_on = [[2.0, 1.0, 4.0], [4.0, 2.0, 1.0], [6.0, 3.0, 9.0]];
-    let mut degenerates = vec![
-        [point; 3],
-        [point, point, [0.0, 0.0, 1.0]],
-        line,
-        edge_on,
-        [[0.0; 3]; 3],
-    ];
+    let mut degenerates = vec![[point; 3], [point, point, [0.0, 0.0, 1.0]], line, edge_on, [[0.0; 3]; 3]];
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         degenerates.push([[bad, 0.0, 1.0], [9.0, 0.0, 1.0], [0.0, 9.0, 1.0]]);
         degenerates.push([[0.0, 0.0, bad], [9.0, 0.0, 1.0], [0.0, 9.0, 1.0]]);
@@ -220,19 +181,14 @@ fn scale_does_not_matter() {
         let mut random = Random::new(3);
         for _ in 0..500 {
             let sample = [0; 2].map(|_| (random.range(-4.0, 5.0) * 16.0).round() / 16.0);
-            assert_eq!(
-                scaled.covers(sample),
-                unit.covers(sample),
-                "times 2^{exponent}, {sample:?}"
-            );
+            assert_eq!(scaled.covers(sample), unit.covers(sample), "times 2^{exponent}, {sample:?}");
         }
     }
 }
 
 #[test]
 fn margin_is_the_distance_from_the_edges() {
-    let right_angled =
-        EdgeFunctions::new([[0.0, 0.0, 1.0], [0.0, 6.0, 2.0], [8.0, 0.0, 2.0]], true).unwrap();
+    let right_angled = EdgeFunctions::new([[0.0, 0.0, 1.0], [0.0, 6.0, 2.0], [8.0, 0.0, 2.0]], true).unwrap();
     // The corners are (0, 0), (0, 3) and (4, 0), so that the incircle's radius is 1.
     assert!((right_angled.margin([1.0, 1.0]) - 1.0).abs() < 1e-12);
     assert!((right_angled.margin([-0.5, 1.0]) + 0.5).abs() < 1e-12);

@@ -15,20 +15,13 @@ struct Image {
 
 impl Image {
     fn random(random: &mut Random, width: u32, height: u32) -> Self {
-        let mut plane = |value: &dyn Fn(&mut Random) -> u32| {
-            (0..width * height).map(|_| value(random)).collect()
-        };
+        let mut plane = |value: &dyn Fn(&mut Random) -> u32| (0..width * height).map(|_| value(random)).collect();
         // Most values are equal, so that all outcomes of each comparison occur.
         Self {
             ids: plane(&|r| (r.below(5) == 0).into()),
             blend_ids: plane(&|r| if r.below(9) == 0 { 3 } else { 0 }),
             colours: plane(&|r| {
-                0x8080_8080
-                    + if r.below(4) == 0 {
-                        (r.below(25) as u32) << (8 * r.below(4))
-                    } else {
-                        0
-                    }
+                0x8080_8080 + if r.below(4) == 0 { (r.below(25) as u32) << (8 * r.below(4)) } else { 0 }
             }),
             width,
             height,
@@ -36,51 +29,38 @@ impl Image {
     }
 
     fn frame(&self) -> DetectionImage<'_> {
-        DetectionImage::new(
-            self.width,
-            self.height,
-            &self.ids,
-            &self.blend_ids,
-            &self.colours,
-        )
-        .unwrap()
+        DetectionImage::new(self.width, self.height, &self.ids, &self.blend_ids, &self.colours).unwrap()
     }
 
     /// Whether a pixel is a superpixel by definition.
     fn is_superpixel(&self, x: i64, y: i64, mode: Mode) -> bool {
         if let Mode::SecondDifferences(threshold) = mode {
-            return self.is_superpixel(x, y, Mode::Contrast(threshold))
-                || self.bends(x, y, threshold);
+            return self.is_superpixel(x, y, Mode::Contrast(threshold)) || self.bends(x, y, threshold);
         }
         let at = |x: i64, y: i64| (y * i64::from(self.width) + x) as usize;
-        let inside = |x: i64, y: i64| {
-            (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y)
-        };
+        let inside =
+            |x: i64, y: i64| (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y);
         let here = at(x, y);
-        (-1..=1)
-            .flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)))
-            .any(|(nx, ny)| {
-                if (nx, ny) == (x, y) || !inside(nx, ny) {
-                    return false;
-                }
-                let there = at(nx, ny);
-                let other = self.ids[here] != self.ids[there]
-                    || self.blend_ids[here] != self.blend_ids[there];
-                let largest = (0..4)
-                    .map(|channel| {
-                        let code =
-                            |pixel: usize| i64::from(self.colours[pixel] >> (8 * channel) & 255);
-                        (code(here) - code(there)).abs()
-                    })
-                    .max()
-                    .unwrap();
-                match mode {
-                    Mode::Contrast(threshold) => largest > i64::from(threshold),
-                    Mode::Edges(threshold) => other && largest > i64::from(threshold),
-                    Mode::Exact => other,
-                    Mode::SecondDifferences(_) => unreachable!("see above"),
-                }
-            })
+        (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy))).any(|(nx, ny)| {
+            if (nx, ny) == (x, y) || !inside(nx, ny) {
+                return false;
+            }
+            let there = at(nx, ny);
+            let other = self.ids[here] != self.ids[there] || self.blend_ids[here] != self.blend_ids[there];
+            let largest = (0..4)
+                .map(|channel| {
+                    let code = |pixel: usize| i64::from(self.colours[pixel] >> (8 * channel) & 255);
+                    (code(here) - code(there)).abs()
+                })
+                .max()
+                .unwrap();
+            match mode {
+                Mode::Contrast(threshold) => largest > i64::from(threshold),
+                Mode::Edges(threshold) => other && largest > i64::from(threshold),
+                Mode::Exact => other,
+                Mode::SecondDifferences(_) => unreachable!("see above"),
+            }
+        })
     }
 
     /// Whether three pixels in a line, among the 9 around a pixel, have a second difference above the threshold.
@@ -95,9 +75,7 @@ impl Image {
         let middles = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)));
         let lines = middles.flat_map(|middle| steps.map(|step| (middle, step)));
         let mut within = lines.filter(|((mx, my), (dx, dy))| {
-            [mx - dx, my - dy, mx + dx, my + dy]
-                .iter()
-                .all(|place: &i64| place.abs() <= 1)
+            [mx - dx, my - dy, mx + dx, my + dy].iter().all(|place: &i64| place.abs() <= 1)
         });
         within.any(|((mx, my), (dx, dy))| {
             (0..4).any(|channel| {
@@ -120,16 +98,7 @@ fn mask_is_the_definition() {
         Mode::SecondDifferences(12),
     ];
     let mut found = [[0_u32; 2]; 6];
-    for (width, height) in [
-        (1, 1),
-        (1, 9),
-        (9, 1),
-        (8, 4),
-        (16, 8),
-        (7, 3),
-        (9, 5),
-        (33, 21),
-    ] {
+    for (width, height) in [(1, 1), (1, 9), (9, 1), (8, 4), (16, 8), (7, 3), (9, 5), (33, 21)] {
         for _ in 0..20 {
             let image = Image::random(&mut random, width, height);
             for (mode, found) in modes.into_iter().zip(&mut found) {
@@ -140,14 +109,8 @@ fn mask_is_the_definition() {
                     for bit in 0..32 {
                         let x = tile as u32 % tiles_x * 8 + bit % 8;
                         let y = tile as u32 / tiles_x * 4 + bit / 8;
-                        let expected = x < width
-                            && y < height
-                            && image.is_superpixel(x.into(), y.into(), mode);
-                        assert_eq!(
-                            word >> bit & 1 == 1,
-                            expected,
-                            "{width} x {height}, ({x}, {y}), {mode:?}"
-                        );
+                        let expected = x < width && y < height && image.is_superpixel(x.into(), y.into(), mode);
+                        assert_eq!(word >> bit & 1 == 1, expected, "{width} x {height}, ({x}, {y}), {mode:?}");
                         found[usize::from(expected)] += 1;
                     }
                 }
@@ -199,19 +162,8 @@ fn textures_bend_and_gradients_do_not() {
 #[test]
 fn planes_of_another_size_are_refused() {
     let error = DetectionImage::new(2, 2, &[0; 4], &[0; 3], &[0; 4]).unwrap_err();
-    let expected = PlaneError {
-        plane: "blend IDs",
-        width: 2,
-        height: 2,
-        found: 3,
-    };
+    let expected = PlaneError { plane: "blend IDs", width: 2, height: 2, found: 3 };
     assert_eq!(error, expected);
     assert!(DetectionImage::new(u32::MAX, u32::MAX, &[], &[], &[]).is_err());
-    assert!(
-        superpixels(
-            &DetectionImage::new(0, 5, &[], &[], &[]).unwrap(),
-            Mode::Exact
-        )
-        .is_empty()
-    );
+    assert!(superpixels(&DetectionImage::new(0, 5, &[], &[], &[]).unwrap(), Mode::Exact).is_empty());
 }

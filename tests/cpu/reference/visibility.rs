@@ -33,10 +33,7 @@ fn equal_depths_go_to_the_smaller_id_in_any_order() {
 fn depths_outside_0_to_1_are_clipped() {
     let surfaces = [wall(1, 1.5), wall(2, -0.5), wall(3, 0.5)];
     let seen = nearest(&surfaces, [0.0, 0.0]);
-    assert_eq!(
-        (seen.nearest, seen.second),
-        (Some(Hit { id: 3, depth: 0.5 }), None)
-    );
+    assert_eq!((seen.nearest, seen.second), (Some(Hit { id: 3, depth: 0.5 }), None));
     assert_eq!(nearest(&surfaces[..2], [0.0, 0.0]).nearest, None);
     for bound in [0.0, 1.0] {
         let seen = nearest(&[wall(1, bound)], [0.0, 0.0]);
@@ -68,16 +65,7 @@ fn depth_is_that_of_the_plane_at_the_sample() {
     // behind the eye to 1,000 units ahead.
     let near = 0.5;
     let vertex = |x: f32, distance: f32| [100.0 * x, 100.0, near, distance];
-    let plane = Surface::new(
-        7,
-        [
-            vertex(0.0, 1000.0),
-            vertex(-900.0, -5.0),
-            vertex(900.0, -5.0),
-        ],
-        true,
-    )
-    .unwrap();
+    let plane = Surface::new(7, [vertex(0.0, 1000.0), vertex(-900.0, -5.0), vertex(900.0, -5.0)], true).unwrap();
     for row in 1..250 {
         let y = f64::from(row);
         let distance = 100.0 / y;
@@ -86,10 +74,7 @@ fn depth_is_that_of_the_plane_at_the_sample() {
             assert_eq!(seen, None, "before the near plane, row {row}");
         } else {
             let hit = seen.unwrap();
-            assert!(
-                (hit.depth * distance / f64::from(near) - 1.0).abs() < 1e-12,
-                "row {row}: {hit:?}"
-            );
+            assert!((hit.depth * distance / f64::from(near) - 1.0).abs() < 1e-12, "row {row}: {hit:?}");
         }
     }
     assert_eq!(nearest([&plane], [3.0, -1.0]).nearest, None);
@@ -106,24 +91,12 @@ fn coincident_triangles_tie_in_any_vertex_order() {
             for corner in &mut corners {
                 corner[2] = corner[3] * random.range(0.1, 0.9) as f32;
             }
-            let surfaces: Vec<Surface> = [
-                [0, 1, 2],
-                [1, 2, 0],
-                [2, 0, 1],
-                [0, 2, 1],
-                [2, 1, 0],
-                [1, 0, 2],
-            ]
-            .iter()
-            .zip([3, 6, 1, 5, 2, 4])
-            .filter_map(|(order, id)| Surface::new(id, order.map(|corner| corners[corner]), true))
-            .collect();
-            let centre = |axis: usize| {
-                corners
-                    .iter()
-                    .map(|c| f64::from(c[axis]) / f64::from(c[3]) / 3.0)
-                    .sum::<f64>()
-            };
+            let surfaces: Vec<Surface> = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]]
+                .iter()
+                .zip([3, 6, 1, 5, 2, 4])
+                .filter_map(|(order, id)| Surface::new(id, order.map(|corner| corners[corner]), true))
+                .collect();
+            let centre = |axis: usize| corners.iter().map(|c| f64::from(c[axis]) / f64::from(c[3]) / 3.0).sum::<f64>();
             let sample = [centre(0), centre(1)];
             let seen = nearest(&surfaces, sample);
             if let Some(hit) = seen.nearest {

@@ -31,10 +31,7 @@ fn what_is_drawn_for_the_host_is_what_it_would_draw() {
             let found = machine.see(&PLACED, base);
             assert_eq!(found.outcome.left_over, 0);
             let (pixels, error) = difference(&found.colors, &all.colors);
-            assert!(
-                pixels <= 4 && 1000.0 * error < bare.1,
-                "{pixels} pixels, {error}"
-            );
+            assert!(pixels <= 4 && 1000.0 * error < bare.1, "{pixels} pixels, {error}");
         }
     });
 }

@@ -44,10 +44,7 @@ fn samples_that_see_no_triangle_show_the_twins_colour() {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), drawn(&world));
         let given = [0.7, 0.1, 0.4];
-        let way = Way {
-            corner: [13, 5],
-            ..PLACED
-        };
+        let way = Way { corner: [13, 5], ..PLACED };
         let see = |way: &Way, background, flat_background| {
             let options = Options::new(SIZE[0], SIZE[1])
                 .background(Some(background))
@@ -99,12 +96,9 @@ fn brute_force(world: &World, side: u32) -> Vec<[f32; 4]> {
         let [x, y] = centre(pixel);
         let mut sum = [0.0; 4];
         for place in 0..side * side {
-            let within = [place % side, place / side]
-                .map(|at| (f64::from(at) + 0.5) / f64::from(side) - 0.5);
+            let within = [place % side, place / side].map(|at| (f64::from(at) + 0.5) / f64::from(side) - 0.5);
             let at = [x + within[0], y + within[1]];
-            let color = surfaces
-                .at(at)
-                .map_or_else(|| backdrop(at), |(.., [r, g, b])| [r, g, b, 1.0]);
+            let color = surfaces.at(at).map_or_else(|| backdrop(at), |(.., [r, g, b])| [r, g, b, 1.0]);
             for (sum, channel) in sum.iter_mut().zip(color) {
                 *sum += f64::from(channel);
             }
@@ -138,9 +132,7 @@ fn backdrops_are_antialiased_as_by_brute_force() {
         let brute = rmse(&brute, &truth);
         let bare = rmse(&with_overlay(drawn.colors.clone()), &truth);
         let (found, flat) = (see(false), see(true));
-        println!(
-            "one sample {bare}, 8 x 8 {brute}, over the backdrop {found}, over one colour {flat}"
-        );
+        println!("one sample {bare}, 8 x 8 {brute}, over the backdrop {found}, over one colour {flat}");
         assert!(found < brute, "{found} of {brute}");
         assert!(flat > 3.0 * brute && bare > 10.0 * brute, "{flat} {bare}");
     });

@@ -14,30 +14,15 @@ const CARD: [f32; 3] = [0.75, 0.7, 0.55];
 const PAINT: [f32; 3] = [0.55, 0.03, 0.05];
 const POST: [f32; 3] = [0.02, 0.03, 0.03];
 /// Columns of the card: where each ends, and whether it is painted.
-const COLUMNS: [(f32, bool); 7] = [
-    (-0.62, false),
-    (-0.5, true),
-    (-0.26, false),
-    (-0.2, true),
-    (0.0, false),
-    (0.05, true),
-    (0.9, false),
-];
+const COLUMNS: [(f32, bool); 7] =
+    [(-0.62, false), (-0.5, true), (-0.26, false), (-0.2, true), (0.0, false), (0.05, true), (0.9, false)];
 
 /// Part with a mesh of its own: a rectangle.
 fn add_rectangle(world: &mut World, [left, top]: [f32; 2], [right, bottom]: [f32; 2], part: Part) {
     let corner = |x, y| [x, y, 0.0];
-    world.parts.push(Part {
-        mesh: world.meshes.len(),
-        ..part
-    });
+    world.parts.push(Part { mesh: world.meshes.len(), ..part });
     world.meshes.push(Mesh {
-        positions: vec![
-            corner(left, top),
-            corner(right, top),
-            corner(right, bottom),
-            corner(left, bottom),
-        ],
+        positions: vec![corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)],
         paints: vec![1.0; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
         ..Mesh::default()
@@ -46,12 +31,7 @@ fn add_rectangle(world: &mut World, [left, top]: [f32; 2], [right, bottom]: [f32
 
 /// A card, and a post in front of it. `painted` says whether the card has its paint, `post` whether the post is there.
 fn world(painted: bool, post: bool) -> World {
-    let mut world = World {
-        meshes: Vec::new(),
-        parts: Vec::new(),
-        maps: Vec::new(),
-        projection: projection(),
-    };
+    let mut world = World { meshes: Vec::new(), parts: Vec::new(), maps: Vec::new(), projection: projection() };
     let part = |around, at, color| Part {
         mesh: 0,
         to_clip: product(&projection(), &placed(around, 0.0, at)),
@@ -128,11 +108,7 @@ fn what_hides_lent_triangles_is_lost_if_it_is_only_drawn_before() {
         let bare = world(false, false);
         let shown = with_smoke(drawn.colors.clone());
         let Drawn { ids, depths, .. } = bare.drawn();
-        let before = Drawn {
-            ids,
-            depths,
-            colors: shown.clone(),
-        };
+        let before = Drawn { ids, depths, colors: shown.clone() };
         let wrong = see(&bare, &before);
 
         // The right picture differs from the one with a sample a pixel at edges alone, the wrong one by whole stripes.

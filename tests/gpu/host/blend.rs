@@ -10,42 +10,10 @@ use gpc::scene::AlphaMode;
 
 /// A wall, and panes that intersect it and each other: places and distances of their corners, and their colours.
 const QUADS: [([[f64; 3]; 4], [f32; 4]); 4] = [
-    (
-        [
-            [-25.0, -22.0, 4.0],
-            [-28.0, 24.0, 4.5],
-            [26.0, 21.0, 3.5],
-            [24.0, -27.0, 4.0],
-        ],
-        [0.5, 0.25, 0.125, 1.0],
-    ),
-    (
-        [
-            [-30.0, -9.0, 2.0],
-            [-12.0, 29.0, 6.0],
-            [11.0, 12.0, 6.0],
-            [20.0, -11.0, 2.0],
-        ],
-        [1.0, 0.5, 0.0, 0.25],
-    ),
-    (
-        [
-            [-9.0, -30.0, 5.0],
-            [-21.0, 9.0, 3.0],
-            [29.0, 20.0, 3.0],
-            [17.0, -16.0, 5.0],
-        ],
-        [0.0, 0.5, 1.0, 0.5],
-    ),
-    (
-        [
-            [2.0, -29.0, 3.0],
-            [-1.5, 30.0, 4.0],
-            [3.0, 28.0, 4.0],
-            [5.0, -28.0, 3.0],
-        ],
-        [0.25, 1.0, 0.5, 0.75],
-    ),
+    ([[-25.0, -22.0, 4.0], [-28.0, 24.0, 4.5], [26.0, 21.0, 3.5], [24.0, -27.0, 4.0]], [0.5, 0.25, 0.125, 1.0]),
+    ([[-30.0, -9.0, 2.0], [-12.0, 29.0, 6.0], [11.0, 12.0, 6.0], [20.0, -11.0, 2.0]], [1.0, 0.5, 0.0, 0.25]),
+    ([[-9.0, -30.0, 5.0], [-21.0, 9.0, 3.0], [29.0, 20.0, 3.0], [17.0, -16.0, 5.0]], [0.0, 0.5, 1.0, 0.5]),
+    ([[2.0, -29.0, 3.0], [-1.5, 30.0, 4.0], [3.0, 28.0, 4.0], [5.0, -28.0, 3.0]], [0.25, 1.0, 0.5, 0.75]),
 ];
 
 fn corners(number: usize) -> [[f32; 3]; 4] {
@@ -55,11 +23,7 @@ fn corners(number: usize) -> [[f32; 3]; 4] {
 
 fn stage() -> Stage {
     let mode = |opacity| {
-        if opacity < 1.0 {
-            AlphaMode::Blend
-        } else {
-            AlphaMode::Opaque
-        }
+        if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque }
     };
     let material = |(_, look): ([[f64; 3]; 4], [f32; 4])| flat(look, mode(look[3]));
     let mut stage = Stage::new(QUADS.map(material).into());
@@ -75,13 +39,7 @@ fn world() -> World {
     (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);
     let part = |number: usize| {
         let [r, g, b, opacity] = QUADS[number].1;
-        Part {
-            mesh: number,
-            to_clip: camera,
-            color: [r, g, b],
-            opacity,
-            alpha_map: None,
-        }
+        Part { mesh: number, to_clip: camera, color: [r, g, b], opacity, alpha_map: None }
     };
     let mesh = |number| Mesh {
         positions: corners(number).to_vec(),
@@ -105,27 +63,15 @@ fn blended_draws_are_composited_as_those_of_files() {
         let machine = Machine::new(gpu, &world);
         let bare = once(SIZE).background(Some(super::world::SKY));
         let drawn = stage.render(gpu, &bare);
-        let drawn = Drawn {
-            ids: ids(&drawn),
-            depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize],
-            colors: drawn.colors,
-        };
-        let object = Way {
-            object_space: true,
-            stride: 12,
-            ..PLACED
-        };
+        let drawn = Drawn { ids: ids(&drawn), depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize], colors: drawn.colors };
+        let object = Way { object_space: true, stride: 12, ..PLACED };
         for shading in [Shading::Part, Shading::Sample] {
             for samples in [16, 64] {
-                let settings = bare
-                    .clone()
-                    .method(SuperpixelOptions::new(samples).shading(shading).thin(false));
+                let settings = bare.clone().method(SuperpixelOptions::new(samples).shading(shading).thin(false));
                 let expected = stage.render(gpu, &settings);
-                for (way, base) in [
-                    (PLACED, Base::All(&drawn)),
-                    (object, Base::All(&drawn)),
-                    (object, Base::Colors(&drawn)),
-                ] {
+                for (way, base) in
+                    [(PLACED, Base::All(&drawn)), (object, Base::All(&drawn)), (object, Base::Colors(&drawn))]
+                {
                     let options = Options::new(SIZE[0], SIZE[1])
                         .thin(false)
                         .samples(samples)

@@ -8,11 +8,7 @@ use ash::vk::FrontFace;
 use gpc::host::Topology;
 
 /// Draws whose back faces are dark where they are visible.
-const ONE_SIDED: Way = Way {
-    double_sided: false,
-    back: 0.4,
-    ..PLACED
-};
+const ONE_SIDED: Way = Way { double_sided: false, back: 0.4, ..PLACED };
 
 /// The world with the second and third corner of each triangle exchanged.
 fn reversed(mut world: World) -> World {
@@ -40,21 +36,12 @@ fn clockwise_front_faces_show_what_reversed_indices_show() {
         for topology in [Topology::List, Topology::Strip, Topology::Fan] {
             let world = World::of(topology);
             let other = reversed(World::of(topology));
-            let (machine, machine_of_other) =
-                (Machine::new(gpu, &world), Machine::new(gpu, &other));
+            let (machine, machine_of_other) = (Machine::new(gpu, &world), Machine::new(gpu, &other));
             for double_sided in [false, true] {
                 for y_up in [false, true] {
-                    let listed = Way {
-                        double_sided,
-                        y_up,
-                        ..ONE_SIDED
-                    };
+                    let listed = Way { double_sided, y_up, ..ONE_SIDED };
                     let see = |front_face| {
-                        let way = Way {
-                            topology,
-                            front_face,
-                            ..listed
-                        };
+                        let way = Way { topology, front_face, ..listed };
                         machine.see(&way, Base::Nothing)
                     };
                     let expected = machine_of_other.see(&listed, Base::Nothing);
@@ -78,11 +65,7 @@ fn a_mirroring_transform_and_a_flipped_viewport_each_exchange_front_and_back() {
         let (machine, mirror) = (Machine::new(gpu, &world), Machine::new(gpu, &mirrored));
         for front_face in [FrontFace::COUNTER_CLOCKWISE, FrontFace::CLOCKWISE] {
             for double_sided in [false, true] {
-                let way = Way {
-                    front_face,
-                    double_sided,
-                    ..ONE_SIDED
-                };
+                let way = Way { front_face, double_sided, ..ONE_SIDED };
                 let flipped = Way { y_up: true, ..way };
                 let expected = machine.see(&way, Base::Nothing).colors;
                 let both = mirror.see(&flipped, Base::Nothing).colors;

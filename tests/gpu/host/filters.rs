@@ -45,8 +45,7 @@ impl Place {
         let Self([middle, dx, dy]) = self;
         let mut sum = [0.0; 4];
         for i in 0..side * side {
-            let [u, v] =
-                [i % side, i / side].map(|at| (f64::from(at) + 0.5) / f64::from(side) - 0.5);
+            let [u, v] = [i % side, i / side].map(|at| (f64::from(at) + 0.5) / f64::from(side) - 0.5);
             let found = of([0, 1].map(|axis| middle[axis] + u * dx[axis] + v * dy[axis]));
             for channel in 0..4 {
                 sum[channel] += found[channel] / f64::from(side * side);
@@ -71,12 +70,7 @@ fn linear(at: Vec2) -> [f64; 4] {
     let at = at.map(|at| at * f64::from(SIDE) - 0.5);
     let [x, y] = at.map(|at| at.floor() as i64);
     let [u, v] = at.map(|at| at - at.floor());
-    let corners = [
-        (0, 0, (1.0 - u) * (1.0 - v)),
-        (1, 0, u * (1.0 - v)),
-        (0, 1, (1.0 - u) * v),
-        (1, 1, u * v),
-    ];
+    let corners = [(0, 0, (1.0 - u) * (1.0 - v)), (1, 0, u * (1.0 - v)), (0, 1, (1.0 - u) * v), (1, 1, u * v)];
     let mut sum = [0.0; 4];
     for (right, down, weight) in corners {
         let found = texel(x + right, y + down);
@@ -109,8 +103,7 @@ fn textures_are_averaged_over_what_a_sample_stands_for() {
         let places = places();
         let means = means(gpu.gpu(), &places);
         let found = |filter: usize| means.iter().skip(filter).step_by(4).copied();
-        let dense =
-            |of: fn(Vec2) -> [f64; 4]| places.iter().map(move |place| place.mean(DENSE, of));
+        let dense = |of: fn(Vec2) -> [f64; 4]| places.iter().map(move |place| place.mean(DENSE, of));
         let at_point = |of: fn(Vec2) -> [f64; 4]| places.iter().map(move |place| place.mean(1, of));
         for (filter, of, most) in [
             (0, linear as fn(Vec2) -> [f64; 4], 0.1),
@@ -134,8 +127,7 @@ fn parts_of_a_sample_make_it_up() {
         for (place, found) in places.iter().zip(means.iter().skip(3).step_by(4)) {
             let Place([_, dx, dy]) = place;
             let area = dx[0] * dy[1] - dx[1] * dy[0];
-            let [products, of_position, ..] =
-                place.mean(3, |[u, v]| [u * (1.0 - u - v), u * v, 0.0, 0.0]);
+            let [products, of_position, ..] = place.mean(3, |[u, v]| [u * (1.0 - u - v), u * v, 0.0, 0.0]);
             let expected = [products, of_position, area / 9.0, area];
             for channel in 0..4 {
                 let apart = (found[channel] - expected[channel]).abs();
@@ -157,10 +149,7 @@ fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
         buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
         buffer
     };
-    let numbers: Vec<f32> = (places.iter())
-        .flat_map(|place| place.0.concat())
-        .map(|number| number as f32)
-        .collect();
+    let numbers: Vec<f32> = (places.iter()).flat_map(|place| place.0.concat()).map(|number| number as f32).collect();
     let given = filled(bytemuck::cast_slice(&numbers));
     let bytes = 64 * places.len() as u64;
     let made = memory.buffer("means", bytes, storage, MemoryUse::Readback);
@@ -170,10 +159,8 @@ fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
     // SAFETY: the handles are of one device, and are destroyed after the commands have run.
     unsafe {
         let sampler = |filter| {
-            let info = vk::SamplerCreateInfo::default()
-                .mag_filter(filter)
-                .min_filter(filter)
-                .max_lod(vk::LOD_CLAMP_NONE);
+            let info =
+                vk::SamplerCreateInfo::default().mag_filter(filter).min_filter(filter).max_lod(vk::LOD_CLAMP_NONE);
             device.create_sampler(&info, None).unwrap()
         };
         let samplers = [vk::Filter::LINEAR, vk::Filter::NEAREST].map(sampler);
@@ -195,23 +182,13 @@ fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
         let set_layouts = [device.create_descriptor_set_layout(&info, None).unwrap()];
-        let sizes = kinds.map(|ty| vk::DescriptorPoolSize {
-            ty,
-            descriptor_count: 1,
-        });
-        let info = vk::DescriptorPoolCreateInfo::default()
-            .max_sets(1)
-            .pool_sizes(&sizes);
+        let sizes = kinds.map(|ty| vk::DescriptorPoolSize { ty, descriptor_count: 1 });
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         let pool = device.create_descriptor_pool(&info, None).unwrap();
-        let info = vk::DescriptorSetAllocateInfo::default()
-            .descriptor_pool(pool)
-            .set_layouts(&set_layouts);
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&set_layouts);
         let sets = device.allocate_descriptor_sets(&info).unwrap();
-        let buffers = [&given, &made].map(|buffer| {
-            [vk::DescriptorBufferInfo::default()
-                .buffer(buffer.handle())
-                .range(vk::WHOLE_SIZE)]
-        });
+        let buffers = [&given, &made]
+            .map(|buffer| [vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(vk::WHOLE_SIZE)]);
         let images = samplers.map(|sampler| {
             [vk::DescriptorImageInfo::default()
                 .sampler(sampler)
@@ -241,9 +218,7 @@ fn means(gpu: &Arc<Gpu>, places: &[Place]) -> Vec<[f64; 4]> {
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module)
             .name(c"main");
-        let info = [vk::ComputePipelineCreateInfo::default()
-            .stage(stage)
-            .layout(layout)];
+        let info = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout)];
         let cache = vk::PipelineCache::null();
         let pipeline = device.create_compute_pipelines(cache, &info, None);
         let pipeline = pipeline.unwrap()[0];
@@ -276,11 +251,7 @@ fn texels() -> Vec<u8> {
 
 /// An image without mipmaps, ready to be read.
 fn image(gpu: &Arc<Gpu>, memory: &Memory, bytes: &Buffer) -> Image {
-    let extent = vk::Extent3D {
-        width: SIDE,
-        height: SIDE,
-        depth: 1,
-    };
+    let extent = vk::Extent3D { width: SIDE, height: SIDE, depth: 1 };
     let info = vk::ImageCreateInfo::default()
         .image_type(vk::ImageType::TYPE_2D)
         .format(vk::Format::R8G8B8A8_UNORM)
@@ -306,8 +277,7 @@ fn image(gpu: &Arc<Gpu>, memory: &Memory, bytes: &Buffer) -> Image {
             let recorder = Recorder::new(gpu, commands, None);
             recorder.transition(&image, vk::ImageLayout::UNDEFINED, written);
             let (from, to) = (bytes.handle(), image.handle());
-            gpu.device()
-                .cmd_copy_buffer_to_image(commands, from, to, written, &region);
+            gpu.device().cmd_copy_buffer_to_image(commands, from, to, written, &region);
             recorder.transition(&image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
         }
     });

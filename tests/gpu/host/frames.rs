@@ -5,11 +5,7 @@ use super::world::{PLACED, Way, World};
 use crate::stage::on_gpu;
 use gpc::host::Draw;
 
-const IN_OBJECT_SPACE: Way = Way {
-    object_space: true,
-    stride: 12,
-    ..PLACED
-};
+const IN_OBJECT_SPACE: Way = Way { object_space: true, stride: 12, ..PLACED };
 
 /// The draws of a world seen in a mirror.
 fn mirrored(draws: &[Draw]) -> Vec<Draw> {

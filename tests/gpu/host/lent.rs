@@ -17,34 +17,11 @@ fn corners(world: &World) -> Vec<[u32; 4]> {
 
 const WAYS: [Way; 5] = [
     // The offset is not aligned for descriptors.
-    Way {
-        positions_offset: 20,
-        ..PLACED
-    },
-    Way {
-        stride: 28,
-        short_indices: true,
-        ..PLACED
-    },
-    Way {
-        object_space: true,
-        stride: 12,
-        ..PLACED
-    },
-    Way {
-        object_space: true,
-        positions_offset: 36,
-        stride: 20,
-        short_indices: true,
-        indices_offset: 6,
-        ..PLACED
-    },
-    Way {
-        object_space: true,
-        stride: 16,
-        indices_offset: 4,
-        ..PLACED
-    },
+    Way { positions_offset: 20, ..PLACED },
+    Way { stride: 28, short_indices: true, ..PLACED },
+    Way { object_space: true, stride: 12, ..PLACED },
+    Way { object_space: true, positions_offset: 36, stride: 20, short_indices: true, indices_offset: 6, ..PLACED },
+    Way { object_space: true, stride: 16, indices_offset: 4, ..PLACED },
 ];
 
 /// The picture is antialiased and uses the host's attributes; its bytes are the same for every way of lending.
@@ -53,9 +30,7 @@ fn every_way_to_lend_gives_the_same_picture() {
     on_gpu(|gpu| {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
-        let Seen {
-            colors, outcome, ..
-        } = machine.see(&PLACED, Base::All(&drawn));
+        let Seen { colors, outcome, .. } = machine.see(&PLACED, Base::All(&drawn));
         assert_eq!(outcome.left_over, 0);
         let pixels = drawn.colors.len() as u64;
         let superpixels = outcome.statistics.superpixels;
@@ -98,16 +73,9 @@ fn indices_out_of_range_are_the_last_vertex() {
             lent.indices[place..place + size].fill(0xf0);
             let corners = |draw: usize, vertex: usize| {
                 let part = &world.parts[draw];
-                world.meshes[part.mesh]
-                    .clip(&part.to_clip)
-                    .nth(vertex)
-                    .unwrap()
+                world.meshes[part.mesh].clip(&part.to_clip).nth(vertex).unwrap()
             };
-            let last = if way.object_space {
-                0
-            } else {
-                world.parts.len() - 1
-            };
+            let last = if way.object_space { 0 } else { world.parts.len() - 1 };
             let vertices = world.meshes[world.parts[last].mesh].vertex_count();
             let found = machine.see_lent(way, &lent, Base::All(&drawn), options.clone());
             assert_eq!(found.corners[0], corners(0, 0), "{way:?}");

@@ -15,18 +15,12 @@ const SAMPLES: u32 = 16;
 pub fn pixels() -> Vec<Location> {
     let rows = 0..SIZE[1] as i32;
     let pixels = rows.flat_map(|row| (0..SIZE[0] as i32).map(move |column| [column, row]));
-    let location = |pixel| Location {
-        pixel,
-        within: [0.5, 0.5],
-        jacobian: [[1.0, 0.0], [0.0, 1.0]],
-    };
+    let location = |pixel| Location { pixel, within: [0.5, 0.5], jacobian: [[1.0, 0.0], [0.0, 1.0]] };
     pixels.map(location).collect()
 }
 
 fn options(samples: u32) -> Options {
-    Options::new(SIZE[0], SIZE[1])
-        .samples(samples)
-        .detection(Detection::Every)
+    Options::new(SIZE[0], SIZE[1]).samples(samples).detection(Detection::Every)
 }
 
 fn farthest(some: &[[f32; 4]], others: &[[f32; 4]]) -> f32 {
@@ -72,8 +66,7 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
             .contrast(Some(u8::MAX))
             .thin(false);
         let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, once);
-        let differs =
-            (seen.iter().zip(&picture.colors)).filter(|(a, b)| farthest(&[**a], &[**b]) > 1e-5);
+        let differs = (seen.iter().zip(&picture.colors)).filter(|(a, b)| farthest(&[**a], &[**b]) > 1e-5);
         // Rasterizers round vertices to a fraction of a pixel, which sampling does not.
         let differs = differs.count();
         assert!(differs * 500 < seen.len(), "{differs} of {}", seen.len());
@@ -93,10 +86,7 @@ fn every_order_of_a_list_sees_the_same() {
             listed.push(Location {
                 pixel: [0, 1].map(|axis| number(0.0, f64::from(SIZE[axis])) as i32),
                 within: [number(0.0, 1.0), number(0.0, 1.0)],
-                jacobian: [
-                    [number(-2.0, 2.0), number(-2.0, 2.0)],
-                    [number(-2.0, 2.0), number(-2.0, 2.0)],
-                ],
+                jacobian: [[number(-2.0, 2.0), number(-2.0, 2.0)], [number(-2.0, 2.0), number(-2.0, 2.0)]],
             });
         }
         for samples in [1, SAMPLES] {
@@ -106,21 +96,11 @@ fn every_order_of_a_list_sees_the_same() {
                 shuffled.swap(last, random.below(last as u64 + 1) as usize);
             }
             let others: Vec<_> = shuffled.iter().map(|index| listed[*index]).collect();
-            let object_space = Way {
-                object_space: true,
-                stride: 12,
-                ..PLACED
-            };
+            let object_space = Way { object_space: true, stride: 12, ..PLACED };
             let (again, outcome) = machine.see_list(&object_space, &others, options(samples));
             assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
             let expected: Vec<_> = shuffled.iter().map(|index| seen[*index]).collect();
-            let bits = |colors: &[[f32; 4]]| {
-                colors
-                    .as_flattened()
-                    .iter()
-                    .map(|c| c.to_bits())
-                    .collect::<Vec<_>>()
-            };
+            let bits = |colors: &[[f32; 4]]| colors.as_flattened().iter().map(|c| c.to_bits()).collect::<Vec<_>>();
             assert!(bits(&again) == bits(&expected), "{samples} samples");
         }
     });
@@ -150,16 +130,9 @@ fn locations_off_the_image_and_no_numbers_are_left_out() {
             spoil(&mut spoilt[*place]);
         }
         let (found, outcome) = machine.see_list(&PLACED, &spoilt, options(SAMPLES));
-        assert_eq!(
-            (outcome.left_over, outcome.left_out),
-            (0, spoil.len() as u32)
-        );
+        assert_eq!((outcome.left_over, outcome.left_out), (0, spoil.len() as u32));
         for (place, (found, seen)) in found.iter().zip(&seen).enumerate() {
-            let expected = if places.contains(&place) {
-                [SKY[0], SKY[1], SKY[2], 1.0]
-            } else {
-                *seen
-            };
+            let expected = if places.contains(&place) { [SKY[0], SKY[1], SKY[2], 1.0] } else { *seen };
             assert_eq!(found, &expected, "location {place}");
         }
     });

@@ -5,9 +5,9 @@ use crate::submit::{discard, submit, submit_and};
 use ash::vk;
 use gpc::host::HostError;
 use gpc::host::{
-    AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState,
-    Images, Indices, LentImage, ListOptions, ListOutcome, Location, LocationList, Mesh, Options,
-    Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
+    AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState, Images, Indices,
+    LentImage, ListOptions, ListOutcome, Location, LocationList, Mesh, Options, Outcome, PositionSpace, Scenery,
+    ShadeSamples, VisibilitySamples,
 };
 use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
@@ -57,10 +57,7 @@ impl ShadeSamples for Shading<'_> {
         let (compute, device) = (vk::PipelineBindPoint::COMPUTE, self.device);
         let (arguments, offset) = found.dispatch(0).unwrap();
         let call = self.calls.replace(self.calls.get() + 1);
-        let kept = [vk::BufferCopy::default()
-            .src_offset(offset)
-            .dst_offset(4 * call.min(CALLS - 1))
-            .size(4)];
+        let kept = [vk::BufferCopy::default().src_offset(offset).dst_offset(4 * call.min(CALLS - 1)).size(4)];
         let skipping = self.skips.zip(found.condition());
         // SAFETY: the commands are being recorded; all handles outlive their execution. Conditional rendering that is
         // begun is ended.
@@ -152,36 +149,22 @@ impl Canvas {
 }
 
 /// Kinds of the images of a canvas.
-const KINDS: ImageKinds = ImageKinds {
-    ids: false,
-    depth: false,
-    color_format: vk::Format::R32G32B32A32_SFLOAT,
-    color_encoded: false,
-};
+const KINDS: ImageKinds =
+    ImageKinds { ids: false, depth: false, color_format: vk::Format::R32G32B32A32_SFLOAT, color_encoded: false };
 
 /// Options for a canvas of a size.
 fn of_size([width, height]: [u32; 2]) -> Options {
-    Options::new(width, height)
-        .background(Some(SKY))
-        .shade_all(true)
+    Options::new(width, height).background(Some(SKY)).shade_all(true)
 }
 
 /// Whether an error says that nothing was recorded.
 pub fn is_not_recorded(error: Option<HostError>) -> bool {
-    matches!(
-        error,
-        Some(HostError::Engine(EngineError::Vulkan(
-            VulkanError::NotRecorded
-        )))
-    )
+    matches!(error, Some(HostError::Engine(EngineError::Vulkan(VulkanError::NotRecorded))))
 }
 
 /// Whether an error says that the commands have not been executed.
 pub fn is_not_done(error: Option<HostError>) -> bool {
-    matches!(
-        error,
-        Some(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone)))
-    )
+    matches!(error, Some(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone))))
 }
 
 /// Images that a host has drawn before it calls the library.
@@ -254,34 +237,17 @@ fn of_mesh(bytes: &[u8], offset: u64, stride: usize, of: &[usize], mesh: usize) 
 impl<'a> Lending<'a> {
     fn new(machine: &Machine<'a>, way: &Way, lent: &Lent) -> Self {
         let buffers = |mesh| {
-            let (stride, short) = (
-                way.stride as usize,
-                lent.index_type == vk::IndexType::UINT16,
-            );
+            let (stride, short) = (way.stride as usize, lent.index_type == vk::IndexType::UINT16);
             let [offset, first] = [way.positions_offset, way.indices_offset];
             let size = if short { 2 } else { 4 };
             [
-                machine.filled(&of_mesh(
-                    &lent.positions,
-                    offset,
-                    stride,
-                    &lent.of_vertices,
-                    mesh,
-                )),
+                machine.filled(&of_mesh(&lent.positions, offset, stride, &lent.of_vertices, mesh)),
                 machine.filled(&of_mesh(&lent.indices, first, size, &lent.of_indices, mesh)),
             ]
         };
-        let together = || {
-            [
-                machine.filled(&lent.positions),
-                machine.filled(&lent.indices),
-            ]
-        };
-        let meshes: Vec<_> = if way.apart {
-            (0..machine.world.meshes.len()).map(buffers).collect()
-        } else {
-            vec![together()]
-        };
+        let together = || [machine.filled(&lent.positions), machine.filled(&lent.indices)];
+        let meshes: Vec<_> =
+            if way.apart { (0..machine.world.meshes.len()).map(buffers).collect() } else { vec![together()] };
         let paints = machine.filled(bytemuck::cast_slice(&lent.paints));
         let coordinates = machine.filled(bytemuck::cast_slice(&lent.coordinates));
         let with_image = |map| (machine.map_image(map), map);
@@ -295,11 +261,7 @@ impl<'a> Lending<'a> {
             positions_offset: way.positions_offset,
             position_stride: way.stride,
             vertex_capacity: lent.vertex_count,
-            coordinates: (!maps.is_empty()).then(|| Coordinates {
-                buffer: coordinates.handle(),
-                offset: 0,
-                stride: 8,
-            }),
+            coordinates: (!maps.is_empty()).then(|| Coordinates { buffer: coordinates.handle(), offset: 0, stride: 8 }),
             indices: (!way.bare).then(|| Indices {
                 buffer: indices.handle(),
                 offset: way.indices_offset,
@@ -310,9 +272,7 @@ impl<'a> Lending<'a> {
         let geometry = Geometry {
             meshes: meshes.iter().map(lent_mesh).collect(),
             position_space: if way.object_space {
-                PositionSpace::Object {
-                    capacity: lent.drawn_vertices,
-                }
+                PositionSpace::Object { capacity: lent.drawn_vertices }
             } else {
                 PositionSpace::Clip
             },
@@ -321,27 +281,14 @@ impl<'a> Lending<'a> {
             keys: 1,
             alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
             blended: lent.draws.iter().any(|draw| draw.blended),
-            clip: ClipSpace {
-                y_up: way.y_up,
-                reversed_depth: true,
-                depth_range: way.depth_range,
-            },
+            clip: ClipSpace { y_up: way.y_up, reversed_depth: true, depth_range: way.depth_range },
         };
-        Self {
-            _meshes: meshes,
-            _coordinates: coordinates,
-            paints,
-            of_draws,
-            back: way.back,
-            _maps: maps,
-            geometry,
-        }
+        Self { _meshes: meshes, _coordinates: coordinates, paints, of_draws, back: way.back, _maps: maps, geometry }
     }
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
-    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
-        | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw(),
+    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw() | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw(),
 );
 const UNDEFINED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
@@ -373,13 +320,8 @@ impl<'a> Machine<'a> {
         let compute = vk::ShaderStageFlags::COMPUTE;
         // SAFETY: plain creations on a live device.
         unsafe {
-            let sizes = [vk::DescriptorPoolSize {
-                ty: vk::DescriptorType::STORAGE_BUFFER,
-                descriptor_count: 3,
-            }];
-            let info = vk::DescriptorPoolCreateInfo::default()
-                .max_sets(1)
-                .pool_sizes(&sizes);
+            let sizes = [vk::DescriptorPoolSize { ty: vk::DescriptorType::STORAGE_BUFFER, descriptor_count: 3 }];
+            let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
             let descriptors = device.create_descriptor_pool(&info, None).unwrap();
             let bindings = [0, 1, 2].map(|binding| {
                 vk::DescriptorSetLayoutBinding::default()
@@ -391,26 +333,15 @@ impl<'a> Machine<'a> {
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
             let set_layout = device.create_descriptor_set_layout(&info, None).unwrap();
             let sets = [antialiaser.samples_layout(), set_layout];
-            let push = [vk::PushConstantRange {
-                stage_flags: compute,
-                offset: 0,
-                size: 8,
-            }];
-            let info = vk::PipelineLayoutCreateInfo::default()
-                .set_layouts(&sets)
-                .push_constant_ranges(&push);
+            let push = [vk::PushConstantRange { stage_flags: compute, offset: 0, size: 8 }];
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
             let layout = device.create_pipeline_layout(&info, None).unwrap();
             let pipeline = |code: &[u8]| {
                 let words = ash::util::read_spv(&mut std::io::Cursor::new(code)).unwrap();
                 let info = vk::ShaderModuleCreateInfo::default().code(&words);
                 let module = device.create_shader_module(&info, None).unwrap();
-                let stage = vk::PipelineShaderStageCreateInfo::default()
-                    .stage(compute)
-                    .module(module)
-                    .name(c"main");
-                let info = vk::ComputePipelineCreateInfo::default()
-                    .stage(stage)
-                    .layout(layout);
+                let stage = vk::PipelineShaderStageCreateInfo::default().stage(compute).module(module).name(c"main");
+                let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
                 let cache = vk::PipelineCache::null();
                 let made = device.create_compute_pipelines(cache, &[info], None);
                 device.destroy_shader_module(module, None);
@@ -445,14 +376,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Results of `times` recordings of one frame, each over the same images of the host.
-    pub fn see_again(
-        &self,
-        way: &Way,
-        lent: &Lent,
-        base: Base<'_>,
-        options: Options,
-        times: usize,
-    ) -> Vec<Seen> {
+    pub fn see_again(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options, times: usize) -> Vec<Seen> {
         let size = way.around(options.size);
         let lending = Lending::new(self, way, lent);
         let corner_bytes = 48 * u64::from(lent.triangle_count);
@@ -499,15 +423,9 @@ impl<'a> Machine<'a> {
             color_encoded: false,
         };
         let background = options.background.or(Some(SKY));
-        let options = options
-            .background(background)
-            .shade_all(base.colors().is_none());
+        let options = options.background(background).shade_all(base.colors().is_none());
         // SAFETY: lent objects have the stated contents, and outlive the frame.
-        let mut frame = unsafe {
-            self.antialiaser
-                .prepare(&lending.geometry, &kinds, &options)
-        }
-        .unwrap();
+        let mut frame = unsafe { self.antialiaser.prepare(&lending.geometry, &kinds, &options) }.unwrap();
         let dispatched = self.read_back(4 * CALLS);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
         let scenery = Scenery::new(&lent.draws, self.world.projection).viewport(way.viewport);
@@ -523,14 +441,7 @@ impl<'a> Machine<'a> {
         }
         let mut see = || {
             shading.calls.set(0);
-            self.run(
-                size,
-                &mut frame,
-                (&images, &scenery),
-                &shading,
-                &pictures,
-                (&color, &read_back),
-            );
+            self.run(size, &mut frame, (&images, &scenery), &shading, &pictures, (&color, &read_back));
             let (calls, triangles) = (shading.calls.get(), lent.triangle_count as usize);
             Seen {
                 colors: read_back.read(pixels).unwrap().to_vec(),
@@ -546,14 +457,8 @@ impl<'a> Machine<'a> {
     /// Memory of a frame that is prepared for a number of triangles, in bytes, and the number of rounds of its recordings.
     pub fn prepared(&self, way: &Way, triangles: u32, options: &Options) -> (u64, u32) {
         let lending = Lending::new(self, way, &self.world.lent(way));
-        let geometry = Geometry {
-            triangle_capacity: triangles,
-            ..lending.geometry
-        };
-        let kinds = ImageKinds {
-            color_format: vk::Format::B8G8R8A8_SRGB,
-            ..KINDS
-        };
+        let geometry = Geometry { triangle_capacity: triangles, ..lending.geometry };
+        let kinds = ImageKinds { color_format: vk::Format::B8G8R8A8_SRGB, ..KINDS };
         // SAFETY: lent objects outlive the frame, of which no command is recorded.
         let frame = unsafe { self.antialiaser.prepare(&geometry, &kinds, options) }.unwrap();
         (frame.memory_bytes(), frame.rounds())
@@ -570,8 +475,7 @@ impl<'a> Machine<'a> {
         // SAFETY: lent objects have the stated contents, and outlive the frames.
         let prepared = || unsafe {
             let options = of_size(size);
-            self.antialiaser
-                .prepare(&lending.geometry, &KINDS, &options)
+            self.antialiaser.prepare(&lending.geometry, &KINDS, &options)
         };
         let mut frames: Vec<_> = shown.iter().map(|_| prepared().unwrap()).collect();
         submit(&self.gpu, |commands| {
@@ -624,8 +528,7 @@ impl<'a> Machine<'a> {
         // SAFETY: lent objects have the stated contents, and outlive the frame.
         let frame = unsafe {
             let options = of_size(SIZE);
-            self.antialiaser
-                .prepare(&lending.geometry, &KINDS, &options)
+            self.antialiaser.prepare(&lending.geometry, &KINDS, &options)
         };
         let frame = RefCell::new(frame.unwrap());
         let scenery = Scenery::new(&lent.draws, self.world.projection);
@@ -653,9 +556,7 @@ impl<'a> Machine<'a> {
                     submit(&self.gpu, |commands| self.overwrite(commands, &canvas));
                     let colors = canvas.shown(&frame.borrow()).colors;
                     assert!(colors.iter().all(|color| *color == AROUND));
-                    device
-                        .queue_submit(queue, &submits, vk::Fence::null())
-                        .unwrap();
+                    device.queue_submit(queue, &submits, vk::Fence::null()).unwrap();
                 }
             },
         );
@@ -683,10 +584,8 @@ impl<'a> Machine<'a> {
     fn overwrite(&self, commands: vk::CommandBuffer, canvas: &Canvas) {
         let image = canvas.color.handle();
         let color = vk::ClearColorValue { float32: AROUND };
-        let range = vk::ImageSubresourceRange::default()
-            .aspect_mask(vk::ImageAspectFlags::COLOR)
-            .level_count(1)
-            .layer_count(1);
+        let range =
+            vk::ImageSubresourceRange::default().aspect_mask(vk::ImageAspectFlags::COLOR).level_count(1).layer_count(1);
         let barrier = |before, after| {
             vk::ImageMemoryBarrier2::default()
                 .image(image)
@@ -725,15 +624,8 @@ impl<'a> Machine<'a> {
     }
 
     /// Result of sampling a list of locations of the world.
-    pub fn see_list(
-        &self,
-        way: &Way,
-        locations: &[Location],
-        options: Options,
-    ) -> (Vec<[f32; 4]>, ListOutcome) {
-        self.see_list_again(way, locations, options, 1)
-            .pop()
-            .unwrap()
+    pub fn see_list(&self, way: &Way, locations: &[Location], options: Options) -> (Vec<[f32; 4]>, ListOutcome) {
+        self.see_list_again(way, locations, options, 1).pop().unwrap()
     }
 
     /// Results of `times` recordings of one list.
@@ -828,11 +720,7 @@ impl<'a> Machine<'a> {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
-            .extent(vk::Extent3D {
-                width: map.side,
-                height: map.side,
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width: map.side, height: map.side, depth: 1 })
             .mip_levels(map.levels.len() as u32)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -847,10 +735,7 @@ impl<'a> Machine<'a> {
             let mut offset = 0;
             for (level, texels) in (0..).zip(&map.levels) {
                 let side = (map.side >> level).max(1);
-                let region = [vk::BufferImageCopy {
-                    buffer_offset: offset,
-                    ..copy([side; 2], aspect, level)
-                }];
+                let region = [vk::BufferImageCopy { buffer_offset: offset, ..copy([side; 2], aspect, level) }];
                 offset += texels.len() as u64;
                 // SAFETY: the buffer holds all levels.
                 unsafe {
@@ -893,19 +778,14 @@ impl<'a> Machine<'a> {
         // SAFETY: lent objects have the stated contents, and outlive the list.
         let (list, gate) = unsafe {
             (
-                self.antialiaser
-                    .prepare_list(&lending.geometry, &list, &ListOptions::from(options))
-                    .unwrap(),
+                self.antialiaser.prepare_list(&lending.geometry, &list, &ListOptions::from(options)).unwrap(),
                 device.create_event(&vk::EventCreateInfo::default(), None),
             )
         };
         let gate = gate.unwrap();
         let dispatched = self.read_back(4 * CALLS);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
-        let gated = Gated {
-            inner: &shading,
-            gate,
-        };
+        let gated = Gated { inner: &shading, gate };
         let list = RefCell::new(list);
         let mut early = None;
         submit_and(
@@ -972,18 +852,11 @@ impl<'a> Machine<'a> {
         // SAFETY: the pool's sets are not in use; the buffers outlive the new set.
         unsafe {
             let flags = vk::DescriptorPoolResetFlags::empty();
-            device
-                .reset_descriptor_pool(self.descriptors, flags)
-                .unwrap();
-            let info = vk::DescriptorSetAllocateInfo::default()
-                .descriptor_pool(self.descriptors)
-                .set_layouts(&layouts);
+            device.reset_descriptor_pool(self.descriptors, flags).unwrap();
+            let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.descriptors).set_layouts(&layouts);
             let set = device.allocate_descriptor_sets(&info).unwrap()[0];
-            let infos = buffers.map(|buffer| {
-                vk::DescriptorBufferInfo::default()
-                    .buffer(buffer.handle())
-                    .range(vk::WHOLE_SIZE)
-            });
+            let infos =
+                buffers.map(|buffer| vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(vk::WHOLE_SIZE));
             let write = vk::WriteDescriptorSet::default()
                 .dst_set(set)
                 .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
@@ -1004,9 +877,7 @@ impl<'a> Machine<'a> {
 
     fn read_back(&self, bytes: u64) -> Buffer {
         let usage = STORAGE | vk::BufferUsageFlags::TRANSFER_DST;
-        let buffer = self
-            .memory
-            .buffer("read back", bytes, usage, MemoryUse::Readback);
+        let buffer = self.memory.buffer("read back", bytes, usage, MemoryUse::Readback);
         buffer.unwrap()
     }
 
@@ -1020,11 +891,7 @@ impl<'a> Machine<'a> {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
-            .extent(vk::Extent3D {
-                width: size[0],
-                height: size[1],
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width: size[0], height: size[1], depth: 1 })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -1051,17 +918,8 @@ impl Map {
 /// Copy of a whole level of an image, tightly packed.
 fn copy(size: [u32; 2], aspect_mask: vk::ImageAspectFlags, mip_level: u32) -> vk::BufferImageCopy {
     vk::BufferImageCopy::default()
-        .image_subresource(vk::ImageSubresourceLayers {
-            aspect_mask,
-            mip_level,
-            base_array_layer: 0,
-            layer_count: 1,
-        })
-        .image_extent(vk::Extent3D {
-            width: size[0],
-            height: size[1],
-            depth: 1,
-        })
+        .image_subresource(vk::ImageSubresourceLayers { aspect_mask, mip_level, base_array_layer: 0, layer_count: 1 })
+        .image_extent(vk::Extent3D { width: size[0], height: size[1], depth: 1 })
 }
 
 impl Drop for Machine<'_> {

@@ -48,15 +48,7 @@ fn quads() -> [([[f32; 3]; 4], f32); 3] {
     };
     [
         (square(60.0, 9.0), 0.0),
-        (
-            [
-                aslant(-28.0, -20.0, 4.0),
-                aslant(-31.0, 27.0, 0.7),
-                aslant(30.0, 25.0, 0.8),
-                aslant(27.0, -19.0, 5.0),
-            ],
-            3.3,
-        ),
+        ([aslant(-28.0, -20.0, 4.0), aslant(-31.0, 27.0, 0.7), aslant(30.0, 25.0, 0.8), aslant(27.0, -19.0, 5.0)], 3.3),
         (square(6.2, 0.6), 1.0),
     ]
 }
@@ -65,15 +57,8 @@ const CORNERS: [[f32; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
 
 fn stage(sampler: Sampler) -> Stage {
     let mask = AlphaMode::Mask { cutoff: CUTOFF };
-    let mut stage = Stage::new(vec![
-        flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque),
-        textured(mask),
-    ]);
-    let image = Image {
-        width: SIDE,
-        height: SIDE,
-        pixels: texels(),
-    };
+    let mut stage = Stage::new(vec![flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque), textured(mask)]);
+    let image = Image { width: SIDE, height: SIDE, pixels: texels() };
     stage.texture = Some((image, sampler));
     for (number, (corners, repeats)) in quads().into_iter().enumerate() {
         let first = stage.triangles.len();
@@ -107,20 +92,14 @@ pub fn world(sampler: &Sampler) -> World {
     let mesh = |(corners, repeats): ([[f32; 3]; 4], f32)| Mesh {
         positions: corners.to_vec(),
         paints: vec![1.0; 4],
-        coordinates: CORNERS
-            .map(|corner| corner.map(|at| at * repeats - 0.2))
-            .to_vec(),
+        coordinates: CORNERS.map(|corner| corner.map(|at| at * repeats - 0.2)).to_vec(),
         indices: vec![0, 1, 2, 0, 2, 3],
         ..Mesh::default()
     };
     let part = |number: usize| Part {
         mesh: number,
         to_clip: camera,
-        color: if number == 0 {
-            [0.0, 0.0, 1.0]
-        } else {
-            [1.0; 3]
-        },
+        color: if number == 0 { [0.0, 0.0, 1.0] } else { [1.0; 3] },
         opacity: 1.0,
         alpha_map: (number > 0).then_some(1),
     };
@@ -148,42 +127,20 @@ pub fn world(sampler: &Sampler) -> World {
 #[test]
 fn alpha_maps_are_tested_as_those_of_files() {
     on_gpu(|gpu| {
-        let object = Way {
-            object_space: true,
-            stride: 12,
-            short_indices: true,
-            ..PLACED
-        };
+        let object = Way { object_space: true, stride: 12, short_indices: true, ..PLACED };
         for sampler in [
             Sampler::default(),
-            Sampler {
-                wrap_u: Wrap::ClampToEdge,
-                wrap_v: Wrap::MirroredRepeat,
-                ..Sampler::default()
-            },
-            Sampler {
-                mag: Filter::Nearest,
-                mip: Some(Filter::Nearest),
-                ..Sampler::default()
-            },
-            Sampler {
-                min: Filter::Nearest,
-                ..Sampler::default()
-            },
+            Sampler { wrap_u: Wrap::ClampToEdge, wrap_v: Wrap::MirroredRepeat, ..Sampler::default() },
+            Sampler { mag: Filter::Nearest, mip: Some(Filter::Nearest), ..Sampler::default() },
+            Sampler { min: Filter::Nearest, ..Sampler::default() },
         ] {
-            let settings =
-                once(SIZE).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(true));
+            let settings = once(SIZE).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(true));
             let stage = stage(sampler);
             let expected = stage.render(gpu, &settings);
             // A host that discards fragments itself draws these images.
-            let own = Drawn {
-                ids: ids(&expected),
-                depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize],
-                colors: Vec::new(),
-            };
-            let without_depth = settings
-                .clone()
-                .map_superpixels(|options| options.thin(false));
+            let own =
+                Drawn { ids: ids(&expected), depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize], colors: Vec::new() };
+            let without_depth = settings.clone().map_superpixels(|options| options.thin(false));
             let expected_of_own = stage.render(gpu, &without_depth);
             let world = world(&sampler);
             let machine = Machine::new(gpu, &world);

@@ -38,10 +38,7 @@ fn first_frames_are_whole_on_gpus() {
     let see = |gpu: &mut Headless| {
         let machine = Machine::new(gpu, &world);
         let of = |(size, samples, shading): ([u32; 2], u32, Shading)| {
-            let options = Options::new(size[0], size[1])
-                .detection(Detection::Every)
-                .samples(samples)
-                .shading(shading);
+            let options = Options::new(size[0], size[1]).detection(Detection::Every).samples(samples).shading(shading);
             let seen = machine.see_lent(&PLACED, &lent, Base::Nothing, options);
             let what = format!("{size:?}, {samples} samples, {shading:?}");
             assert_eq!(seen.outcome.left_over, 0, "{what}");
@@ -80,9 +77,7 @@ fn panes() -> World {
     (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);
     let corner = |number: usize, [x, y]: [f64; 2]| seen_at([x, y], 2.0 + number as f64, SIZE[1]);
     let mesh = |number| Mesh {
-        positions: [[-99.0, -98.0], [97.0, -99.0], [98.0, 99.0], [-97.0, 98.0]]
-            .map(|at| corner(number, at))
-            .to_vec(),
+        positions: [[-99.0, -98.0], [97.0, -99.0], [98.0, 99.0], [-97.0, 98.0]].map(|at| corner(number, at)).to_vec(),
         paints: vec![1.0; 4],
         coordinates: vec![[0.0; 2]; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
@@ -107,11 +102,7 @@ fn panes() -> World {
 fn drawn(size: [u32; 2]) -> Drawn {
     let pixels = size[0] * size[1];
     let color = |pixel: u32| [2.0 + (pixel % 7) as f32, 0.25, (pixel % 5) as f32, 1.0];
-    Drawn {
-        ids: Vec::new(),
-        depths: Vec::new(),
-        colors: (0..pixels).map(color).collect(),
-    }
+    Drawn { ids: Vec::new(), depths: Vec::new(), colors: (0..pixels).map(color).collect() }
 }
 
 /// Options with which the panes need more room than they first have.
@@ -155,11 +146,7 @@ fn has_room_later(gpu: &mut Headless) {
     let bytes = |seen: &Seen| seen.outcome.statistics.memory_bytes;
     // A whole frame does not grow any more.
     let last = growing.iter().position(|seen| left(seen) == 0).unwrap();
-    assert!(
-        growing[last..]
-            .iter()
-            .all(|seen| bytes(seen) == bytes(&growing[last]))
-    );
+    assert!(growing[last..].iter().all(|seen| bytes(seen) == bytes(&growing[last])));
 
     for seen in &fixed {
         assert!(left(seen) > 0);
@@ -208,10 +195,7 @@ fn the_next_recording_of_a_list_has_more_room() {
         }
         for seen in &fixed {
             assert!(left(seen) > 0);
-            assert_eq!(
-                seen.1.statistics.memory_bytes,
-                growing[0].1.statistics.memory_bytes
-            );
+            assert_eq!(seen.1.statistics.memory_bytes, growing[0].1.statistics.memory_bytes);
         }
     });
 }
@@ -248,10 +232,7 @@ fn first_frames_take_at_most_a_gibibyte_on_gpus() {
 #[test]
 fn the_table_says_what_frames_take() {
     let world = World::new();
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/docs/bench/room-lavapipe-22.3.csv"
-    );
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/bench/room-lavapipe-22.3.csv");
     let mut rows = String::from("device,width,height,samples,bytes,rounds\n");
     let mut driver = String::new();
     let mut add = |device: &str, gpu: &mut Headless| {
@@ -282,34 +263,19 @@ fn the_table_says_what_frames_take() {
         return;
     }
     let known = std::fs::read_to_string(path).unwrap();
-    let known: Vec<_> = known
-        .lines()
-        .filter(|line| !line.starts_with('#'))
-        .collect();
+    let known: Vec<_> = known.lines().filter(|line| !line.starts_with('#')).collect();
     if known[..] == rows.lines().collect::<Vec<_>>()[..] {
         return;
     }
     // Drivers round sizes up, and wider subgroups have shorter work lists.
     let [known, found] = [known, rows.lines().collect()].map(|lines| {
-        let numbers = |line: &str| {
-            line.rsplit(',')
-                .take(2)
-                .map(str::parse)
-                .collect::<Result<Vec<f64>, _>>()
-        };
-        lines
-            .iter()
-            .skip(1)
-            .map(|line| numbers(line).unwrap())
-            .collect::<Vec<_>>()
+        let numbers = |line: &str| line.rsplit(',').take(2).map(str::parse).collect::<Result<Vec<f64>, _>>();
+        lines.iter().skip(1).map(|line| numbers(line).unwrap()).collect::<Vec<_>>()
     });
     assert_eq!(known.len(), found.len());
     for (known, found) in known.iter().zip(&found) {
         for (known, found) in known.iter().zip(found) {
-            assert!(
-                (known / found - 1.0).abs() < 0.02,
-                "{known} is {found} now; see GPC_ROOM"
-            );
+            assert!((known / found - 1.0).abs() < 0.02, "{known} is {found} now; see GPC_ROOM");
         }
     }
 }

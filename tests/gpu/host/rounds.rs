@@ -31,19 +31,14 @@ fn finishes_in_little_memory(gpu: &mut Headless) {
     let lent = world.lent(&PLACED);
     let size = [256, 192];
     let see = |max_memory| {
-        let options = options(size)
-            .shading(Shading::Sample)
-            .max_memory(max_memory);
+        let options = options(size).shading(Shading::Sample).max_memory(max_memory);
         machine.see_lent(&PLACED, &lent, Base::Nothing, options)
     };
     let roomy = see(None);
     let bytes = roomy.outcome.statistics.memory_bytes;
     let tight = see(Some(bytes / 6));
     let [few, many] = [&roomy, &tight].map(|seen| seen.outcome.statistics.rounds);
-    eprintln!(
-        "{few} {many} {bytes} {}",
-        tight.outcome.statistics.memory_bytes
-    );
+    eprintln!("{few} {many} {bytes} {}", tight.outcome.statistics.memory_bytes);
     assert!(few < 5 && many > 40, "{few} and {many} rounds");
     for seen in [&roomy, &tight] {
         assert_eq!(seen.outcome.left_over, 0);
@@ -67,10 +62,7 @@ fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
     let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
     let lent = world.lent(&PLACED);
     let see = |max_rounds| {
-        let options = options(SIZE)
-            .samples(1024)
-            .shading(Shading::Sample)
-            .max_rounds(max_rounds);
+        let options = options(SIZE).samples(1024).shading(Shading::Sample).max_rounds(max_rounds);
         machine.see_lent(&PLACED, &lent, Base::All(&drawn), options)
     };
     let whole = see(None);
@@ -78,10 +70,7 @@ fn keeps_what_bounded_rounds_leave(gpu: &mut Headless) {
     let rounds = whole.outcome.statistics.rounds;
     assert!(rounds > 5, "{rounds}");
     let part = |seen: &Seen| {
-        let pixels = seen
-            .colors
-            .iter()
-            .zip(whole.colors.iter().zip(&drawn.colors));
+        let pixels = seen.colors.iter().zip(whole.colors.iter().zip(&drawn.colors));
         let [mut kept, mut sampled] = [0, 0];
         for (found, (whole, drawn)) in pixels {
             assert!(found == whole || found == drawn);
@@ -113,10 +102,7 @@ fn bounded_rounds_leave_pixels_as_they_were_drawn() {
 
 #[test]
 fn bounded_rounds_leave_pixels_as_they_were_drawn_without_conditional_rendering() {
-    within(
-        without_conditional_rendering,
-        keeps_what_bounded_rounds_leave,
-    );
+    within(without_conditional_rendering, keeps_what_bounded_rounds_leave);
 }
 
 /// A host that skips its shading in idle rounds gets the same picture as a host that does not. Dispatches in idle
@@ -132,11 +118,7 @@ fn dispatches_nothing_in_vain(gpu: &mut Headless) {
         let called = seen.dispatched.iter().filter(|groups| **groups > 0).count() as u64;
         // One call shades the centres.
         assert_eq!(called, 1 + seen.outcome.statistics.rounds);
-        assert!(
-            seen.dispatched.len() as u64 > 2 * called,
-            "{:?}",
-            seen.dispatched
-        );
+        assert!(seen.dispatched.len() as u64 > 2 * called, "{:?}", seen.dispatched);
         bits(&seen.colors)
     });
     assert!(skipping == calling);

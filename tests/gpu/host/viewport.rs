@@ -21,24 +21,11 @@ fn a_part_of_a_viewport_is_that_part_of_the_picture() {
     on_gpu(|gpu| {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
-        let options = |size: [u32; 2]| {
-            Options::new(size[0], size[1])
-                .flat_background(true)
-                .detection(Detection::Every)
-        };
+        let options = |size: [u32; 2]| Options::new(size[0], size[1]).flat_background(true).detection(Detection::Every);
         let corner = [13, 11];
         let size = [0, 1].map(|axis| SIZE[axis] - 2 * corner[axis]);
-        let viewport = Viewport {
-            x: 0.0,
-            y: 0.0,
-            width: SIZE[0] as f32,
-            height: SIZE[1] as f32,
-        };
-        let way = Way {
-            corner,
-            viewport: Some(viewport),
-            ..PLACED
-        };
+        let viewport = Viewport { x: 0.0, y: 0.0, width: SIZE[0] as f32, height: SIZE[1] as f32 };
+        let way = Way { corner, viewport: Some(viewport), ..PLACED };
         let lent = world.lent(&PLACED);
         let whole = machine.see_lent(&PLACED, &lent, Base::All(&drawn), options(SIZE));
         let cut = Drawn {
@@ -63,23 +50,13 @@ fn a_part_of_a_viewport_is_that_part_of_the_picture() {
 fn a_viewport_scales_and_moves_clip_space() {
     on_gpu(|gpu| {
         let mut world = World::new();
-        let viewport = Viewport {
-            x: -20.5,
-            y: -7.25,
-            width: 96.0,
-            height: 80.5,
-        };
-        let in_viewport = Way {
-            viewport: Some(viewport),
-            ..PLACED
-        };
+        let viewport = Viewport { x: -20.5, y: -7.25, width: 96.0, height: 80.5 };
+        let in_viewport = Way { viewport: Some(viewport), ..PLACED };
         let options = Options::new(SIZE[0], SIZE[1]).flat_background(true);
         let see = |world: &World, way: &Way| {
             let machine = Machine::new(gpu, world);
             let lent = world.lent(way);
-            machine
-                .see_lent(way, &lent, Base::Nothing, options.clone())
-                .colors
+            machine.see_lent(way, &lent, Base::Nothing, options.clone()).colors
         };
         let found = see(&world, &in_viewport);
         let unmoved = see(&world, &PLACED);
@@ -108,10 +85,7 @@ fn depth_ranges_do_not_change_the_picture() {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
         let see = |depth_range| {
-            let way = Way {
-                depth_range,
-                ..PLACED
-            };
+            let way = Way { depth_range, ..PLACED };
             let seen = machine.see(&way, Base::All(&drawn));
             (seen.outcome.statistics.superpixels, seen.colors)
         };

@@ -143,9 +143,7 @@ pub struct Drawn {
 }
 
 pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|column| {
-        std::array::from_fn(|row| (0..4).map(|i| a[i][row] * b[column][i]).sum())
-    })
+    std::array::from_fn(|column| std::array::from_fn(|row| (0..4).map(|i| a[i][row] * b[column][i]).sum()))
 }
 
 /// Perspective projection, y down, with depth from 1 at the near plane to 0 at infinity.
@@ -159,22 +157,13 @@ pub fn projection() -> Matrix {
 /// Rotation about the view direction and the vertical axis, followed by a translation.
 pub fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
     let ((s, c), (t, d)) = (around.sin_cos(), turned.sin_cos());
-    [
-        [c * d, s, -c * t, 0.0],
-        [-s * d, c, s * t, 0.0],
-        [t, 0.0, d, 0.0],
-        [at[0], at[1], at[2], 1.0],
-    ]
+    [[c * d, s, -c * t, 0.0], [-s * d, c, s * t, 0.0], [t, 0.0, d, 0.0], [at[0], at[1], at[2], 1.0]]
 }
 
 impl World {
     /// A world of blades, some thinner than a pixel, in front of sheets; each mesh is shown several times.
     pub fn new() -> Self {
-        let mut blades = Mesh {
-            positions: vec![[0.0; 3]],
-            paints: vec![0.2],
-            ..Mesh::default()
-        };
+        let mut blades = Mesh { positions: vec![[0.0; 3]], paints: vec![0.2], ..Mesh::default() };
         for blade in 0..9_u32 {
             let (angle, wide) = (0.7 * blade as f32, 0.01 + 0.012 * blade as f32);
             for (side, paint) in [(-wide, 0.5), (wide, 1.0)] {
@@ -198,11 +187,7 @@ impl World {
         }
         let part = |mesh, number: u32| {
             let n = number as f32;
-            let at = [
-                (2.3 * n).sin() * 0.8,
-                (1.7 * n).cos() * 0.7,
-                -2.0 - 0.37 * n,
-            ];
+            let at = [(2.3 * n).sin() * 0.8, (1.7 * n).cos() * 0.7, -2.0 - 0.37 * n];
             Part {
                 mesh,
                 to_clip: product(&projection(), &placed(0.31 + n, 0.4 * n, at)),
@@ -318,11 +303,7 @@ impl World {
             paints,
             coordinates,
             indices: index_bytes,
-            index_type: if way.short_indices {
-                vk::IndexType::UINT16
-            } else {
-                vk::IndexType::UINT32
-            },
+            index_type: if way.short_indices { vk::IndexType::UINT16 } else { vk::IndexType::UINT32 },
             index_count: indices.len() as u32,
             triangle_count: draws.iter().map(|draw| draw.triangle_count).sum(),
             draws,
@@ -336,9 +317,7 @@ impl World {
             let mesh = &self.meshes[part.mesh];
             let places: Vec<_> = mesh.clip(&part.to_clip).collect();
             let triangles = mesh.indices.chunks_exact(3);
-            triangles
-                .map(|t| [0, 1, 2].map(|corner| places[t[corner] as usize]))
-                .collect::<Vec<_>>()
+            triangles.map(|t| [0, 1, 2].map(|corner| places[t[corner] as usize])).collect::<Vec<_>>()
         };
         self.parts.iter().flat_map(of_part).collect()
     }
@@ -349,14 +328,7 @@ impl World {
             let mesh = &self.meshes[part.mesh];
             let triangles = mesh.indices.chunks_exact(3);
             let color = part.color;
-            triangles
-                .map(|t| {
-                    (
-                        color,
-                        [0, 1, 2].map(|corner| mesh.paints[t[corner] as usize]),
-                    )
-                })
-                .collect::<Vec<_>>()
+            triangles.map(|t| (color, [0, 1, 2].map(|corner| mesh.paints[t[corner] as usize]))).collect::<Vec<_>>()
         };
         self.parts.iter().flat_map(of_part).collect()
     }
@@ -369,20 +341,13 @@ impl World {
             let corners = corners.map(in_pixels);
             Some((bounds(&corners), Surface::new(id, corners, true)?))
         });
-        Surfaces {
-            surfaces: surfaces.collect(),
-            looks: self.looks(),
-        }
+        Surfaces { surfaces: surfaces.collect(), looks: self.looks() }
     }
 
     /// Images of the centres of pixels.
     pub fn drawn(&self) -> Drawn {
         let surfaces = self.surfaces();
-        let mut drawn = Drawn {
-            ids: Vec::new(),
-            depths: Vec::new(),
-            colors: Vec::new(),
-        };
+        let mut drawn = Drawn { ids: Vec::new(), depths: Vec::new(), colors: Vec::new() };
         for pixel in 0..SIZE[0] * SIZE[1] {
             let at = [pixel % SIZE[0], pixel / SIZE[0]];
             let hit = surfaces.at(at.map(|at| f64::from(at) + 0.5));

@@ -1,8 +1,6 @@
 //! Sampling at locations that other paths sample too: the results are the same.
 
-use gpc::render::{
-    EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics,
-};
+use gpc::render::{EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics};
 use gpc::sampling::Pattern;
 
 use super::{pinhole, planar};
@@ -20,12 +18,7 @@ const SIZE: [u32; 2] = [64, 64];
 const FEW_PIXELS: [u32; 2] = [32, 32];
 
 fn stages() -> [(&'static str, Stage); 4] {
-    [
-        ("soup", soup(7, 300, true, [-1.0, 5.0])),
-        ("lit", ball_over_checker()),
-        ("mask", checker()),
-        ("blend", panes()),
-    ]
+    [("soup", soup(7, 300, true, [-1.0, 5.0])), ("lit", ball_over_checker()), ("mask", checker()), ("blend", panes())]
 }
 
 /// The device's rasterizer rounds vertices to 2^-8 pixel, so that a few pixels may differ.
@@ -35,18 +28,12 @@ fn a_planar_set_sees_what_raster_sees() {
         let stage = soup(5, 300, true, [-1.0, 5.0]);
         let raster = ids(&stage.render(gpu, &once(SIZE)));
         let prepared = stage.upload(gpu);
-        let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &once_each())
-            .unwrap();
+        let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &once_each()).unwrap();
         let twin = Twin::new(&stage, SIZE);
         let mut differ = 0;
         for (pixel, (raster, seen)) in raster.into_iter().zip(seen.values).enumerate() {
             let (_, doubtful) = twin.rasterized(pixel, centre(pixel, SIZE));
-            assert!(
-                raster == seen.id || doubtful,
-                "pixel {pixel}: {raster} and {}",
-                seen.id
-            );
+            assert!(raster == seen.id || doubtful, "pixel {pixel}: {raster} and {}", seen.id);
             differ += u32::from(raster != seen.id);
         }
         assert!(differ <= 41, "{differ} of 4096");
@@ -61,9 +48,7 @@ fn points_are_superpixels_of_one_sample() {
             let settings = everywhere(SIZE, Pattern::Sobol, 1).background(Some([0.25, 0.5, 0.75]));
             let image = stage.render(gpu, &settings);
             let prepared = stage.upload(gpu);
-            let points = gpu
-                .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &settings.scene)
-                .unwrap();
+            let points = gpu.sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &settings.scene).unwrap();
             for (pixel, (image, point)) in image.colors.iter().zip(&points.values).enumerate() {
                 assert_eq!(image, &point.color, "{name}, pixel {pixel}");
             }
@@ -96,14 +81,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 (P::Lines, S::Triangle, 17),
             ];
             match name {
-                "soup" => {
-                    cases.extend([(P::Sobol, S::Triangle, 300), (P::Lines, S::Triangle, 300)])
-                }
-                "lit" => cases.extend([
-                    (P::Sobol, S::Part, 64),
-                    (P::Sobol, S::Sample, 64),
-                    (P::Lines, S::Part, 64),
-                ]),
+                "soup" => cases.extend([(P::Sobol, S::Triangle, 300), (P::Lines, S::Triangle, 300)]),
+                "lit" => cases.extend([(P::Sobol, S::Part, 64), (P::Sobol, S::Sample, 64), (P::Lines, S::Part, 64)]),
                 _ => {}
             }
             for (pattern, shading, samples) in cases {
@@ -111,15 +90,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                     .map_superpixels(|options| options.shading(shading));
                 let image = stage.render(gpu, &settings);
                 let (pinhole, places) = (pinhole(FEW_PIXELS), planar(FEW_PIXELS));
-                let locations = gpu
-                    .sample_superpixels(
-                        &prepared,
-                        &pinhole,
-                        &places,
-                        &cells(&settings),
-                        &settings.scene,
-                    )
-                    .unwrap();
+                let locations =
+                    gpu.sample_superpixels(&prepared, &pinhole, &places, &cells(&settings), &settings.scene).unwrap();
                 let pairs = || image.colors.iter().zip(&locations.values);
                 if shading == S::Part {
                     // Locations have no neighbours whose colours could be compared, and are shaded in all parts.
@@ -134,15 +106,11 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 if pattern == P::Lines {
                     // Frames know more exactly which triangles touch a pixel, and the first of these triangles decides
                     // between rows and columns.
-                    assert!(
-                        differ * 50 < image.colors.len(),
-                        "{name}, {samples} samples: {differ}"
-                    );
+                    assert!(differ * 50 < image.colors.len(), "{name}, {samples} samples: {differ}");
                     continue;
                 }
                 assert_eq!(differ, 0, "{name}, {samples} samples");
-                let counts =
-                    |statistics: &Statistics| (statistics.superpixels, statistics.resampled);
+                let counts = |statistics: &Statistics| (statistics.superpixels, statistics.resampled);
                 assert_eq!(counts(&locations.statistics), counts(&image.statistics));
             }
         }
@@ -156,9 +124,7 @@ fn least<T: std::fmt::Debug>(
     mut call: impl FnMut(&Settings) -> Result<Sampled<T>, RenderError>,
 ) -> Sampled<T> {
     for extra in (0..256).map(|step| step << 16) {
-        let tight = settings
-            .clone()
-            .max_memory(Some(prepared.memory_bytes() + extra));
+        let tight = settings.clone().max_memory(Some(prepared.memory_bytes() + extra));
         match call(&tight) {
             Err(RenderError::Engine(EngineError::Memory { .. })) => {}
             sampled => {
@@ -181,32 +147,18 @@ fn the_order_of_locations_does_not_matter() {
             let settings = everywhere(SIZE, Pattern::Sobol, 16);
             let locations = planar(SIZE);
             let mut random = Random::new(11);
-            let mut shuffled: Vec<_> = locations
-                .iter()
-                .chain(&locations[100..900])
-                .copied()
-                .collect();
+            let mut shuffled: Vec<_> = locations.iter().chain(&locations[100..900]).copied().collect();
             for last in (1..shuffled.len()).rev() {
                 shuffled.swap(last, random.below(last as u64 + 1) as usize);
             }
-            let first = gpu
-                .sample_points(&prepared, &pinhole, &locations, &settings.scene)
-                .unwrap();
-            let again = least(&prepared, &settings, |tight| {
-                gpu.sample_points(&prepared, &pinhole, &shuffled, &tight.scene)
-            });
+            let first = gpu.sample_points(&prepared, &pinhole, &locations, &settings.scene).unwrap();
+            let again =
+                least(&prepared, &settings, |tight| gpu.sample_points(&prepared, &pinhole, &shuffled, &tight.scene));
             for (location, value) in shuffled.iter().zip(&again.values) {
                 assert_eq!(*value, first.values[location.output as usize], "{name}");
             }
-            let first = gpu
-                .sample_superpixels(
-                    &prepared,
-                    &pinhole,
-                    &locations,
-                    &cells(&settings),
-                    &settings.scene,
-                )
-                .unwrap();
+            let first =
+                gpu.sample_superpixels(&prepared, &pinhole, &locations, &cells(&settings), &settings.scene).unwrap();
             let again = least(&prepared, &settings, |tight| {
                 gpu.sample_superpixels(&prepared, &pinhole, &shuffled, &cells(tight), &tight.scene)
             });

@@ -19,11 +19,7 @@ pub fn pinhole(size: [u32; 2]) -> Pinhole {
 
 /// A location whose cell is a pixel of the plane.
 fn location(uv: [f64; 2], output: u32) -> SampleLocation {
-    SampleLocation {
-        uv,
-        jacobian: [[1.0, 0.0], [0.0, 1.0]],
-        output,
-    }
+    SampleLocation { uv, jacobian: [[1.0, 0.0], [0.0, 1.0]], output }
 }
 
 /// Locations at the centres of an image's pixels.

@@ -22,9 +22,7 @@ fn sets_that_hold_the_same_locations_see_the_same() {
         let no_pattern = SamplingSet::no_pattern(SIZE, reversed, None, 5).unwrap();
         assert!(matches!(no_pattern.layout(), Layout::Tree(leaves) if leaves.len() > 300));
         let mut sample = |set: &SamplingSet| {
-            gpu.sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings)
-                .unwrap()
-                .values
+            gpu.sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings).unwrap().values
         };
         let expected = sample(&planar);
         assert!(expected.iter().any(|sample| sample.id != 0));
@@ -39,26 +37,16 @@ fn sets_that_hold_the_same_locations_see_the_same() {
 fn a_superpixel_set_of_points_is_the_superpixels() {
     on_gpu(|gpu| {
         let prepared = ball_over_checker().upload(gpu);
-        let settings = everywhere(SIZE, Pattern::Sobol, 16)
-            .map_superpixels(|options| options.shading(Shading::Sample));
+        let settings = everywhere(SIZE, Pattern::Sobol, 16).map_superpixels(|options| options.shading(Shading::Sample));
         let marks: Vec<_> = (0..SIZE[0] * SIZE[1]).map(|pixel| pixel % 3 != 0).collect();
         let offsets = Pattern::Sobol.offsets(16).unwrap();
         let set = SamplingSet::superpixel(SIZE, &marks, &offsets).unwrap();
-        let points = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings.scene)
-            .unwrap();
+        let points = gpu.sample_points(&prepared, &pinhole(SIZE), &set.locations(), &settings.scene).unwrap();
         let colors: Vec<_> = points.values.iter().map(|sample| sample.color).collect();
         let means = set.image(&colors);
         let planar = SamplingSet::planar(SIZE).unwrap().locations();
-        let superpixels = gpu
-            .sample_superpixels(
-                &prepared,
-                &pinhole(SIZE),
-                &planar,
-                &cells(&settings),
-                &settings.scene,
-            )
-            .unwrap();
+        let superpixels =
+            gpu.sample_superpixels(&prepared, &pinhole(SIZE), &planar, &cells(&settings), &settings.scene).unwrap();
         let pixels = marks.iter().zip(means.iter().zip(&superpixels.values));
         for (mean, color) in pixels.filter(|(marked, _)| **marked).map(|(_, pair)| pair) {
             let error = (0..4).map(|i| (mean[i] - color[i]).abs() / (1.0 + color[i].abs()));

@@ -16,18 +16,11 @@ use crate::stage::{Stage, camera, flat, on_gpu, seen_at};
 const SIZE: [u32; 2] = [96, 64];
 
 fn settings(detection: Detection, thin: bool) -> Settings {
-    Settings::new(SIZE[0], SIZE[1])
-        .attributes(true)
-        .map_superpixels(|options| options.detection(detection).thin(thin))
+    Settings::new(SIZE[0], SIZE[1]).attributes(true).map_superpixels(|options| options.detection(detection).thin(thin))
 }
 
 /// Colours at locations on the stages' pinhole.
-fn seen(
-    gpu: &mut Headless,
-    scene: &PreparedScene,
-    locations: &[SampleLocation],
-    settings: &Settings,
-) -> Rendered {
+fn seen(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation], settings: &Settings) -> Rendered {
     let rig: [(Pinhole, Vec<SampleLocation>); 1] = [(pinhole(SIZE), locations.to_vec())];
     gpu.render_locations(scene, &rig, settings).unwrap()
 }
@@ -39,12 +32,7 @@ fn energy(rendered: &Rendered) -> f64 {
 /// Energy of the image, with and without the search for thin triangles, as a share of its energy with superpixels
 /// everywhere.
 fn shares(gpu: &mut Headless, scene: &PreparedScene, locations: &[SampleLocation]) -> [f64; 2] {
-    let all = energy(&seen(
-        gpu,
-        scene,
-        locations,
-        &settings(Detection::Every, false),
-    ));
+    let all = energy(&seen(gpu, scene, locations, &settings(Detection::Every, false)));
     assert!(all > 5.0, "{all}");
     [true, false].map(|thin| {
         let found = seen(gpu, scene, locations, &settings(Detection::Contrast, thin));
@@ -73,8 +61,8 @@ fn wires_of_a_planar_set_are_the_images() {
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
             // Frames and lists may differ in whether a cell has rows or columns.
-            let settings = settings(Detection::Contrast, true)
-                .map_superpixels(|options| options.pattern(Pattern::Sobol));
+            let settings =
+                settings(Detection::Contrast, true).map_superpixels(|options| options.pattern(Pattern::Sobol));
             let image = stage.render(gpu, &settings);
             let scene = stage.upload(gpu);
             let locations = seen(gpu, &scene, &planar(SIZE), &settings);
@@ -83,12 +71,7 @@ fn wires_of_a_planar_set_are_the_images() {
             assert!(image.statistics.superpixels > 1000);
             assert!(differ <= 24, "{differ} superpixels differ at {distance}");
             let far = |(a, b): &(&[f32; 4], &[f32; 4])| (a[0] - b[0]).abs() > 1e-3;
-            let differ = image
-                .colors
-                .iter()
-                .zip(&locations.colors)
-                .filter(far)
-                .count();
+            let differ = image.colors.iter().zip(&locations.colors).filter(far).count();
             assert!(differ <= 24, "{differ} colours differ at {distance}");
         }
     });
@@ -115,15 +98,7 @@ fn wires_past_the_eye_keep_their_energy() {
         for wire in 0..10 {
             let x = f64::from(wire) * 0.31 - 1.53;
             let corner = |x: f64, z: f64| [x, 1.5, z].map(|v| v as f32);
-            stage.add_quad(
-                0,
-                [
-                    corner(x, 5.0),
-                    corner(x + 0.004, 5.0),
-                    corner(x + 0.004, -40.0),
-                    corner(x, -40.0),
-                ],
-            );
+            stage.add_quad(0, [corner(x, 5.0), corner(x + 0.004, 5.0), corner(x + 0.004, -40.0), corner(x, -40.0)]);
         }
         let scene = stage.upload(gpu);
         let [with, without] = shares(gpu, &scene, &planar(SIZE));
@@ -154,25 +129,12 @@ fn dense_meshes_make_no_superpixels() {
         for row in 1..rows {
             for column in 1..columns {
                 let [left, top] = [column - 1, row - 1];
-                stage.add_quad(
-                    0,
-                    [
-                        at(left, top),
-                        at(left, row),
-                        at(column, row),
-                        at(column, top),
-                    ],
-                );
+                stage.add_quad(0, [at(left, top), at(left, row), at(column, row), at(column, top)]);
             }
         }
         let scene = stage.upload(gpu);
         for stretch in [[1.0, 1.0], [0.5, 0.5], [1.1, 0.4]] {
-            let rendered = seen(
-                gpu,
-                &scene,
-                &scaled(stretch),
-                &settings(Detection::Contrast, true),
-            );
+            let rendered = seen(gpu, &scene, &scaled(stretch), &settings(Detection::Contrast, true));
             assert!(rendered.attributes.iter().all(|seen| seen.id != 0));
             assert_eq!(rendered.statistics.superpixels, 0, "{stretch:?}");
         }
@@ -185,9 +147,7 @@ fn specks_at_an_angle_to_the_wall_make_cells_superpixels() {
         let (stage, cosines) = specks(64);
         let scene = stage.upload(gpu);
         let rig = [(pinhole([64; 2]), planar([64; 2]))];
-        check_folds(64, &cosines, |settings| {
-            gpu.render_locations(&scene, &rig, settings).unwrap()
-        });
+        check_folds(64, &cosines, |settings| gpu.render_locations(&scene, &rig, settings).unwrap());
     });
 }
 
@@ -209,11 +169,7 @@ fn slivers(random: &mut Random) -> Stage {
         let along = [turn.cos(), turn.sin()];
         let place = |far: f64, aside: f64, depth: f64| {
             let x = at[0] + far * along[0] - aside * along[1];
-            seen_at(
-                [x, at[1] + far * along[1] + aside * along[0]],
-                depth,
-                SIZE[1],
-            )
+            seen_at([x, at[1] + far * along[1] + aside * along[0]], depth, SIZE[1])
         };
         let mut corners = [
             place(-length, 0.0, distance),
@@ -237,32 +193,20 @@ fn cells_are_marked_as_the_twin_has_it() {
         let mut random = Random::new(29);
         let stage = slivers(&mut random);
         let scene = stage.upload(gpu);
-        let level = Camera {
-            projection: Projection::Orthographic {
-                half_height: 2.7,
-                near: 0.5,
-                far: 50.0,
-            },
-            ..camera()
-        };
+        let level =
+            Camera { projection: Projection::Orthographic { half_height: 2.7, near: 0.5, far: 50.0 }, ..camera() };
         let level = Pinhole::from_camera(&level, SIZE).unwrap();
         // Parallel rays are seen from very far away.
         let far = level.eye() - 1e9 * level.direction();
-        for (pinhole, eye, samples) in [
-            (pinhole(SIZE), DVec3::ZERO, 64),
-            (pinhole(SIZE), DVec3::ZERO, 128),
-            (level, far, 64),
-            (level, far, 128),
-        ] {
+        for (pinhole, eye, samples) in
+            [(pinhole(SIZE), DVec3::ZERO, 64), (pinhole(SIZE), DVec3::ZERO, 128), (level, far, 64), (level, far, 128)]
+        {
             let locations: Vec<SampleLocation> = planar(SIZE)
                 .into_iter()
                 .map(|location| {
                     let reach = [0.3, 0.7, 1.2][location.output as usize % 3];
                     let mut number = || random.range(-reach, reach);
-                    SampleLocation {
-                        jacobian: [[number() + 0.9, number()], [number(), number() + 0.9]],
-                        ..location
-                    }
+                    SampleLocation { jacobian: [[number() + 0.9, number()], [number(), number() + 0.9]], ..location }
                 })
                 .collect();
             // No colours differ by more than 255, and detection of edges leaves second differences out.
@@ -285,11 +229,7 @@ fn cells_are_marked_as_the_twin_has_it() {
                         continue;
                     };
                     let other = seen.id != 0 && seen.id != id && samples >= 128;
-                    let cosine = if other {
-                        cosine(corners(id), corners(seen.id), eye)
-                    } else {
-                        1.0
-                    };
+                    let cosine = if other { cosine(corners(id), corners(seen.id), eye) } else { 1.0 };
                     let marks = |by: f64, cosine: f64| {
                         let behind = view.behind(f64::from(seen.depth)) + by;
                         let mark = crossing.mark(behind, cosine < FOLD);
@@ -310,12 +250,7 @@ fn cells_are_marked_as_the_twin_has_it() {
                 marked += u32::from(sure);
                 doubtful += u32::from(unsure && !sure);
                 let found = seen.superpixel == 1;
-                assert!(
-                    found == sure || unsure && !sure,
-                    "{location:?} shows {} at {}: {found}",
-                    seen.id,
-                    seen.depth
-                );
+                assert!(found == sure || unsure && !sure, "{location:?} shows {} at {}: {found}", seen.id, seen.depth);
             }
             assert!(marked > 300 && doubtful < 300, "{marked} {doubtful}");
         }
@@ -345,16 +280,11 @@ fn bands_of_an_output_find_what_the_whole_does() {
         let copy = |copy: u32| {
             planar(SIZE)
                 .into_iter()
-                .map(move |location| SampleLocation {
-                    output: location.output + copy * width * height,
-                    ..location
-                })
+                .map(move |location| SampleLocation { output: location.output + copy * width * height, ..location })
         };
         let rig = [(pinhole(SIZE), (0..times).flat_map(copy).collect())];
         let size = [width, times * height];
-        let settings = settings(Detection::Exact, true)
-            .size(size)
-            .map_superpixels(|options| options.samples(4));
+        let settings = settings(Detection::Exact, true).size(size).map_superpixels(|options| options.samples(4));
         let rendered = gpu.render_locations(&scene, &rig, &settings).unwrap();
         let row = |row: u32| {
             let first = (row * width) as usize;

@@ -32,20 +32,14 @@ fn random_points_see_what_the_twin_sees() {
         let mut locations = planar(SIZE);
         locations.extend((0..count).map(|index| location([place(), place()], index)));
         let settings = everywhere(SIZE, Pattern::Sobol, 1);
-        let seen = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &locations, &settings.scene)
-            .unwrap();
+        let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &settings.scene).unwrap();
         let twin = Twin::new(&stage, SIZE);
         let (mut contested, mut excused, mut hits) = (0, 0, 0);
         for (location, found) in locations.iter().zip(&seen.values) {
             let at = location.uv.map(|v| v - 32.0);
             let exact = twin.nearest(pixel_of(at), at);
             let id = exact.nearest.map_or(0, |hit| hit.id);
-            assert!(
-                found.id == id || exact.contested(),
-                "at {at:?}: {} instead of {id}; {exact:?}",
-                found.id
-            );
+            assert!(found.id == id || exact.contested(), "at {at:?}: {} instead of {id}; {exact:?}", found.id);
             contested += u32::from(exact.contested());
             excused += u32::from(found.id != id);
             hits += u32::from(id != 0);
@@ -64,9 +58,7 @@ fn points(samples: u32) -> Offsets {
 }
 
 fn rows_or_columns(lines: u32) -> Offsets {
-    [false, true]
-        .map(|columns| sample_lines::offsets(columns, lines))
-        .to_vec()
+    [false, true].map(|columns| sample_lines::offsets(columns, lines)).to_vec()
 }
 
 /// Locations whose cells are rotated, sheared, mirrored, wider and narrower than a pixel, in addition to the pixels.
@@ -78,10 +70,7 @@ fn sheared(random: &mut Random, count: usize) -> Vec<SampleLocation> {
         let mut number = |low: f64, high: f64| (random.range(low, high) * 1024.0).round() / 1024.0;
         locations.push(SampleLocation {
             uv: [number(8.0, 56.0), number(8.0, 56.0)],
-            jacobian: [
-                [number(-reach, reach), number(-reach, reach)],
-                [number(-reach, reach), number(-reach, reach)],
-            ],
+            jacobian: [[number(-reach, reach), number(-reach, reach)], [number(-reach, reach), number(-reach, reach)]],
             output: 0,
         });
     }
@@ -102,24 +91,15 @@ fn jacobians_place_sub_samples() {
             (Pattern::Lines, 256, rows_or_columns(32), 200),
         ] {
             let locations = sheared(&mut random, count);
-            let settings = everywhere(SIZE, pattern, samples)
-                .map_superpixels(|options| options.shading(Shading::Triangle));
+            let settings =
+                everywhere(SIZE, pattern, samples).map_superpixels(|options| options.shading(Shading::Triangle));
             let seen = gpu
-                .sample_superpixels(
-                    &prepared,
-                    &pinhole(SIZE),
-                    &locations,
-                    &cells(&settings),
-                    &settings.scene,
-                )
+                .sample_superpixels(&prepared, &pinhole(SIZE), &locations, &cells(&settings), &settings.scene)
                 .unwrap();
             let (mut clear, mut doubtful, mut differ) = (0, 0, 0);
             for (location, found) in locations.iter().zip(&seen.values) {
-                let fit = sets
-                    .iter()
-                    .map(|offsets| judge(&twin, location, offsets, *found));
-                let (fits, contested) =
-                    fit.fold((false, u32::MAX), |a, b| (a.0 || b.0, a.1.min(b.1)));
+                let fit = sets.iter().map(|offsets| judge(&twin, location, offsets, *found));
+                let (fits, contested) = fit.fold((false, u32::MAX), |a, b| (a.0 || b.0, a.1.min(b.1)));
                 differ += u64::from(!fits);
                 clear += usize::from(contested == 0);
                 doubtful += contested as usize;
@@ -131,26 +111,14 @@ fn jacobians_place_sub_samples() {
             );
             // Of hundreds of samples of a cell, some are near an edge.
             let few = doubtful * 10 <= total * sets[0].len();
-            let is_clear = if sets.len() == 1 {
-                clear * 2 > total
-            } else {
-                few
-            };
-            assert!(
-                is_clear,
-                "{clear} of {total} locations are clear, {doubtful} samples are not"
-            );
+            let is_clear = if sets.len() == 1 { clear * 2 > total } else { few };
+            assert!(is_clear, "{clear} of {total} locations are clear, {doubtful} samples are not");
         }
     });
 }
 
 /// Whether a colour is the mean of what samples at these offsets see, and how many of them rounding decides.
-fn judge(
-    twin: &Twin,
-    location: &SampleLocation,
-    offsets: &[[f64; 2]],
-    found: [f32; 4],
-) -> (bool, u32) {
+fn judge(twin: &Twin, location: &SampleLocation, offsets: &[[f64; 2]], found: [f32; 4]) -> (bool, u32) {
     let [column, row] = location.jacobian;
     let mut sum = [0.0; 3];
     let mut contested = 0;
@@ -165,7 +133,6 @@ fn judge(
     }
     let count = offsets.len() as f64;
     let allowed = 0.004 + 4095.0 * f64::from(contested) / count;
-    let fits =
-        (0..3).all(|channel| (f64::from(found[channel]) - sum[channel] / count).abs() <= allowed);
+    let fits = (0..3).all(|channel| (f64::from(found[channel]) - sum[channel] / count).abs() <= allowed);
     (fits, contested)
 }

@@ -34,11 +34,7 @@ struct Case {
 impl Case {
     fn new((name, plane): (&'static str, Plane)) -> Self {
         let expected = plane.expected();
-        Self {
-            name,
-            plane,
-            expected,
-        }
+        Self { name, plane, expected }
     }
 }
 
@@ -59,19 +55,10 @@ static PATTERNS: LazyLock<[Case; 4]> = LazyLock::new(|| {
 fn modes() -> [Case; 8] {
     use Filter::{Linear, Nearest};
     use Wrap::{ClampToEdge, MirroredRepeat, Repeat};
-    let sampler = |mag, min, mip, wrap_u| Sampler {
-        mag,
-        min,
-        mip,
-        wrap_u,
-        wrap_v: Repeat,
-    };
+    let sampler = |mag, min, mip, wrap_u| Sampler { mag, min, mip, wrap_u, wrap_v: Repeat };
     let turned = |degrees: f32, scale: [f32; 2]| {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        TextureTransform([
-            [cos * scale[0], sin * scale[1], 0.3],
-            [-sin * scale[0], cos * scale[1], -0.2],
-        ])
+        TextureTransform([[cos * scale[0], sin * scale[1], 0.3], [-sin * scale[0], cos * scale[1], -0.2]])
     };
     let plain = turned(0.0, [1.0; 2]);
     let trilinear = Sampler::default();
@@ -99,19 +86,12 @@ fn modes() -> [Case; 8] {
 /// Asserts that the reference equals the integral, and that the errors of superpixels and supersampling have the
 /// allowed ratio.
 fn check(headless: &mut Headless, case: &Case) {
-    let Case {
-        name,
-        plane,
-        expected,
-    } = case;
+    let Case { name, plane, expected } = case;
     let scene = plane.upload(headless);
     let truth = reference(headless, &scene, Footprint::Sample);
     let [whole, below] = [0, 1].map(|rows| rmse(&truth, expected, rows));
     println!("{name}: truth {whole:.5}, below the horizon's row {below:.5}");
-    assert!(
-        whole < TRUTH && below < TRUTH_BELOW,
-        "{name}: {whole} {below}"
-    );
+    assert!(whole < TRUTH && below < TRUTH_BELOW, "{name}: {whole} {below}");
     for (samples, most) in BESIDE_SSAA {
         let [superpixel, ssaa] = [MethodKind::Superpixel, MethodKind::Ssaa].map(|method| {
             let image = render(headless, &scene, &settings(method, samples));

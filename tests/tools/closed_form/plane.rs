@@ -3,9 +3,7 @@
 use super::texture::Texture;
 use gpc::bench::brute_force;
 use gpc::bench::stress::stage::{Stage, camera, textured};
-use gpc::render::{
-    Footprint, Headless, MethodKind, PreparedScene, Reference, SceneRequest, Settings,
-};
+use gpc::render::{Footprint, Headless, MethodKind, PreparedScene, Reference, SceneRequest, Settings};
 use gpc::scene::{AlphaMode, Filter, TextureTransform, TextureUse};
 use rayon::prelude::*;
 
@@ -32,34 +30,18 @@ pub struct Plane {
 impl Plane {
     /// A plane on which the texture covers four units, without a transform.
     pub fn new(texture: Texture) -> Self {
-        Self {
-            texture,
-            scale: 0.25,
-            transform: TextureTransform::default(),
-        }
+        Self { texture, scale: 0.25, transform: TextureTransform::default() }
     }
 
     /// Uploads the plane to a device.
     pub fn upload(&self, headless: &mut Headless) -> PreparedScene {
         let mut material = textured(AlphaMode::Opaque);
-        material.base_color_texture = Some(TextureUse {
-            texture: 0,
-            uv_set: 0,
-            transform: self.transform,
-        });
+        material.base_color_texture = Some(TextureUse { texture: 0, uv_set: 0, transform: self.transform });
         let mut stage = Stage::new(vec![material]);
         stage.texture = Some((self.texture.image.clone(), self.texture.sampler));
         // The plane starts in front of the near plane's lower edge, and is wide enough for the image's corners.
         let (near, far, side) = (0.5_f32, FAR as f32, 2.0 * FAR as f32);
-        stage.add_quad(
-            0,
-            [
-                [-side, -1.0, -near],
-                [side, -1.0, -near],
-                [side, -1.0, -far],
-                [-side, -1.0, -far],
-            ],
-        );
+        stage.add_quad(0, [[-side, -1.0, -near], [side, -1.0, -near], [side, -1.0, -far], [-side, -1.0, -far]]);
         for triangle in &mut stage.triangles {
             let scale = self.scale as f32;
             triangle.uvs = triangle.corners.map(|[x, _, z]| [scale * x, -scale * z]);
@@ -70,9 +52,9 @@ impl Plane {
 
     /// Texture coordinates of a place on the plane.
     fn coordinates(&self, right: f64, ahead: f64) -> [f64; 2] {
-        self.transform.0.map(|[a, b, c]| {
-            f64::from(a) * self.scale * right + f64::from(b) * self.scale * ahead + f64::from(c)
-        })
+        self.transform
+            .0
+            .map(|[a, b, c]| f64::from(a) * self.scale * right + f64::from(b) * self.scale * ahead + f64::from(c))
     }
 
     /// Mean over a row of a pixel: `x` is the pixel's left edge from the image's middle, `y` the distance of the row
@@ -93,8 +75,7 @@ impl Plane {
             [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
         ];
         let (low, high) = (1.0 / to, 1.0 / from);
-        let [near, far] =
-            [low, high].map(|t| self.coordinates(x * t, f64::from(SIZE[1]) / 2.0 * t));
+        let [near, far] = [low, high].map(|t| self.coordinates(x * t, f64::from(SIZE[1]) / 2.0 * t));
         let texels = f64::from(super::texture::SIDE);
         let length = (far[0] - near[0]).abs().max((far[1] - near[1]).abs()) * texels;
         let texel = match self.texture.sampler.mag {
@@ -122,8 +103,7 @@ impl Plane {
             let fraction = |step: f64| (0.5 + f64::from(index) * step).fract();
             let y = from + (to - from) * fraction(0.754_877_666_246_692_8);
             let place = x + fraction(0.569_840_290_998_053_3);
-            self.texture
-                .at(self.coordinates(place / y, f64::from(SIZE[1]) / 2.0 / y))
+            self.texture.at(self.coordinates(place / y, f64::from(SIZE[1]) / 2.0 / y))
         };
         (to - from) * (0..POINTS).map(point).sum::<f64>() / f64::from(POINTS)
     }
@@ -141,9 +121,7 @@ impl Plane {
             if y > 0.0 {
                 return self.integral(x, y, y + 1.0);
             }
-            edge * SKY
-                + self.integral_of_points(x, edge, NEAR_HORIZON)
-                + self.integral(x, NEAR_HORIZON, 1.0)
+            edge * SKY + self.integral_of_points(x, edge, NEAR_HORIZON) + self.integral(x, NEAR_HORIZON, 1.0)
         };
         (0..SIZE[0] * SIZE[1]).into_par_iter().map(pixel).collect()
     }
@@ -153,9 +131,7 @@ impl Plane {
 pub fn settings(method: MethodKind, samples: u32) -> Settings {
     Settings::new(SIZE[0], SIZE[1])
         .background(Some([SKY as f32; 3]))
-        .reference(Reference::Scene {
-            tonemapped_detection: false,
-        })
+        .reference(Reference::Scene { tonemapped_detection: false })
         .method(method.with_samples(samples))
 }
 
@@ -163,11 +139,7 @@ pub fn settings(method: MethodKind, samples: u32) -> Settings {
 pub fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<f64> {
     let mut frame = headless.prepare(scene, settings).unwrap();
     let rendered = headless.render(&mut frame, &camera()).unwrap();
-    rendered
-        .colors
-        .iter()
-        .map(|color| f64::from(color[0]))
-        .collect()
+    rendered.colors.iter().map(|color| f64::from(color[0])).collect()
 }
 
 /// Reference with 4,096 samples a pixel; `footprint` says over which area it reads textures.

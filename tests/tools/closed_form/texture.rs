@@ -20,17 +20,11 @@ impl Texture {
         let places = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
         let codes: Vec<u8> = places.map(|(x, y)| srgb::encode_u8(value(x, y))).collect();
         Self {
-            linear: codes
-                .iter()
-                .map(|code| srgb::decode(f64::from(*code) / 255.0))
-                .collect(),
+            linear: codes.iter().map(|code| srgb::decode(f64::from(*code) / 255.0)).collect(),
             image: Image {
                 width: SIDE,
                 height: SIDE,
-                pixels: codes
-                    .iter()
-                    .flat_map(|&code| [code, code, code, 255])
-                    .collect(),
+                pixels: codes.iter().flat_map(|&code| [code, code, code, 255]).collect(),
             },
             sampler,
         }
@@ -102,11 +96,7 @@ impl Texture {
     /// Adds the parameters at which a coordinate between two values crosses a line where the texture's formula
     /// changes.
     fn cut(&self, cuts: &mut Vec<f64>, from: f64, to: f64) {
-        let shift = if self.sampler.mag == Filter::Nearest {
-            0.0
-        } else {
-            0.5
-        };
+        let shift = if self.sampler.mag == Filter::Nearest { 0.0 } else { 0.5 };
         let line = |value: f64| value * f64::from(SIDE) - shift;
         let (low, high) = (line(from.min(to)), line(from.max(to)));
         let length = line(to) - line(from);
@@ -139,16 +129,8 @@ fn a_mean_along_a_line_is_that_of_many_points() {
     let filters = [Filter::Nearest, Filter::Linear];
     let wraps = [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge];
     for (mag, wrap) in filters.into_iter().flat_map(|f| wraps.map(|w| (f, w))) {
-        let texture = Texture::mosaic(Sampler {
-            mag,
-            wrap_u: wrap,
-            ..Sampler::default()
-        });
-        for (from, to) in [
-            ([-1.3, 0.2], [1.7, 0.9]),
-            ([0.4, -2.1], [0.1, 1.0]),
-            ([0.25, 0.5], [0.75, 0.5]),
-        ] {
+        let texture = Texture::mosaic(Sampler { mag, wrap_u: wrap, ..Sampler::default() });
+        for (from, to) in [([-1.3, 0.2], [1.7, 0.9]), ([0.4, -2.1], [0.1, 1.0]), ([0.25, 0.5], [0.75, 0.5])] {
             let points = 100_000;
             let point = |index: i32| {
                 let t = (f64::from(index) + 0.5) / f64::from(points);
@@ -156,10 +138,7 @@ fn a_mean_along_a_line_is_that_of_many_points() {
             };
             let many = (0..points).map(point).sum::<f64>() / f64::from(points);
             let found = texture.mean_along(from, to);
-            assert!(
-                (found - many).abs() < 2e-4,
-                "{mag:?} {wrap:?} {found} {many}"
-            );
+            assert!((found - many).abs() < 2e-4, "{mag:?} {wrap:?} {found} {many}");
         }
     }
 }

@@ -42,18 +42,9 @@ impl Density {
                 &CreateWindowAux::new(),
             )
             .unwrap();
-        let density = Self {
-            connection,
-            window,
-            atoms,
-        };
+        let density = Self { connection, window, atoms };
         density.set(dots);
-        density
-            .connection
-            .set_selection_owner(window, atoms._XSETTINGS_S0, CURRENT_TIME)
-            .unwrap()
-            .check()
-            .unwrap();
+        density.connection.set_selection_owner(window, atoms._XSETTINGS_S0, CURRENT_TIME).unwrap().check().unwrap();
         density
     }
 

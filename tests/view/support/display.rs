@@ -17,32 +17,16 @@ impl Display {
     pub fn open() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
-            .args([
-                "-displayfd",
-                "1",
-                "-screen",
-                "0",
-                "640x480x24",
-                "-noreset",
-                "-nolisten",
-                "tcp",
-                "-fbdir",
-            ])
+            .args(["-displayfd", "1", "-screen", "0", "640x480x24", "-noreset", "-nolisten", "tcp", "-fbdir"])
             .arg(folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .expect("Xvfb can't be started");
         let mut number = String::new();
-        BufReader::new(server.stdout.take().unwrap())
-            .read_line(&mut number)
-            .unwrap();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
         assert!(!number.trim().is_empty(), "Xvfb opened no display");
-        Self {
-            server,
-            name: format!(":{}", number.trim()),
-            folder,
-        }
+        Self { server, name: format!(":{}", number.trim()), folder }
     }
 
     /// Sends input with xdotool.
@@ -83,9 +67,7 @@ impl Display {
             let at = start + y * row + 4 * x;
             [bytes[at + 2], bytes[at + 1], bytes[at]]
         };
-        (0..height)
-            .flat_map(|y| (0..width).map(move |x| pixel(x, y)))
-            .collect()
+        (0..height).flat_map(|y| (0..width).map(move |x| pixel(x, y))).collect()
     }
 }
 

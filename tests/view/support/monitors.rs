@@ -65,10 +65,7 @@ impl Monitors {
             .expect("sway can't be started");
         let monitors = Self { server, folder };
         let until = Instant::now() + PATIENCE;
-        while !["sway", "wayland-1"]
-            .iter()
-            .all(|socket| monitors.folder.path().join(socket).exists())
-        {
+        while !["sway", "wayland-1"].iter().all(|socket| monitors.folder.path().join(socket).exists()) {
             assert!(Instant::now() < until, "sway opens no display");
             std::thread::sleep(Duration::from_millis(50));
         }
@@ -85,9 +82,7 @@ impl Monitors {
         let until = Instant::now() + PATIENCE;
         loop {
             let mut command = Command::new("swaymsg");
-            let command = command
-                .args(["--quiet", order])
-                .env("SWAYSOCK", self.folder.path().join("sway"));
+            let command = command.args(["--quiet", order]).env("SWAYSOCK", self.folder.path().join("sway"));
             let done = command.status().expect("swaymsg can't be started");
             if done.success() {
                 return;
@@ -111,9 +106,7 @@ impl Monitors {
     }
 
     fn on<'a>(&self, command: &'a mut Command) -> &'a mut Command {
-        command
-            .env("XDG_RUNTIME_DIR", self.folder.path())
-            .env("WAYLAND_DISPLAY", "wayland-1")
+        command.env("XDG_RUNTIME_DIR", self.folder.path()).env("WAYLAND_DISPLAY", "wayland-1")
     }
 }
 

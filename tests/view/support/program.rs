@@ -19,41 +19,22 @@ impl Program {
     /// Command `gpc view` with all log messages, under the validation layer.
     pub fn viewer(folder: &Path, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_gpc"));
-        command
-            .arg("view")
-            .args(arguments)
-            .current_dir(folder)
-            .env("GPC_VALIDATION", "1")
-            .env("RUST_LOG", "gpc=debug");
+        command.arg("view").args(arguments).current_dir(folder).env("GPC_VALIDATION", "1").env("RUST_LOG", "gpc=debug");
         command
     }
 
     pub fn start(command: &mut Command) -> Self {
-        let mut process = command
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         let (sender, lines) = channel();
         let errors = BufReader::new(process.stderr.take().unwrap());
-        std::thread::spawn(move || {
-            errors
-                .lines()
-                .map_while(Result::ok)
-                .try_for_each(|line| sender.send(line))
-        });
-        Self {
-            process,
-            lines,
-            said: Vec::new(),
-        }
+        std::thread::spawn(move || errors.lines().map_while(Result::ok).try_for_each(|line| sender.send(line)));
+        Self { process, lines, said: Vec::new() }
     }
 
     /// Waits for the next line that contains a text, and returns it.
     pub fn wait_for(&mut self, text: &str) -> String {
         let until = Instant::now() + PATIENCE;
-        self.wait_until(text, until)
-            .unwrap_or_else(|| panic!("no line with {text:?} came after {:#?}", self.said))
+        self.wait_until(text, until).unwrap_or_else(|| panic!("no line with {text:?} came after {:#?}", self.said))
     }
 
     pub fn wait_until(&mut self, text: &str, until: Instant) -> Option<String> {

@@ -21,12 +21,7 @@ impl<'a> Viewer<'a> {
     }
 
     /// Opens scenes as [`Self::open`] does, with variables of the environment.
-    pub fn open_with(
-        display: &'a Display,
-        folder: &Path,
-        arguments: &[&str],
-        variables: &[(&str, &Path)],
-    ) -> Self {
+    pub fn open_with(display: &'a Display, folder: &Path, arguments: &[&str], variables: &[(&str, &Path)]) -> Self {
         let program = Program::start(
             Program::viewer(folder, arguments)
                 .env("DISPLAY", &display.name)
@@ -46,11 +41,7 @@ impl<'a> Viewer<'a> {
             if let Some(line) = self.wait_until(text, soon) {
                 return line;
             }
-            assert!(
-                Instant::now() < until,
-                "no line with {text:?} came after {:#?}",
-                self.said
-            );
+            assert!(Instant::now() < until, "no line with {text:?} came after {:#?}", self.said);
         }
     }
 
@@ -94,9 +85,7 @@ impl<'a> Viewer<'a> {
         let line = self.repeat_until("copied: gpc ", |display| display.input(&["key", "ctrl+c"]));
         let (_, command) = line.split_once("copied: gpc ").unwrap();
         let words = command.split(' ');
-        words
-            .map(|word| word.trim_matches('\'').to_owned())
-            .collect()
+        words.map(|word| word.trim_matches('\'').to_owned()).collect()
     }
 
     /// Closes the window, and waits for that.

@@ -7,8 +7,8 @@ use std::time::Instant;
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    Atom, ClientMessageEvent, ConnectionExt, CreateWindowAux, EventMask, PropMode,
-    SELECTION_NOTIFY_EVENT, SelectionNotifyEvent, SelectionRequestEvent, WindowClass,
+    Atom, ClientMessageEvent, ConnectionExt, CreateWindowAux, EventMask, PropMode, SELECTION_NOTIFY_EVENT,
+    SelectionNotifyEvent, SelectionRequestEvent, WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
@@ -50,21 +50,11 @@ pub fn drop_file(display: &Display, target: u32, path: &Path) {
             &CreateWindowAux::new(),
         )
         .unwrap();
-    connection
-        .set_selection_owner(window, atoms.XdndSelection, CURRENT_TIME)
-        .unwrap();
-    let source = Source {
-        connection,
-        window,
-        target,
-        uris: format!("file://{}\r\n", path.display()),
-    };
+    connection.set_selection_owner(window, atoms.XdndSelection, CURRENT_TIME).unwrap();
+    let source = Source { connection, window, target, uris: format!("file://{}\r\n", path.display()) };
     source.send(atoms.XdndEnter, [5 << 24, atoms.URI_LIST, 0, 0]);
     let place = 100 << 16 | 100;
-    source.send(
-        atoms.XdndPosition,
-        [0, place, CURRENT_TIME, atoms.XdndActionCopy],
-    );
+    source.send(atoms.XdndPosition, [0, place, CURRENT_TIME, atoms.XdndActionCopy]);
     source.serve_until(atoms.XdndStatus);
     source.send(atoms.XdndDrop, [0, CURRENT_TIME, 0, 0]);
     source.serve_until(atoms.XdndFinished);
@@ -73,9 +63,7 @@ pub fn drop_file(display: &Display, target: u32, path: &Path) {
 impl Source {
     fn send(&self, kind: Atom, [a, b, c, d]: [u32; 4]) {
         let message = ClientMessageEvent::new(32, self.target, kind, [self.window, a, b, c, d]);
-        self.connection
-            .send_event(false, self.target, EventMask::NO_EVENT, message)
-            .unwrap();
+        self.connection.send_event(false, self.target, EventMask::NO_EVENT, message).unwrap();
         self.connection.flush().unwrap();
     }
 
@@ -114,9 +102,7 @@ impl Source {
             target: request.target,
             property: request.property,
         };
-        self.connection
-            .send_event(false, request.requestor, EventMask::NO_EVENT, notify)
-            .unwrap();
+        self.connection.send_event(false, request.requestor, EventMask::NO_EVENT, notify).unwrap();
         self.connection.flush().unwrap();
     }
 }

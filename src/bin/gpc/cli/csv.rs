@@ -3,8 +3,7 @@
 /// Parses a CSV whose header is one of `headers` and whose other lines hold a number for each column. Returns the
 /// number of columns, which tells the headers apart, and all numbers row by row.
 pub fn numbers(bytes: &[u8], headers: &[&[&str]]) -> Result<(usize, Vec<f64>), String> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|_| "it is no text in UTF-8, as a CSV must be".to_owned())?;
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text in UTF-8, as a CSV must be".to_owned())?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);
@@ -25,17 +24,11 @@ pub fn numbers(bytes: &[u8], headers: &[&[&str]]) -> Result<(usize, Vec<f64>), S
         let before = numbers.len();
         for field in line.split(',').map(str::trim) {
             let number = field.parse::<f64>();
-            numbers.push(
-                number.map_err(|_| format!("line {}: \"{field}\" is not a number", index + 1))?,
-            );
+            numbers.push(number.map_err(|_| format!("line {}: \"{field}\" is not a number", index + 1))?);
         }
         let found = numbers.len() - before;
         if found != names.len() {
-            return Err(format!(
-                "line {} has {found} numbers; the header promises {}",
-                index + 1,
-                names.len()
-            ));
+            return Err(format!("line {} has {found} numbers; the header promises {}", index + 1, names.len()));
         }
     }
     Ok((names.len(), numbers))

@@ -47,9 +47,7 @@ impl<'a> Device<'a> {
 pub fn run(args: &DevicesArgs) -> anyhow::Result<ExitCode> {
     let devices = Instance::new(InstanceOptions::default())?.devices()?;
     if args.json {
-        print::json(&DevicesReport {
-            devices: devices.iter().map(Device::of).collect(),
-        })?;
+        print::json(&DevicesReport { devices: devices.iter().map(Device::of).collect() })?;
     } else {
         for device in &devices {
             print::line(&text(device))?;
@@ -63,11 +61,8 @@ pub fn run(args: &DevicesArgs) -> anyhow::Result<ExitCode> {
 }
 
 fn text(device: &DeviceInfo) -> String {
-    let fitness = if device.missing.is_empty() {
-        "suitable".to_owned()
-    } else {
-        format!("lacks {}", device.missing.join(", "))
-    };
+    let fitness =
+        if device.missing.is_empty() { "suitable".to_owned() } else { format!("lacks {}", device.missing.join(", ")) };
     format!(
         "{}\n  {}, Vulkan {}, {}, {} MiB, subgroups of {}\n  {fitness}",
         device.name,

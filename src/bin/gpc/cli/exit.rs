@@ -68,9 +68,7 @@ fn of_engine(error: &EngineError) -> u8 {
 
 fn of_vulkan(error: &VulkanError) -> u8 {
     match error {
-        VulkanError::NoLoader(_) | VulkanError::NoDevice { .. } | VulkanError::Missing { .. } => {
-            NO_DEVICE
-        }
+        VulkanError::NoLoader(_) | VulkanError::NoDevice { .. } | VulkanError::Missing { .. } => NO_DEVICE,
         error if error.is_device_failure() => DEVICE_FAILURE,
         _ => FAILURE,
     }
@@ -78,9 +76,7 @@ fn of_vulkan(error: &VulkanError) -> u8 {
 
 fn of_scene(error: &SceneError) -> u8 {
     match error {
-        SceneError::NoSuchScene { .. }
-        | SceneError::NoSuchAnimation { .. }
-        | SceneError::NoSuchVariant { .. } => USAGE,
+        SceneError::NoSuchScene { .. } | SceneError::NoSuchAnimation { .. } | SceneError::NoSuchVariant { .. } => USAGE,
         _ => FAILURE,
     }
 }
@@ -104,9 +100,7 @@ pub fn message(error: &anyhow::Error) -> String {
 fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
     let is_full = |error: &VulkanError| matches!(error, VulkanError::OutOfMemory { .. });
     match cause.downcast_ref::<RenderError>() {
-        Some(RenderError::Engine(EngineError::Memory { .. } | EngineError::Unfinished { .. })) => {
-            true
-        }
+        Some(RenderError::Engine(EngineError::Memory { .. } | EngineError::Unfinished { .. })) => true,
         Some(RenderError::Engine(EngineError::Vulkan(error))) => is_full(error),
         Some(_) => false,
         None => cause.downcast_ref::<VulkanError>().is_some_and(is_full),
@@ -116,8 +110,6 @@ fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
 /// Whether an error means that the reader of standard output, such as `head`, has closed it.
 pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
-        cause
-            .downcast_ref::<std::io::Error>()
-            .is_some_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe)
+        cause.downcast_ref::<std::io::Error>().is_some_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe)
     })
 }

@@ -2,9 +2,7 @@
 
 use super::{input, print, render, values};
 use clap::Args;
-use gpc::render::{
-    FramePass, Headless, HeadlessOptions, RecordedPasses, Settings, Shadows, SuperpixelOptions,
-};
+use gpc::render::{FramePass, Headless, HeadlessOptions, RecordedPasses, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{PoseRequest, Scene, SceneInfo};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -54,10 +52,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
     }
     let info = loaded.scene.info();
     if args.json {
-        print::json(&SceneReport {
-            info: &info,
-            warnings: &loaded.warnings,
-        })?;
+        print::json(&SceneReport { info: &info, warnings: &loaded.warnings })?;
     } else {
         print::line(&text(&info))?;
     }
@@ -67,8 +62,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
 /// The passes of a frame with default settings otherwise, with shadows if the scene has lights.
 fn passes(scene: &Scene, args: &InfoArgs) -> anyhow::Result<RecordedPasses> {
     let pose = scene.pose(&PoseRequest::default())?;
-    let mut settings =
-        Settings::new(args.size[0], args.size[1]).method(SuperpixelOptions::new(args.samples));
+    let mut settings = Settings::new(args.size[0], args.size[1]).method(SuperpixelOptions::new(args.samples));
     if !pose.lights.is_empty() {
         settings.scene.shadows = Shadows::Exact;
     }
@@ -92,11 +86,7 @@ fn table(recorded: &RecordedPasses) -> String {
         let (reads, writes) = (pass.reads.join(", "), pass.writes.join(", "));
         format!("{name:<16}{dispatch:<18}reads {reads}; writes {writes}")
     });
-    let RecordedPasses {
-        dispatches,
-        barriers,
-        ..
-    } = recorded;
+    let RecordedPasses { dispatches, barriers, .. } = recorded;
     let counts = format!("{dispatches} dispatches and {barriers} barriers");
     lines.chain([counts]).collect::<Vec<_>>().join("\n")
 }
@@ -104,11 +94,7 @@ fn table(recorded: &RecordedPasses) -> String {
 fn text(info: &SceneInfo) -> String {
     let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "(unnamed)".to_owned());
     let list = |items: Vec<String>| {
-        if items.is_empty() {
-            "none".to_owned()
-        } else {
-            items.join(", ")
-        }
+        if items.is_empty() { "none".to_owned() } else { items.join(", ") }
     };
     let numbered = |items: Vec<String>| {
         let items = items.iter().enumerate();
@@ -127,37 +113,20 @@ fn text(info: &SceneInfo) -> String {
     let images = info.images.iter();
     [
         origin,
-        format!(
-            "scenes      {}",
-            numbered(info.scenes.names.iter().map(name).collect())
-        ),
+        format!("scenes      {}", numbered(info.scenes.names.iter().map(name).collect())),
         format!(
             "geometry    {} triangles, {} lines and {} points in {} primitives, {} meshes, {} nodes",
             info.triangles, info.lines, info.points, info.primitives, info.meshes, info.nodes
         ),
-        format!(
-            "variants    {}",
-            numbered(info.variants.iter().map(|v| format!("\"{v}\"")).collect())
-        ),
+        format!("variants    {}", numbered(info.variants.iter().map(|v| format!("\"{v}\"")).collect())),
         format!(
             "materials   {} opaque, {} mask, {} blend",
             info.materials.opaque, info.materials.mask, info.materials.blend
         ),
-        format!(
-            "images      {}",
-            list(
-                images
-                    .map(|image| format!("{}x{}", image.width, image.height))
-                    .collect()
-            )
-        ),
+        format!("images      {}", list(images.map(|image| format!("{}x{}", image.width, image.height)).collect())),
         format!(
             "cameras     {}",
-            numbered(
-                cameras
-                    .map(|camera| format!("{} ({})", name(&camera.name), camera.kind))
-                    .collect()
-            )
+            numbered(cameras.map(|camera| format!("{} ({})", name(&camera.name), camera.kind)).collect())
         ),
         format!(
             "animations  {}",
@@ -167,11 +136,7 @@ fn text(info: &SceneInfo) -> String {
                     .collect()
             )
         ),
-        format!(
-            "lights      {}{}",
-            info.lights,
-            if info.environment { ", and light from all around" } else { "" }
-        ),
+        format!("lights      {}{}", info.lights, if info.environment { ", and light from all around" } else { "" }),
         format!("skins       {}", info.skins),
         format!("extensions  {}", list(info.extensions_used.clone())),
         format!("required    {}", list(info.extensions_required.clone())),

@@ -25,10 +25,7 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
         });
     }
     let mut bytes = Vec::new();
-    std::io::stdin()
-        .lock()
-        .read_to_end(&mut bytes)
-        .context("standard input can't be read")?;
+    std::io::stdin().lock().read_to_end(&mut bytes).context("standard input can't be read")?;
     let (name, base) = ("standard input", Some(Path::new(".")));
     Ok(match variant {
         Some(variant) => Scene::variant_from_slice(&bytes, name, base, variant)?,
@@ -42,14 +39,10 @@ pub fn environment(path: &Path) -> anyhow::Result<(Environment, Vec<String>)> {
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
     let ([width, height], mut colors) = decode_light(&bytes, &file.to_string())?;
     let (infinite, bound) = bound_light(&mut colors);
-    let warning =
-        format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
+    let warning = format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
     let environment = Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))?;
-    Ok((
-        environment,
-        Vec::from_iter((infinite > 0).then_some(warning)),
-    ))
+    Ok((environment, Vec::from_iter((infinite > 0).then_some(warning))))
 }
 
 /// The scene's name for output files: its file's name without the extension.
@@ -57,8 +50,5 @@ pub fn stem(path: &Path) -> String {
     if is_standard(path) {
         return "stdin".to_owned();
     }
-    path.file_stem().map_or_else(
-        || "scene".to_owned(),
-        |stem| stem.to_string_lossy().into_owned(),
-    )
+    path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

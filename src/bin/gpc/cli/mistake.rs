@@ -23,9 +23,7 @@ fn tip(error: &clap::Error) -> Option<String> {
     };
     match error.kind() {
         ErrorKind::InvalidSubcommand => match word(ContextKind::InvalidSubcommand)? {
-            scene if is_scene(Path::new(scene)) => Some(format!(
-                "to render a scene: gpc render {scene} -o image.png"
-            )),
+            scene if is_scene(Path::new(scene)) => Some(format!("to render a scene: gpc render {scene} -o image.png")),
             word => view::tip(word).map(str::to_owned),
         },
         ErrorKind::UnknownArgument => {

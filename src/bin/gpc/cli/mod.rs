@@ -168,9 +168,7 @@ impl Command {
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
     // Wrong usage ends the process here, with exit code 2.
-    let command = Cli::try_parse()
-        .unwrap_or_else(|error| mistake::explained(error).exit())
-        .command;
+    let command = Cli::try_parse().unwrap_or_else(|error| mistake::explained(error).exit()).command;
     start_log(command.is_quiet());
     let done = match command {
         Command::Render(args) => render::run(&args),

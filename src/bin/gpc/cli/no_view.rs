@@ -15,9 +15,8 @@ pub fn is_no_display(_: &(dyn Error + 'static)) -> bool {
 
 /// Advice on an unknown subcommand that the window would have.
 pub fn tip(subcommand: &str) -> Option<&'static str> {
-    (subcommand == "view").then_some(
-        "this gpc was built without its window; in the repository: cargo install --path . --features view",
-    )
+    (subcommand == "view")
+        .then_some("this gpc was built without its window; in the repository: cargo install --path . --features view")
 }
 
 pub fn run(command: Command) -> anyhow::Result<ExitCode> {

@@ -79,9 +79,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         rendered.statistics.superpixels
     );
     render::save(&args.output, format, &rendered, &image.aovs())?;
-    let around = Around {
-        pinholes: locations.rig().len(),
-    };
+    let around = Around { pinholes: locations.rig().len() };
     let figures = stage.figures(&args.output, rendered.size, effort, around);
     args.report.print(&figures)?;
     Ok(ExitCode::SUCCESS)

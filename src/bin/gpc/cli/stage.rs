@@ -27,35 +27,23 @@ impl RenderSetup {
         if image.background == Background::Environment {
             usage!("--background environment: this command shows none; `gpc render` does");
         }
-        let (mut headless, (loaded, pose, warnings, camera)) =
-            render::open_beside(image.device.name.clone(), || {
-                let loaded = image.load(path)?;
-                let pose = image.pose(&loaded, image.camera.time)?;
-                let warnings: Vec<_> = loaded
-                    .warnings
-                    .iter()
-                    .chain(&pose.warnings)
-                    .cloned()
-                    .collect();
-                for warning in &warnings {
-                    log::warn!("{warning}");
-                }
-                let [width, height] = image.size.map(f64::from);
-                let views = render::choose_views(&image.camera, &pose, width / height)?;
-                let [view] = views.as_slice() else {
-                    usage!("--camera all: this command takes one camera");
-                };
-                let camera = view.camera;
-                Ok((loaded, pose, warnings, camera))
-            })?;
+        let (mut headless, (loaded, pose, warnings, camera)) = render::open_beside(image.device.name.clone(), || {
+            let loaded = image.load(path)?;
+            let pose = image.pose(&loaded, image.camera.time)?;
+            let warnings: Vec<_> = loaded.warnings.iter().chain(&pose.warnings).cloned().collect();
+            for warning in &warnings {
+                log::warn!("{warning}");
+            }
+            let [width, height] = image.size.map(f64::from);
+            let views = render::choose_views(&image.camera, &pose, width / height)?;
+            let [view] = views.as_slice() else {
+                usage!("--camera all: this command takes one camera");
+            };
+            let camera = view.camera;
+            Ok((loaded, pose, warnings, camera))
+        })?;
         let scene = render::upload(&mut headless, &loaded.scene, (&pose, None), &settings)?;
-        Ok(Self {
-            headless,
-            scene,
-            camera,
-            settings,
-            warnings,
-        })
+        Ok(Self { headless, scene, camera, settings, warnings })
     }
 
     /// The camera's pinhole for an image of the size asked for.
@@ -64,16 +52,10 @@ impl RenderSetup {
     }
 
     /// Renders an image of `size` = [width, height]; each pixel is sampled at a location of a pinhole.
-    pub fn render(
-        &mut self,
-        size: [u32; 2],
-        rig: &[(Pinhole, Vec<SampleLocation>)],
-    ) -> anyhow::Result<RenderedImage> {
+    pub fn render(&mut self, size: [u32; 2], rig: &[(Pinhole, Vec<SampleLocation>)]) -> anyhow::Result<RenderedImage> {
         let start = Instant::now();
         let settings = self.settings.clone().size(size);
-        let rendered = self
-            .headless
-            .render_locations(&self.scene, rig, &settings)?;
+        let rendered = self.headless.render_locations(&self.scene, rig, &settings)?;
         Ok(RenderedImage {
             passes: vec![rendered.statistics.passes.clone()],
             wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],
@@ -82,13 +64,7 @@ impl RenderSetup {
     }
 
     /// Figures of an image that was written to `output`; `more` holds the figures that only this command has.
-    pub fn figures<T: Serialize>(
-        &self,
-        output: &Path,
-        size: [u32; 2],
-        effort: Effort,
-        more: T,
-    ) -> Figures<T> {
+    pub fn figures<T: Serialize>(&self, output: &Path, size: [u32; 2], effort: Effort, more: T) -> Figures<T> {
         Figures {
             output: output.display().to_string(),
             device: DeviceReport::of(&self.headless),

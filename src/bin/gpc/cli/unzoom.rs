@@ -69,17 +69,13 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
         format
     };
     let name = args.image.display().to_string();
-    let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read {
-        path: args.image.clone(),
-        source,
-    })?;
+    let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read { path: args.image.clone(), source })?;
     let zoomed = Zoomed::decode(&bytes, &name)?;
     let regions = zoomed.map().regions();
     let window = window(args, zoomed.photograph().size(), regions)?;
     let start = Instant::now();
-    let pixels = zoomed.photograph().resample(window.size, |place| {
-        zoomed.place(window.location(place), window.jacobian(place))
-    });
+    let pixels =
+        zoomed.photograph().resample(window.size, |place| zoomed.place(window.location(place), window.jacobian(place)));
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let picture = Picture::new(window.size, &pixels)?;
     let bytes = output::encode(format, &picture, &[])?;
@@ -115,11 +111,7 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
 /// The part of the image plane that the options select.
 fn window(args: &UnzoomArgs, size: [u32; 2], regions: &[ZoomRegion]) -> Result<Window, Usage> {
     if args.whole {
-        return Ok(Window {
-            size,
-            corner: [0.0, 0.0],
-            step: 1.0,
-        });
+        return Ok(Window { size, corner: [0.0, 0.0], step: 1.0 });
     }
     let Some(region) = regions.get(args.region) else {
         return Err(Usage(format!(

@@ -57,12 +57,7 @@ pub struct Shard {
 /// Parses `I/N`: the I-th of N shares.
 pub fn shard(text: &str) -> Result<Shard, String> {
     text.split_once('/')
-        .and_then(|(number, count)| {
-            Some(Shard {
-                number: number.parse().ok()?,
-                count: count.parse().ok()?,
-            })
-        })
+        .and_then(|(number, count)| Some(Shard { number: number.parse().ok()?, count: count.parse().ok()? }))
         .filter(|shard| (1..=shard.count).contains(&shard.number))
         .ok_or_else(|| "expected I/N with I from 1 to N, such as 1/4".to_owned())
 }
@@ -80,9 +75,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=65_535).contains(side));
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))
-        .ok_or_else(|| {
-            "expected width x height in pixels, each 1 to 65535, such as 1280x720".to_owned()
-        })
+        .ok_or_else(|| "expected width x height in pixels, each 1 to 65535, such as 1280x720".to_owned())
 }
 
 /// Parses a part of an image: column and row of its upper left pixel, width and height, as `640,360,320x180`.
@@ -90,22 +83,16 @@ pub fn region(text: &str) -> Result<PixelRect, String> {
     let region = || {
         let mut parts = text.splitn(3, ',');
         let mut corner = || parts.next()?.parse().ok();
-        Some(PixelRect {
-            corner: [corner()?, corner()?],
-            size: size(parts.next()?).ok()?,
-        })
+        Some(PixelRect { corner: [corner()?, corner()?], size: size(parts.next()?).ok()? })
     };
     region().ok_or_else(|| {
-        "expected column, row, width x height in pixels of the image, such as 640,360,320x180"
-            .to_owned()
+        "expected column, row, width x height in pixels of the image, such as 640,360,320x180".to_owned()
     })
 }
 
 /// Parses a point or direction: `X,Y,Z`.
 pub fn vector(text: &str) -> Result<DVec3, String> {
-    numbers(text)
-        .map(DVec3::from_array)
-        .ok_or_else(|| "expected three numbers X,Y,Z, such as 0,1.5,-4".to_owned())
+    numbers(text).map(DVec3::from_array).ok_or_else(|| "expected three numbers X,Y,Z, such as 0,1.5,-4".to_owned())
 }
 
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
@@ -149,8 +136,7 @@ pub fn background(text: &str) -> Result<Background, String> {
         return Ok(Background::Environment);
     }
     color(text).map(Background::Color).ok_or_else(|| {
-        "expected none, environment, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb"
-            .to_owned()
+        "expected none, environment, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
     })
 }
 
@@ -163,9 +149,7 @@ pub fn linear(color: [f64; 3]) -> [f32; 3] {
 fn color(text: &str) -> Option<[f64; 3]> {
     match text.strip_prefix('#') {
         Some(digits) => hexadecimal(digits),
-        None => {
-            numbers(text).filter(|color: &[f64; 3]| color.iter().all(|v| (0.0..=1.0).contains(v)))
-        }
+        None => numbers(text).filter(|color: &[f64; 3]| color.iter().all(|v| (0.0..=1.0).contains(v))),
     }
 }
 
@@ -185,14 +169,10 @@ pub fn edges(text: &str) -> Result<EdgeLines, String> {
         None => (text, Some([0.0; 3])),
     };
     let lines = stroke(width).ok().zip(colour);
-    lines
-        .map(|(width, color)| EdgeLines { width, color })
-        .ok_or_else(|| {
-            let largest = SceneSettings::LARGEST_STROKE;
-            format!(
-                "expected pixels above 0 and at most {largest}, and an sRGB colour, such as 1.5 or 1.5,#204060"
-            )
-        })
+    lines.map(|(width, color)| EdgeLines { width, color }).ok_or_else(|| {
+        let largest = SceneSettings::LARGEST_STROKE;
+        format!("expected pixels above 0 and at most {largest}, and an sRGB colour, such as 1.5 or 1.5,#204060")
+    })
 }
 
 fn hexadecimal(digits: &str) -> Option<[f64; 3]> {
@@ -242,10 +222,7 @@ mod tests {
     #[test]
     fn rates_and_shards() {
         assert_eq!(rate("29.97"), Ok(29.97));
-        let expected = Shard {
-            number: 4,
-            count: 4,
-        };
+        let expected = Shard { number: 4, count: 4 };
         assert_eq!(shard("4/4"), Ok(expected));
         for wrong in ["", "0/4", "5/4", "4", "-1/4", "1/0", "1/4/4", "a/b"] {
             assert!(shard(wrong).is_err(), "{wrong}");
@@ -257,10 +234,7 @@ mod tests {
 
     #[test]
     fn regions() {
-        let expected = PixelRect {
-            corner: [3, 0],
-            size: [20, 10],
-        };
+        let expected = PixelRect { corner: [3, 0], size: [20, 10] };
         assert_eq!(region("3,0,20x10"), Ok(expected));
         for wrong in ["", "3,0", "3,0,20", "3,0,0x10", "-3,0,20x10", "3,0,20x10,1"] {
             assert!(region(wrong).is_err(), "{wrong}");
@@ -281,24 +255,15 @@ mod tests {
         assert_eq!(radii("3"), Ok([3.0, 3.0]));
         assert_eq!(radii("3,4"), Ok([3.0, 4.0]));
         for wrong in ["0", "1,0", "-1", "1,2,3", "nan", ""] {
-            assert!(
-                radii(wrong).is_err() && place(wrong).is_err() || wrong == "1,0",
-                "{wrong}"
-            );
+            assert!(radii(wrong).is_err() && place(wrong).is_err() || wrong == "1,0", "{wrong}");
         }
     }
 
     #[test]
     fn backgrounds() {
         assert_eq!(background("none"), Ok(Background::Transparent));
-        assert_eq!(
-            background("0,0.5,1"),
-            Ok(Background::Color([0.0, 0.5, 1.0]))
-        );
-        assert_eq!(
-            background("#ff0033"),
-            Ok(Background::Color([1.0, 0.0, 0.2]))
-        );
+        assert_eq!(background("0,0.5,1"), Ok(Background::Color([0.0, 0.5, 1.0])));
+        assert_eq!(background("#ff0033"), Ok(Background::Color([1.0, 0.0, 0.2])));
         for wrong in ["", "#ff", "#+f0033", "1,2,3", "red", "#ff003é"] {
             assert!(background(wrong).is_err(), "{wrong}");
         }

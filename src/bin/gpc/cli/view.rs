@@ -71,10 +71,7 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
     for warning in &warnings {
         log::warn!("{warning}");
     }
-    let appearance = Appearance {
-        environment,
-        edges: args.appearance.edges(),
-    };
+    let appearance = Appearance { environment, edges: args.appearance.edges() };
     let appearance_options = appearance_options(&args, &look);
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();
@@ -85,11 +82,7 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
         source: SceneSource {
             path,
             variant: args.camera.variant,
-            request: PoseRequest {
-                scene: args.camera.scene,
-                animation: args.camera.animation,
-                time: args.camera.time,
-            },
+            request: PoseRequest { scene: args.camera.scene, animation: args.camera.animation, time: args.camera.time },
         },
         others: scenes.collect(),
         start,
@@ -97,9 +90,7 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
         appearance_options,
         look,
         shows_environment: background == Background::Environment,
-        device: HeadlessOptions::default()
-            .device(args.device.name)
-            .validation(validation),
+        device: HeadlessOptions::default().device(args.device.name).validation(validation),
         describe: exit::message,
     })?;
     Ok(ExitCode::SUCCESS)
@@ -110,9 +101,7 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
     let default = Orbit::default();
     let fov = args.fov.unwrap_or(default.fov);
     if args.up.is_some() {
-        return Err(Usage(
-            "--up: the window keeps the y axis upright; `gpc render` takes it".to_owned(),
-        ));
+        return Err(Usage("--up: the window keeps the y axis upright; `gpc render` takes it".to_owned()));
     }
     if let Some(eye) = args.eye {
         let target = args.target;
@@ -128,15 +117,12 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
     }
     if args.fov.is_some() {
         return Err(Usage(
-            "--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too"
-                .to_owned(),
+            "--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too".to_owned(),
         ));
     }
     match args.camera.as_deref() {
         None => Ok(Start::First),
-        Some("all") => Err(Usage(
-            "--camera all: the window begins with one; the key C goes on to the next".to_owned(),
-        )),
+        Some("all") => Err(Usage("--camera all: the window begins with one; the key C goes on to the next".to_owned())),
         Some(camera) => Ok(Start::Camera(camera.to_owned())),
     }
 }
@@ -158,10 +144,7 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     if sampling.aa == MethodKind::None && samples != 1 {
         usage!("none can't have {samples} samples a pixel; it can have 1");
     }
-    Ok(Look::new(
-        args.appearance.settings(settings),
-        sampling.superpixels(samples),
-    ))
+    Ok(Look::new(args.appearance.settings(settings), sampling.superpixels(samples)))
 }
 
 /// The options for the appearance of scenes, as words of a command line. Numbers that the settings hold are left out.

@@ -41,11 +41,7 @@ impl Viewer {
             WindowEvent::DroppedFile(path) => self.open(path),
             // Synthetic events report keys that went down before the window had the focus; they were meant for another
             // window.
-            WindowEvent::KeyboardInput {
-                event,
-                is_synthetic: false,
-                ..
-            } => self.on_key(event, is_taken)?,
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.on_key(event, is_taken)?,
             WindowEvent::Focused(false) => {
                 // Without the focus the window isn't told when a key is released.
                 if let Some(flight) = &mut self.flight {
@@ -136,12 +132,10 @@ impl Viewer {
             }
             Action::Back => {
                 if let Some(loading) = self.loading.take() {
-                    self.notes
-                        .say(format!("stopped loading {}", loading.source.name()));
+                    self.notes.say(format!("stopped loading {}", loading.source.name()));
                 }
                 for path in self.worker.stop_files() {
-                    self.notes
-                        .say(format!("stopped writing {}", path.display()));
+                    self.notes.say(format!("stopped writing {}", path.display()));
                 }
                 self.shows_keys = false;
                 self.flight = None;
@@ -211,11 +205,7 @@ impl Viewer {
 
     fn add_lens(&mut self) {
         let place = self.plane_place(self.pointer.place());
-        let height = self.size()[1]
-            * self
-                .easel
-                .as_ref()
-                .map_or(1.0, |easel| easel.framing.step());
+        let height = self.size()[1] * self.easel.as_ref().map_or(1.0, |easel| easel.framing.step());
         self.cover.lenses.add(place, height);
         self.cover_changed();
     }
@@ -358,8 +348,7 @@ impl Viewer {
         let path = free_name(Path::new(""), &self.source.stem());
         if let Some(easel) = &self.easel {
             let Some(map) = self.cover.lenses.map() else {
-                self.notes
-                    .say("no lens changes the photograph: there is nothing to write");
+                self.notes.say("no lens changes the photograph: there is nothing to write");
                 return;
             };
             let task = Task::PhotoFile(easel.whole(map), path.clone());
@@ -385,8 +374,7 @@ impl Viewer {
                 unzoom_photo(&easel.photo.path, region, &output)
             }
             (Some(_), _) if lenses.is_empty() => {
-                self.notes
-                    .say("no lens changes the photograph: there is nothing to copy");
+                self.notes.say("no lens changes the photograph: there is nothing to copy");
                 return;
             }
             (Some(easel), _) => zoom_photo(&easel.photo.path, lenses, &output),

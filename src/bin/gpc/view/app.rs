@@ -35,13 +35,7 @@ pub struct App {
 
 impl App {
     pub fn new(options: Options, proxy: EventLoopProxy<Event>) -> Self {
-        Self {
-            options,
-            proxy,
-            view: None,
-            losses: Losses::default(),
-            outcome: Ok(Vec::new()),
-        }
+        Self { options, proxy, view: None, losses: Losses::default(), outcome: Ok(Vec::new()) }
     }
 
     /// Ends the viewer; returns all messages of the validation layer.

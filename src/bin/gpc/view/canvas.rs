@@ -25,8 +25,7 @@ const DRAWN: ImageState = ImageState {
     layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
     stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
     access: vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw() | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
     ),
 };
 
@@ -166,9 +165,7 @@ impl Canvas {
     fn take_pictures(&mut self) -> Vec<Picture> {
         let layers = std::mem::take(&mut self.layers);
         let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
-        self.keep(ReplacedObject::Pictures(
-            others.into_iter().flatten().collect(),
-        ));
+        self.keep(ReplacedObject::Pictures(others.into_iter().flatten().collect()));
         seen
     }
 
@@ -232,11 +229,7 @@ impl Canvas {
     /// Time at which the next work on a picture is due, if there is any.
     pub fn due(&self) -> Option<Instant> {
         self.stage.as_ref()?;
-        self.layers
-            .iter()
-            .filter(|layer| self.refines || layer.schedule.is_draft())
-            .filter_map(Layer::due)
-            .min()
+        self.layers.iter().filter(|layer| self.refines || layer.schedule.is_draft()).filter_map(Layer::due).min()
     }
 
     /// Whether work has to be repeated in a frame with more room.
@@ -247,16 +240,10 @@ impl Canvas {
     /// Whether every picture has all its samples.
     pub fn rests(&self) -> bool {
         let is_done = |layer: &Layer| {
-            let is_finished = if self.refines {
-                layer.schedule.is_done()
-            } else {
-                !layer.schedule.is_draft()
-            };
+            let is_finished = if self.refines { layer.schedule.is_done() } else { !layer.schedule.is_draft() };
             is_finished && !layer.has_again() && !layer.is_waiting()
         };
-        !self.layers.is_empty()
-            && self.layers.iter().all(is_done)
-            && self.slots.iter().all(|slot| slot.jobs.is_empty())
+        !self.layers.is_empty() && self.layers.iter().all(is_done) && self.slots.iter().all(|slot| slot.jobs.is_empty())
     }
 
     /// An image of the window to draw into; `None` if none is free now.
@@ -266,11 +253,7 @@ impl Canvas {
         let Some(swapchain) = self.swapchain.as_ref().filter(|_| !is_busy) else {
             return Ok(None);
         };
-        let turn = if self.is_stale {
-            Turn::Stale
-        } else {
-            swapchain.acquire(slot.free)?
-        };
+        let turn = if self.is_stale { Turn::Stale } else { swapchain.acquire(slot.free)? };
         match turn {
             Turn::Ready(acquired) => Ok(Some(acquired)),
             Turn::Busy => Ok(None),
@@ -302,13 +285,8 @@ impl Canvas {
             self.record_pieces(commands, &acquired, seen);
             let device = &self.engine.device;
             picture::change(device, commands, acquired.image, DESTINATION, DRAWN);
-            let extent = self
-                .swapchain
-                .as_ref()
-                .map_or_else(Default::default, |s| s.extent);
-            let painted = self
-                .painter
-                .record(commands, (acquired.view, extent), &painting);
+            let extent = self.swapchain.as_ref().map_or_else(Default::default, |s| s.extent);
+            let painted = self.painter.record(commands, (acquired.view, extent), &painting);
             let device = &self.engine.device;
             picture::change(device, commands, acquired.image, DRAWN, PRESENTED);
             (rendered, painted)
@@ -343,11 +321,7 @@ impl Canvas {
             self.is_uploaded = true;
             slot.uploads = true;
         }
-        let sight = Sight {
-            scene: &stage.prepared,
-            camera,
-            moment: seen.moment,
-        };
+        let sight = Sight { scene: &stage.prepared, camera, moment: seen.moment };
         for layer in &mut self.layers {
             let is_begun = layer.has_again() || layer.is_waiting();
             if !self.refines && !layer.schedule.is_draft() && !is_begun {
@@ -365,16 +339,9 @@ impl Canvas {
     ///
     /// # Safety
     /// As for [`Self::record_work`].
-    unsafe fn record_pieces(
-        &self,
-        commands: vk::CommandBuffer,
-        acquired: &Acquired,
-        seen: &ShownPicture<'_>,
-    ) {
+    unsafe fn record_pieces(&self, commands: vk::CommandBuffer, acquired: &Acquired, seen: &ShownPicture<'_>) {
         let device = &self.engine.device;
-        let black = vk::ClearColorValue {
-            float32: [0.0, 0.0, 0.0, 1.0],
-        };
+        let black = vk::ClearColorValue { float32: [0.0, 0.0, 0.0, 1.0] };
         // SAFETY: guaranteed by the caller.
         unsafe {
             picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
@@ -404,10 +371,7 @@ impl Canvas {
         let Some(picture) = self.cover.as_ref().or(layer) else {
             return;
         };
-        let Some(piece) = piece
-            .within(picture.size())
-            .filter(|_| picture.is_written())
-        else {
+        let Some(piece) = piece.within(picture.size()).filter(|_| picture.is_written()) else {
             return;
         };
         let offsets = |rect: &super::compose::Rect| {

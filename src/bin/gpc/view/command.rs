@@ -28,12 +28,7 @@ impl Shot<'_> {
     /// The command's arguments, `gpc` itself left out, to write a file.
     pub fn arguments(&self, output: &Path) -> Vec<String> {
         let mut arguments = Arguments(vec![
-            if self.lenses.is_empty() {
-                "render"
-            } else {
-                "zoom"
-            }
-            .to_owned(),
+            if self.lenses.is_empty() { "render" } else { "zoom" }.to_owned(),
             self.source.path.display().to_string(),
         ]);
         let settings = self.look.at(self.look.samples(), None);
@@ -123,8 +118,7 @@ impl Arguments {
             self.add("--footprint", "pixel");
         }
         if settings.scene.exposure != default.scene.exposure {
-            self.0
-                .push(format!("--exposure={}", settings.scene.exposure));
+            self.0.push(format!("--exposure={}", settings.scene.exposure));
         }
         if settings.scene.line_width != default.scene.line_width {
             self.add("--line-width", settings.scene.line_width);
@@ -181,10 +175,7 @@ impl Arguments {
 /// A command line for a POSIX shell.
 pub fn line(arguments: &[String]) -> String {
     let quoted = arguments.iter().map(|argument| quote(argument));
-    std::iter::once("gpc".to_owned())
-        .chain(quoted)
-        .collect::<Vec<_>>()
-        .join(" ")
+    std::iter::once("gpc".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
 }
 
 /// A word, quoted where a POSIX shell needs it.
@@ -212,13 +203,7 @@ mod tests {
     }
 
     fn turntable() -> Turntable {
-        Turntable {
-            target: DVec3::new(-1.5, 0.1, 2.0),
-            azimuth: 0.0,
-            elevation: 0.0,
-            distance: 1.0,
-            fov: 40.0,
-        }
+        Turntable { target: DVec3::new(-1.5, 0.1, 2.0), azimuth: 0.0, elevation: 0.0, distance: 1.0, fov: 40.0 }
     }
 
     #[test]
@@ -240,17 +225,13 @@ mod tests {
 
     #[test]
     fn everything_else_is_said() {
-        let settings = Settings::new(64, 48)
-            .exposure(-0.5)
-            .line_width(2.5)
-            .background(Some([0.0; 3]))
-            .method(
-                SuperpixelOptions::new(1024)
-                    .contrast(Some(5))
-                    .pattern(Pattern::Lattice)
-                    .detection(Detection::Edges)
-                    .shading(Shading::Sample),
-            );
+        let settings = Settings::new(64, 48).exposure(-0.5).line_width(2.5).background(Some([0.0; 3])).method(
+            SuperpixelOptions::new(1024)
+                .contrast(Some(5))
+                .pattern(Pattern::Lattice)
+                .detection(Detection::Edges)
+                .shading(Shading::Sample),
+        );
         let look = look(settings);
         let mut source = source("a.glb");
         source.request.animation = Some("run".to_owned());
@@ -304,10 +285,7 @@ mod tests {
             shape: Shape::Circle,
             transition,
         };
-        let lenses = [
-            lens(-1.0, Transition::Linear),
-            lens(5.0, Transition::Smooth),
-        ];
+        let lenses = [lens(-1.0, Transition::Linear), lens(5.0, Transition::Smooth)];
         let (photo, output) = (Path::new("a.jpg"), Path::new("b.png"));
         assert_eq!(
             line(&zoom_photo(photo, &lenses, output)),

@@ -44,17 +44,8 @@ const MAGNIFIER_SIDE: u32 = 288;
 
 /// Pieces that show the pictures, side by side if there is a split at a column.
 pub fn pictures(size: [u32; 2], split: Option<u32>) -> Vec<Piece> {
-    let whole = Rect {
-        corner: [0, 0],
-        size,
-    };
-    cut(whole, split)
-        .map(|(layer, part)| Piece {
-            layer,
-            from: part,
-            to: part,
-        })
-        .collect()
+    let whole = Rect { corner: [0, 0], size };
+    cut(whole, split).map(|(layer, part)| Piece { layer, from: part, to: part }).collect()
 }
 
 /// Pieces that show the pictures under the magnifier enlarged.
@@ -70,10 +61,7 @@ pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Ve
         let first = centre.saturating_sub(side / 2);
         first.min(end - side)
     };
-    let from = Rect {
-        corner: [0, 1].map(|axis| around(magnifier.centre[axis], side[axis], size[axis])),
-        size: side,
-    };
+    let from = Rect { corner: [0, 1].map(|axis| around(magnifier.centre[axis], side[axis], size[axis])), size: side };
     let shown = side.map(|side| side * factor);
     let to = [0, 1].map(|axis| around(magnifier.centre[axis], shown[axis], size[axis]));
     cut(from, split)
@@ -81,8 +69,7 @@ pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Ve
             layer,
             from: part,
             to: Rect {
-                corner: [0, 1]
-                    .map(|axis| to[axis] + (part.corner[axis] - from.corner[axis]) * factor),
+                corner: [0, 1].map(|axis| to[axis] + (part.corner[axis] - from.corner[axis]) * factor),
                 size: part.size.map(|side| side * factor),
             },
         })
@@ -94,13 +81,8 @@ fn cut(rect: Rect, split: Option<u32>) -> impl Iterator<Item = (usize, Rect)> {
     let [left, top] = rect.corner;
     let right = left + rect.size[0];
     let split = split.unwrap_or(right).clamp(left, right);
-    let part = move |from: u32, to: u32| Rect {
-        corner: [from, top],
-        size: [to - from, rect.size[1]],
-    };
-    [(0, part(left, split)), (1, part(split, right))]
-        .into_iter()
-        .filter(|(_, part)| part.size[0] > 0)
+    let part = move |from: u32, to: u32| Rect { corner: [from, top], size: [to - from, rect.size[1]] };
+    [(0, part(left, split)), (1, part(split, right))].into_iter().filter(|(_, part)| part.size[0] > 0)
 }
 
 #[cfg(test)]
@@ -119,10 +101,7 @@ mod tests {
         assert_eq!(columns(&pictures(SIZE, None)), [(0, 0, 640)]);
         assert_eq!(columns(&pictures(SIZE, Some(0))), [(1, 0, 640)]);
         assert_eq!(columns(&pictures(SIZE, Some(700))), [(0, 0, 640)]);
-        assert_eq!(
-            columns(&pictures(SIZE, Some(200))),
-            [(0, 0, 200), (1, 200, 440)]
-        );
+        assert_eq!(columns(&pictures(SIZE, Some(200))), [(0, 0, 200), (1, 200, 440)]);
         for piece in pictures(SIZE, Some(200)) {
             assert_eq!(piece.from, piece.to);
         }
@@ -131,10 +110,7 @@ mod tests {
     #[test]
     fn the_magnifier_shows_the_pixel_under_the_pointer_in_its_middle() {
         for factor in [8, 16, 32] {
-            let magnifier = Magnifier {
-                centre: [320, 200],
-                factor,
-            };
+            let magnifier = Magnifier { centre: [320, 200], factor };
             let [piece] = magnified(SIZE, None, magnifier)[..] else {
                 panic!("one piece");
             };
@@ -164,16 +140,10 @@ mod tests {
             }
             if let [left, right] = &pieces[..] {
                 assert_eq!(left.to.corner[0] + left.to.size[0], right.to.corner[0]);
-                assert_eq!(
-                    left.from.corner[0] + left.from.size[0],
-                    right.from.corner[0]
-                );
+                assert_eq!(left.from.corner[0] + left.from.size[0], right.from.corner[0]);
             }
         }
-        let tiny = Magnifier {
-            centre: [2, 2],
-            factor: 32,
-        };
+        let tiny = Magnifier { centre: [2, 2], factor: 32 };
         assert!(magnified([20, 20], None, tiny).is_empty());
     }
 
@@ -185,10 +155,7 @@ mod tests {
         assert_eq!((part.from.corner, part.from.size), ([60, 0], [20, 50]));
         assert_eq!(part.to, part.from);
         assert_eq!(piece.within([60, 50]), None);
-        let magnifier = Magnifier {
-            centre: [50, 25],
-            factor: 8,
-        };
+        let magnifier = Magnifier { centre: [50, 25], factor: 8 };
         let piece = magnified([100, 50], None, magnifier)[0];
         let part = piece.within([50, 50]).unwrap();
         assert_eq!(part.from.size[0], 50 - piece.from.corner[0]);

@@ -47,19 +47,12 @@ pub struct Arrival {
 impl Cover {
     /// Cover over frames. The arguments say whether its pictures have shadows and show the environment.
     pub fn new(has_shadows: bool, shows_environment: bool) -> Self {
-        Self {
-            has_shadows,
-            shows_environment,
-            ..Self::default()
-        }
+        Self { has_shadows, shows_environment, ..Self::default() }
     }
 
     /// Cover without lenses and overlays, over frames or a photograph.
     pub fn cleared(&self, is_photo: bool) -> Self {
-        Self {
-            is_photo,
-            ..Self::new(self.has_shadows, self.shows_environment)
-        }
+        Self { is_photo, ..Self::new(self.has_shadows, self.shows_environment) }
     }
 
     /// Kind of picture that a scene needs as its cover, if it needs one.
@@ -114,10 +107,7 @@ impl Cover {
         let waits = next.is_some_and(|samples| *samples > STEPS[1]);
         self.due = waits.then(|| now + REST);
         self.is_done = is_last && next.is_none();
-        Arrival {
-            is_shown: number >= self.first && self.is_wanted(),
-            refines: next.is_some() && !waits,
-        }
+        Arrival { is_shown: number >= self.first && self.is_wanted(), refines: next.is_some() && !waits }
     }
 
     fn next_order(&mut self) -> (u64, u32) {
@@ -197,10 +187,7 @@ mod tests {
             assert!(matches!(cover.subject(), Some(Subject::Still)));
             cover.lenses.add(DVec2::ZERO, 100.0);
             assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
-            assert!(matches!(
-                cover.cleared(false).subject(),
-                Some(Subject::Still)
-            ));
+            assert!(matches!(cover.cleared(false).subject(), Some(Subject::Still)));
         }
         assert!(!Cover::default().is_wanted());
     }

@@ -47,16 +47,10 @@ unsafe extern "system" fn on_message(
     // SAFETY: Vulkan passes valid data, and `user` is the `Messages` that the device keeps until its messenger is gone.
     let (text, messages) = unsafe {
         let text = (*data).message_as_c_str().unwrap_or_default();
-        (
-            text.to_string_lossy().into_owned(),
-            &*user.cast::<Messages>(),
-        )
+        (text.to_string_lossy().into_owned(), &*user.cast::<Messages>())
     };
     log::error!("{text}");
-    messages
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .push(text);
+    messages.lock().unwrap_or_else(PoisonError::into_inner).push(text);
     vk::FALSE
 }
 
@@ -71,15 +65,12 @@ impl Device {
         // SAFETY: plain creations whose structures live until after the call; display and window outlive the surface.
         // Handles that were made before a failure leak, but the program ends then.
         unsafe {
-            let entry =
-                ash::Entry::load().map_err(|error| VulkanError::NoLoader(error.to_string()))?;
+            let entry = ash::Entry::load().map_err(|error| VulkanError::NoLoader(error.to_string()))?;
             let mut layers = Vec::new();
             let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
-            let mut features =
-                vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
-            let application = vk::ApplicationInfo::default()
-                .application_name(c"gpc view")
-                .api_version(Requirements::API_VERSION);
+            let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
+            let application =
+                vk::ApplicationInfo::default().application_name(c"gpc view").api_version(Requirements::API_VERSION);
             if validation {
                 layers.push(VALIDATION.as_ptr());
                 extensions.push(ash::ext::debug_utils::NAME.as_ptr());
@@ -92,22 +83,15 @@ impl Device {
             if validation {
                 info = info.push_next(&mut features);
             }
-            let instance = entry
-                .create_instance(&info, None)
-                .map_err(|result| match result {
-                    vk::Result::ERROR_LAYER_NOT_PRESENT => VulkanError::NoValidation,
-                    vk::Result::ERROR_INCOMPATIBLE_DRIVER => VulkanError::NoDevice {
-                        asked: None,
-                        found: "no driver was found".to_owned(),
-                    },
-                    result => VulkanError::of("vkCreateInstance")(result),
-                })?;
+            let instance = entry.create_instance(&info, None).map_err(|result| match result {
+                vk::Result::ERROR_LAYER_NOT_PRESENT => VulkanError::NoValidation,
+                vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
+                    VulkanError::NoDevice { asked: None, found: "no driver was found".to_owned() }
+                }
+                result => VulkanError::of("vkCreateInstance")(result),
+            })?;
             let messages = Box::new(Messages::default());
-            let debug = if validation {
-                Some(listen(&entry, &instance, &messages)?)
-            } else {
-                None
-            };
+            let debug = if validation { Some(listen(&entry, &instance, &messages)?) } else { None };
             let surface = ash_window::create_surface(&entry, &instance, display, handle, None)
                 .map_err(VulkanError::of("creating the window's surface"))?;
             let surfaces = ash::khr::surface::Instance::new(&entry, &instance);
@@ -115,13 +99,11 @@ impl Device {
 
             let mut features = Requirements::features13();
             // Conditional rendering skips rounds of superpixels that are not needed.
-            let conditional_rendering =
-                Requirements::has_conditional_rendering(&instance, physical);
-            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
-                .conditional_rendering(true);
-            let queues = [vk::DeviceQueueCreateInfo::default()
-                .queue_family_index(queue_family)
-                .queue_priorities(&[1.0])];
+            let conditional_rendering = Requirements::has_conditional_rendering(&instance, physical);
+            let mut conditional =
+                vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
+            let queues =
+                [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
             let mut extensions = vec![ash::khr::swapchain::NAME.as_ptr()];
             if conditional_rendering {
                 extensions.push(ash::ext::conditional_rendering::NAME.as_ptr());
@@ -133,9 +115,7 @@ impl Device {
             if conditional_rendering {
                 info = info.push_next(&mut conditional);
             }
-            let device = instance
-                .create_device(physical, &info, None)
-                .map_err(VulkanError::of("vkCreateDevice"))?;
+            let device = instance.create_device(physical, &info, None).map_err(VulkanError::of("vkCreateDevice"))?;
             let allocator = Allocator::new(&AllocatorCreateDesc {
                 instance: instance.clone(),
                 device: device.clone(),
@@ -166,16 +146,8 @@ impl Device {
 
     /// The device's handles, as a host lends them to the renderer.
     pub fn host(&self) -> Host {
-        let mut host = Host::new(
-            self.instance.clone(),
-            self.physical,
-            self.handle.clone(),
-            self.queue_family,
-        );
-        host.memory = self
-            .allocator
-            .clone()
-            .map_or(MemorySource::Own, MemorySource::Shared);
+        let mut host = Host::new(self.instance.clone(), self.physical, self.handle.clone(), self.queue_family);
+        host.memory = self.allocator.clone().map_or(MemorySource::Own, MemorySource::Shared);
         host.conditional_rendering = self.conditional_rendering;
         host
     }
@@ -217,10 +189,7 @@ unsafe fn listen(
 ) -> Result<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT), VulkanError> {
     let loader = ash::ext::debug_utils::Instance::new(entry, instance);
     let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
-        .message_severity(
-            vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
-                | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
-        )
+        .message_severity(vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR)
         .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
         .pfn_user_callback(Some(on_message))
         .user_data(std::ptr::from_ref(messages).cast_mut().cast());
@@ -245,35 +214,23 @@ unsafe fn choose(
     let mut suitable = Vec::new();
     // SAFETY: queries of a live instance and its devices.
     unsafe {
-        let devices = instance
-            .enumerate_physical_devices()
-            .map_err(VulkanError::of("vkEnumeratePhysicalDevices"))?;
+        let devices = instance.enumerate_physical_devices().map_err(VulkanError::of("vkEnumeratePhysicalDevices"))?;
         for device in devices {
             let properties = instance.get_physical_device_properties(device);
             let label = properties.device_name_as_c_str().unwrap_or_default();
             let label = label.to_string_lossy();
-            let mut lacks: Vec<_> = Requirements::missing(instance, device)
-                .iter()
-                .map(ToString::to_string)
-                .collect();
+            let mut lacks: Vec<_> = Requirements::missing(instance, device).iter().map(ToString::to_string).collect();
             let family = Requirements::queue_family(instance, device);
             let shows = family.is_some_and(|family| {
-                surfaces
-                    .get_physical_device_surface_support(device, family, surface)
-                    .unwrap_or(false)
+                surfaces.get_physical_device_surface_support(device, family, surface).unwrap_or(false)
             });
-            let extensions = instance
-                .enumerate_device_extension_properties(device)
-                .unwrap_or_default();
-            let swaps = extensions.iter().any(|extension| {
-                extension.extension_name_as_c_str() == Ok(ash::khr::swapchain::NAME)
-            });
+            let extensions = instance.enumerate_device_extension_properties(device).unwrap_or_default();
+            let swaps =
+                extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(ash::khr::swapchain::NAME));
             if !(shows && swaps) {
                 lacks.push("a way to show pictures in this window".to_owned());
             }
-            let named = name
-                .as_ref()
-                .is_none_or(|name| label.to_lowercase().contains(name));
+            let named = name.as_ref().is_none_or(|name| label.to_lowercase().contains(name));
             match family.filter(|_| lacks.is_empty()) {
                 Some(family) if named => {
                     suitable.push((rank(properties.device_type), device, family));

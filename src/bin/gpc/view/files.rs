@@ -22,11 +22,7 @@ pub fn scenes_at(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     }
     scenes.sort();
     if scenes.is_empty() {
-        bail!(
-            "{} has no scene file: none ends in .{}",
-            path.display(),
-            EXTENSIONS.join(", .")
-        );
+        bail!("{} has no scene file: none ends in .{}", path.display(), EXTENSIONS.join(", ."));
     }
     Ok(scenes)
 }

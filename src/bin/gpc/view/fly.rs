@@ -63,11 +63,7 @@ pub struct Flight {
 impl Flight {
     /// Flight through a scene whose diagonal has this length.
     pub fn new(diagonal: f64) -> Self {
-        Self {
-            held: Vec::new(),
-            speed: diagonal / SECONDS_A_DIAGONAL,
-            last: None,
-        }
+        Self { held: Vec::new(), speed: diagonal / SECONDS_A_DIAGONAL, last: None }
     }
 
     /// Speed in units of the scene a second.

@@ -52,169 +52,47 @@ enum Pressed {
     Text(&'static str),
 }
 
-const fn text(
-    key: &'static str,
-    label: &'static str,
-    action: Action,
-    does: &'static str,
-) -> KeyBinding {
-    KeyBinding {
-        key: Pressed::Text(key),
-        control: false,
-        label,
-        action,
-        does,
-    }
+const fn text(key: &'static str, label: &'static str, action: Action, does: &'static str) -> KeyBinding {
+    KeyBinding { key: Pressed::Text(key), control: false, label, action, does }
 }
 
-const fn named(
-    key: NamedKey,
-    label: &'static str,
-    action: Action,
-    does: &'static str,
-) -> KeyBinding {
-    KeyBinding {
-        key: Pressed::Named(key),
-        control: false,
-        label,
-        action,
-        does,
-    }
+const fn named(key: NamedKey, label: &'static str, action: Action, does: &'static str) -> KeyBinding {
+    KeyBinding { key: Pressed::Named(key), control: false, label, action, does }
 }
 
 /// Bindings of all keys.
 static BINDINGS: [KeyBinding; 35] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
-    named(
-        NamedKey::F11,
-        "F11",
-        Action::FullScreen,
-        "fill the screen that the window is on, or leave it",
-    ),
-    named(
-        NamedKey::Enter,
-        "Enter",
-        Action::SwapchainFit,
-        "show the whole scene",
-    ),
-    text(
-        "1",
-        "1",
-        Action::LookFrom(Side::Front),
-        "look from the front",
-    ),
-    text(
-        "3",
-        "3",
-        Action::LookFrom(Side::Right),
-        "look from the right",
-    ),
+    named(NamedKey::F11, "F11", Action::FullScreen, "fill the screen that the window is on, or leave it"),
+    named(NamedKey::Enter, "Enter", Action::SwapchainFit, "show the whole scene"),
+    text("1", "1", Action::LookFrom(Side::Front), "look from the front"),
+    text("3", "3", Action::LookFrom(Side::Right), "look from the right"),
     text("7", "7", Action::LookFrom(Side::Top), "look from above"),
-    text(
-        "9",
-        "9",
-        Action::LookFrom(Side::Corner),
-        "look from a corner",
-    ),
+    text("9", "9", Action::LookFrom(Side::Corner), "look from a corner"),
     text("c", "C", Action::NextCamera, "next camera of the scene"),
-    text(
-        "f",
-        "F",
-        Action::Fly,
-        "fly: WASD, arrows, E, Q; drag to look, wheel for speed",
-    ),
-    text(
-        "s",
-        "S",
-        Action::SetMethod(MethodKind::Superpixel),
-        "superpixels",
-    ),
-    text(
-        "n",
-        "N",
-        Action::SetMethod(MethodKind::None),
-        "no antialiasing",
-    ),
-    text(
-        "m",
-        "M",
-        Action::SetMethod(MethodKind::Msaa),
-        "the device's multisampling",
-    ),
-    text(
-        "b",
-        "B",
-        Action::SetMethod(MethodKind::Ssaa),
-        "brute force: supersampling",
-    ),
+    text("f", "F", Action::Fly, "fly: WASD, arrows, E, Q; drag to look, wheel for speed"),
+    text("s", "S", Action::SetMethod(MethodKind::Superpixel), "superpixels"),
+    text("n", "N", Action::SetMethod(MethodKind::None), "no antialiasing"),
+    text("m", "M", Action::SetMethod(MethodKind::Msaa), "the device's multisampling"),
+    text("b", "B", Action::SetMethod(MethodKind::Ssaa), "brute force: supersampling"),
     text("+", "+", Action::MoreSamples, "more samples"),
     text("-", "-", Action::FewerSamples, "fewer samples"),
-    text(
-        "x",
-        "X",
-        Action::Split,
-        "split between two methods; drag the line",
-    ),
+    text("x", "X", Action::Split, "split between two methods; drag the line"),
     text("l", "L", Action::Magnify, "magnifier: 8, 16, 32 times, off"),
-    text(
-        "z",
-        "Z",
-        Action::Lens,
-        "zoom lens: click, drag its radius, wheel",
-    ),
+    text("z", "Z", Action::Lens, "zoom lens: click, drag its radius, wheel"),
     text("a", "A", Action::AddLens, "one more lens at the pointer"),
-    named(
-        NamedKey::Delete,
-        "Delete",
-        Action::RemoveLens,
-        "remove the lens at hand",
-    ),
+    named(NamedKey::Delete, "Delete", Action::RemoveLens, "remove the lens at hand"),
     text("t", "T", Action::Tint, "colour the transitions of lenses"),
-    text(
-        "u",
-        "U",
-        Action::Unzoom,
-        "unzoom an image of gpc zoom under the pointer",
-    ),
-    text(
-        "o",
-        "O",
-        Action::NextOverlay,
-        "depth, IDs, normals, superpixels, triangles, error ...",
-    ),
-    named(
-        NamedKey::Space,
-        "Space",
-        Action::PlayOrPause,
-        "play or pause the animation",
-    ),
+    text("u", "U", Action::Unzoom, "unzoom an image of gpc zoom under the pointer"),
+    text("o", "O", Action::NextOverlay, "depth, IDs, normals, superpixels, triangles, error ..."),
+    named(NamedKey::Space, "Space", Action::PlayOrPause, "play or pause the animation"),
     text("[", "[", Action::Slower, "play slower"),
     text("]", "]", Action::Faster, "play faster"),
-    named(
-        NamedKey::ArrowLeft,
-        "Left",
-        Action::PreviousScene,
-        "previous scene",
-    ),
-    named(
-        NamedKey::ArrowRight,
-        "Right",
-        Action::NextScene,
-        "next scene",
-    ),
-    named(
-        NamedKey::ArrowUp,
-        "Up",
-        Action::Reload,
-        "load the scene again",
-    ),
-    named(
-        NamedKey::F12,
-        "F12",
-        Action::Screenshot,
-        "write the picture with all samples to a file",
-    ),
+    named(NamedKey::ArrowLeft, "Left", Action::PreviousScene, "previous scene"),
+    named(NamedKey::ArrowRight, "Right", Action::NextScene, "next scene"),
+    named(NamedKey::ArrowUp, "Up", Action::Reload, "load the scene again"),
+    named(NamedKey::F12, "F12", Action::Screenshot, "write the picture with all samples to a file"),
     KeyBinding {
         key: Pressed::Text("c"),
         control: true,
@@ -223,12 +101,7 @@ static BINDINGS: [KeyBinding; 35] = [
         does: "copy the command that makes this picture",
     },
     named(NamedKey::F1, "F1", Action::Help, "list the keys"),
-    named(
-        NamedKey::Escape,
-        "Esc",
-        Action::Back,
-        "stop loading, writing or flying, or close the list",
-    ),
+    named(NamedKey::Escape, "Esc", Action::Back, "stop loading, writing or flying, or close the list"),
     text("q", "Q", Action::Quit, "quit"),
 ];
 
@@ -236,16 +109,10 @@ static BINDINGS: [KeyBinding; 35] = [
 pub const MOUSE: [(&str, &str); 7] = [
     ("Left drag", "turn around the target"),
     ("Shift + left drag, middle drag", "move sideways"),
-    (
-        "Shift + wheel, shift + two fingers",
-        "the same with a touchpad",
-    ),
+    ("Shift + wheel, shift + two fingers", "the same with a touchpad"),
     ("Wheel, two fingers, pinch", "zoom to the pointer"),
     ("Right drag", "zoom"),
-    (
-        "Double click",
-        "bring what is under the pointer into the middle",
-    ),
+    ("Double click", "bring what is under the pointer into the middle"),
     ("Drop a file or folder", "open it"),
 ];
 
@@ -259,10 +126,7 @@ pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
         };
         pressed && binding.control == modifiers.control_key()
     };
-    BINDINGS
-        .iter()
-        .find(is_pressed)
-        .map(|binding| binding.action)
+    BINDINGS.iter().find(is_pressed).map(|binding| binding.action)
 }
 
 /// Rows of the list: the keys, and what they do.
@@ -285,11 +149,7 @@ mod tests {
                 Pressed::Named(named) => Key::Named(named),
                 Pressed::Text(text) => Key::Character(text.to_uppercase().into()),
             };
-            let modifiers = if binding.control {
-                ModifiersState::CONTROL
-            } else {
-                ModifiersState::empty()
-            };
+            let modifiers = if binding.control { ModifiersState::CONTROL } else { ModifiersState::empty() };
             assert_eq!(action(&key, modifiers), Some(binding.action));
         }
     }
@@ -298,9 +158,6 @@ mod tests {
     fn other_keys_have_none() {
         let key = Key::Character("h".into());
         assert_eq!(action(&key, ModifiersState::CONTROL), None);
-        assert_eq!(
-            action(&Key::Named(NamedKey::F5), ModifiersState::empty()),
-            None
-        );
+        assert_eq!(action(&Key::Named(NamedKey::F5), ModifiersState::empty()), None);
     }
 }

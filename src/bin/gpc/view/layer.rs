@@ -7,9 +7,7 @@ use super::preparer::{Preparer, Ticket};
 use super::schedule::{PictureSchedule, PictureWork, Took};
 use ash::vk;
 use gpc::camera::Camera;
-use gpc::render::{
-    EngineError, Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics,
-};
+use gpc::render::{EngineError, Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use gpc::scene::Moment;
 use std::sync::{Arc, Weak};
 use std::time::Instant;
@@ -91,9 +89,7 @@ impl Layer {
     /// Picture that is shown at present.
     pub fn picture(&self) -> &Picture {
         let before = self.before.as_ref();
-        before
-            .filter(|_| !self.picture.is_written())
-            .unwrap_or(&self.picture)
+        before.filter(|_| !self.picture.is_written()).unwrap_or(&self.picture)
     }
 
     /// Splits the layer into the picture that is shown, for use until another layer has something to show, and the
@@ -169,14 +165,7 @@ impl Layer {
                 Some(band)
             }
         };
-        Ok(Some(Job {
-            ticket: Arc::downgrade(&self.ticket),
-            frame,
-            work,
-            version: self.version,
-            tries,
-            _band: band,
-        }))
+        Ok(Some(Job { ticket: Arc::downgrade(&self.ticket), frame, work, version: self.version, tries, _band: band }))
     }
 
     /// Finishes a job that the device has done.
@@ -188,8 +177,7 @@ impl Layer {
         match job.frame.statistics() {
             Ok(statistics) => {
                 log::trace!("{:?} took {:.1} ms", job.work, statistics.gpu_ms());
-                self.schedule
-                    .learn(&job.work, Took::of(&statistics), Instant::now());
+                self.schedule.learn(&job.work, Took::of(&statistics), Instant::now());
                 if is_current {
                     self.note(&job.work, statistics);
                 }
@@ -215,11 +203,7 @@ impl Layer {
     }
 
     /// Takes a frame that was requested, or the error of preparing it.
-    pub fn prepared(
-        &mut self,
-        settings: &Settings,
-        frame: Result<Frame, RenderError>,
-    ) -> Result<(), RenderError> {
+    pub fn prepared(&mut self, settings: &Settings, frame: Result<Frame, RenderError>) -> Result<(), RenderError> {
         self.asked.retain(|asked| asked != settings);
         match frame {
             Ok(frame) if settings.region.is_none() => self.spare.push(frame),
@@ -261,10 +245,7 @@ impl Layer {
             }
         };
         if is_first {
-            self.statistics = Statistics {
-                skipped_passes: statistics.skipped_passes.clone(),
-                ..Statistics::default()
-            };
+            self.statistics = Statistics { skipped_passes: statistics.skipped_passes.clone(), ..Statistics::default() };
         }
         // A pass counts as skipped if no band needed it.
         let skipped = &mut self.statistics.skipped_passes;
@@ -287,10 +268,7 @@ impl Layer {
             PictureWork::Draft { samples } => self.look.draft(*samples),
             PictureWork::Band { samples, rows } => self.look.at(
                 *samples,
-                Some(PixelRect {
-                    corner: [0, rows.start],
-                    size: [self.look.settings.size[0], rows.end - rows.start],
-                }),
+                Some(PixelRect { corner: [0, rows.start], size: [self.look.settings.size[0], rows.end - rows.start] }),
             ),
         };
         // Frames leave shadows out, which would take too long. The worker's pictures have them.

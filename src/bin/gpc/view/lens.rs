@@ -65,9 +65,8 @@ impl Lenses {
     /// Makes the lens at a place the active one, or moves the active lens there if there is none.
     pub fn press(&mut self, place: DVec2) {
         let is_at_hand = |index: usize| index == self.active;
-        let other = (0..self.regions.len())
-            .rev()
-            .find(|index| !is_at_hand(*index) && self.regions[*index].contains(place));
+        let other =
+            (0..self.regions.len()).rev().find(|index| !is_at_hand(*index) && self.regions[*index].contains(place));
         match other {
             Some(other) => self.active = other,
             None => self.change(|lens| lens.center = place.round().to_array()),

@@ -1,8 +1,6 @@
 //! Antialiasing settings of a picture, which keys and panel change.
 
-use gpc::render::{
-    Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading, SuperpixelOptions,
-};
+use gpc::render::{Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading, SuperpixelOptions};
 
 /// Samples a pixel of a picture at rest, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
@@ -23,10 +21,7 @@ impl Look {
     /// Look with the settings of the picture at rest. `superpixels` are the options for a later change to superpixels;
     /// if `settings` have superpixels already, their own options replace these.
     pub fn new(settings: Settings, superpixels: SuperpixelOptions) -> Self {
-        Self {
-            settings,
-            superpixels,
-        }
+        Self { settings, superpixels }
     }
 
     /// Method without its options.
@@ -69,12 +64,9 @@ impl Look {
                     Detection::Contrast => Detection::Edges,
                     asked => asked,
                 };
-                settings.footprint(Footprint::Pixel).method(
-                    options
-                        .shading(Shading::Triangle)
-                        .detection(detection)
-                        .contrast(Some(contrast)),
-                )
+                settings
+                    .footprint(Footprint::Pixel)
+                    .method(options.shading(Shading::Triangle).detection(detection).contrast(Some(contrast)))
             }
             _ => settings,
         }
@@ -135,10 +127,7 @@ mod tests {
             panic!("no superpixels");
         };
         assert_eq!(draft.cells.samples, 16);
-        assert_eq!(
-            (draft.detection, draft.contrast),
-            (Detection::Edges, Some(40))
-        );
+        assert_eq!((draft.detection, draft.contrast), (Detection::Edges, Some(40)));
         assert_eq!(draft.cells.shading, Shading::Triangle);
         assert_eq!(look.draft(1).method, Method::None);
         look.set_method(MethodKind::Msaa);

@@ -31,13 +31,7 @@ pub fn is_lost(error: &anyhow::Error) -> bool {
         };
         matches!(
             vulkan,
-            Some(
-                VulkanError::DeviceLost
-                    | VulkanError::Call {
-                        result: vk::Result::ERROR_SURFACE_LOST_KHR,
-                        ..
-                    }
-            )
+            Some(VulkanError::DeviceLost | VulkanError::Call { result: vk::Result::ERROR_SURFACE_LOST_KHR, .. })
         )
     })
 }

@@ -90,9 +90,7 @@ impl NoDisplay {
     fn new(error: &dyn std::error::Error) -> Self {
         let said = error.to_string();
         let reason = match said.split_once("os error at ") {
-            Some((_, at_line)) => at_line
-                .split_once(": ")
-                .map_or(at_line, |(_, reason)| reason),
+            Some((_, at_line)) => at_line.split_once(": ").map_or(at_line, |(_, reason)| reason),
             None => &said,
         };
         Self(reason.trim_end_matches('.').into())
@@ -106,9 +104,7 @@ impl NoDisplay {
 /// the messages of the validation layer, if it is on.
 pub fn run(options: Options) -> anyhow::Result<()> {
     heap::share();
-    let events = EventLoop::with_user_event()
-        .build()
-        .map_err(|error| NoDisplay::new(&error))?;
+    let events = EventLoop::with_user_event().build().map_err(|error| NoDisplay::new(&error))?;
     let mut app = App::new(options, events.create_proxy());
     events.run_app(&mut app)?;
     match app.close()?.first() {

@@ -22,11 +22,7 @@ const GRIP: f64 = 6.0;
 /// Zoom factor of a pinch; `delta` is the change of the fingers' distance as a share of that distance.
 pub fn pinched(delta: f64) -> f64 {
     // Some systems end a gesture with NaN.
-    if delta.is_finite() {
-        (1.0 + delta).clamp(0.5, 2.0)
-    } else {
-        1.0
-    }
+    if delta.is_finite() { (1.0 + delta).clamp(0.5, 2.0) } else { 1.0 }
 }
 
 impl Viewer {
@@ -76,9 +72,8 @@ impl Viewer {
 
     pub fn press(&mut self, button: MouseButton) {
         let grip = GRIP * self.window.scale_factor();
-        let near_split = self
-            .split_column()
-            .is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < grip);
+        let near_split =
+            self.split_column().is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < grip);
         let drag = match button {
             MouseButton::Left if near_split => Drag::Split,
             MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
@@ -190,12 +185,8 @@ impl Viewer {
             return;
         };
         let size = self.pixels();
-        let camera = self
-            .standpoint
-            .camera(self.cameras(), stage.bounds, self.aspect());
-        let pinhole = camera
-            .ok()
-            .and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
+        let camera = self.standpoint.camera(self.cameras(), stage.bounds, self.aspect());
+        let pinhole = camera.ok().and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
         let hit = pinhole
             .map(|pinhole| pinhole.ray(self.pointer.place()))
             .and_then(|ray| pick::first_hit(&stage.geometry, &ray));

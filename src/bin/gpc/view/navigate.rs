@@ -79,10 +79,7 @@ impl Turntable {
         };
         Self {
             target,
-            azimuth: (-direction.x)
-                .atan2(-direction.z)
-                .to_degrees()
-                .rem_euclid(360.0),
+            azimuth: (-direction.x).atan2(-direction.z).to_degrees().rem_euclid(360.0),
             elevation: (-direction.y).clamp(-1.0, 1.0).asin().to_degrees(),
             distance,
             fov,
@@ -110,11 +107,7 @@ impl Turntable {
     pub fn of_orbit(orbit: &Orbit, bounds: Bounds, aspect: f64) -> Result<Self, CameraError> {
         let camera = orbit.frame(bounds.0, bounds.1, aspect)?;
         let target = 0.5 * (bounds.0 + bounds.1);
-        Ok(Self {
-            target,
-            distance: (camera.eye - target).length(),
-            ..Self::of_camera(&camera, bounds)
-        })
+        Ok(Self { target, distance: (camera.eye - target).length(), ..Self::of_camera(&camera, bounds) })
     }
 
     /// The eye, target and field of view for a camera.
@@ -129,10 +122,7 @@ impl Turntable {
 
     /// Changes the distance until all of a scene is in view, in the same direction.
     pub fn fit(&mut self, bounds: Bounds, aspect: f64) {
-        let orbit = Orbit {
-            fov: self.fov,
-            ..Orbit::default()
-        };
+        let orbit = Orbit { fov: self.fov, ..Orbit::default() };
         self.target = 0.5 * (bounds.0 + bounds.1);
         // Angles and field of view of a turntable are always in range.
         if let Ok(camera) = orbit.frame(bounds.0, bounds.1, aspect) {
@@ -203,11 +193,7 @@ impl Turntable {
     /// Unit vector from target to eye.
     fn backward(&self) -> DVec3 {
         let (azimuth, elevation) = (self.azimuth.to_radians(), self.elevation.to_radians());
-        DVec3::new(
-            azimuth.sin() * elevation.cos(),
-            elevation.sin(),
-            azimuth.cos() * elevation.cos(),
-        )
+        DVec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos())
     }
 
     /// Unit vectors to the right and up in the image.
@@ -218,10 +204,7 @@ impl Turntable {
     }
 
     fn clamped(self) -> Self {
-        Self {
-            elevation: self.elevation.clamp(-STEEPEST, STEEPEST),
-            ..self
-        }
+        Self { elevation: self.elevation.clamp(-STEEPEST, STEEPEST), ..self }
     }
 }
 
@@ -314,26 +297,14 @@ mod tests {
 
     #[test]
     fn viewpoints_and_orbits_are_taken_over() {
-        let viewpoint = Viewpoint {
-            eye: DVec3::new(3.0, 4.0, 5.0),
-            target: DVec3::new(0.5, 0.25, -1.0),
-            up: DVec3::Y,
-            fov: 30.0,
-        };
+        let viewpoint =
+            Viewpoint { eye: DVec3::new(3.0, 4.0, 5.0), target: DVec3::new(0.5, 0.25, -1.0), up: DVec3::Y, fov: 30.0 };
         let found = Turntable::of_viewpoint(&viewpoint, BOUNDS).unwrap();
         assert!((found.viewpoint().eye - viewpoint.eye).length() < 1e-9);
         assert_eq!((found.target, found.fov.round()), (viewpoint.target, 30.0));
-        let nowhere = Viewpoint {
-            target: viewpoint.eye,
-            ..viewpoint
-        };
+        let nowhere = Viewpoint { target: viewpoint.eye, ..viewpoint };
         assert!(Turntable::of_viewpoint(&nowhere, BOUNDS).is_err());
-        let orbit = Orbit {
-            azimuth: 100.0,
-            elevation: -20.0,
-            zoom: 2.0,
-            fov: 50.0,
-        };
+        let orbit = Orbit { azimuth: 100.0, elevation: -20.0, zoom: 2.0, fov: 50.0 };
         let found = Turntable::of_orbit(&orbit, BOUNDS, 2.0).unwrap();
         let expected = orbit.frame(BOUNDS.0, BOUNDS.1, 2.0).unwrap();
         assert!((found.viewpoint().eye - expected.eye).length() < 1e-9);
@@ -355,11 +326,7 @@ mod tests {
     #[test]
     fn sides_look_along_the_axes() {
         let mut turntable = turntable();
-        for (side, expected) in [
-            (Side::Front, DVec3::NEG_Z),
-            (Side::Right, DVec3::NEG_X),
-            (Side::Top, DVec3::NEG_Y),
-        ] {
+        for (side, expected) in [(Side::Front, DVec3::NEG_Z), (Side::Right, DVec3::NEG_X), (Side::Top, DVec3::NEG_Y)] {
             turntable.look_from(side);
             assert!((camera(&turntable).direction() - expected).length() < 1e-3);
         }
@@ -373,9 +340,6 @@ mod tests {
         turntable.recentre(point);
         assert!(seen(&turntable, point).length() < 1e-9);
         let moved = turntable.viewpoint().eye - before;
-        assert!(
-            moved.dot(turntable.backward()).abs() < 1e-9,
-            "it comes no nearer"
-        );
+        assert!(moved.dot(turntable.backward()).abs() < 1e-9, "it comes no nearer");
     }
 }

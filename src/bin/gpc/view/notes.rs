@@ -23,10 +23,7 @@ pub struct Note {
 
 impl Notes {
     pub fn new(describe: fn(&anyhow::Error) -> String) -> Self {
-        Self {
-            notes: Vec::new(),
-            describe,
-        }
+        Self { notes: Vec::new(), describe }
     }
 
     /// Shows a note in the window and logs it. A note that is repeated is shown once.
@@ -40,22 +37,14 @@ impl Notes {
     /// Shows an error and logs it, once.
     pub fn fail(&mut self, error: &anyhow::Error) {
         let text = (self.describe)(error);
-        if !self
-            .notes
-            .iter()
-            .any(|note| note.is_error && note.text == text)
-        {
+        if !self.notes.iter().any(|note| note.is_error && note.text == text) {
             log::error!("{text}");
             self.add(text, true);
         }
     }
 
     fn add(&mut self, text: String, is_error: bool) {
-        self.notes.push(Note {
-            text,
-            is_error,
-            since: Instant::now(),
-        });
+        self.notes.push(Note { text, is_error, since: Instant::now() });
     }
 
     /// Removes errors.
@@ -65,8 +54,7 @@ impl Notes {
 
     /// Notes to show now.
     pub fn seen(&mut self, now: Instant) -> &[Note] {
-        self.notes
-            .retain(|note| note.is_error || now < note.since + SEEN);
+        self.notes.retain(|note| note.is_error || now < note.since + SEEN);
         &self.notes
     }
 

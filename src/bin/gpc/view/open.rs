@@ -100,8 +100,7 @@ impl Viewer {
                 self.notes.say(format!("{name}: there is nothing to draw"));
             }
         }
-        self.window
-            .set_title(&format!("{} - gpc", loading.source.name()));
+        self.window.set_title(&format!("{} - gpc", loading.source.name()));
         log::debug!("shows {}", loading.source.path.display());
         match opened {
             Opened::Scene(stage) => self.set_stage(*stage, loading.keeps_view),
@@ -141,8 +140,7 @@ impl Viewer {
             easel.unzooms = before.unzooms;
         }
         if easel.photo.zoomed().is_some() {
-            self.notes
-                .say("the image holds a zoom: U unzooms it under the pointer");
+            self.notes.say("the image holds a zoom: U unzooms it under the pointer");
         }
         (self.player, self.moment, self.flight) = (None, None, None);
         self.set_easel(Some(easel));

@@ -64,11 +64,7 @@ impl Viewer {
         } else if let Some(subject) = self.cover.subject() {
             let (number, samples) = step(&mut self.cover);
             let look = &self.looks[self.layer_under_pointer()];
-            let samples = if look.can_have(samples) {
-                samples
-            } else {
-                look.samples()
-            };
+            let samples = if look.can_have(samples) { samples } else { look.samples() };
             self.order(number, samples, subject);
         } else {
             self.worker.supersede();

@@ -55,20 +55,8 @@ impl Overlay {
     pub fn scale(self) -> &'static [(f64, &'static str)] {
         match self {
             Self::Stored(_) => &[],
-            Self::Triangles => &[
-                (0.0, "1"),
-                (0.25, "2"),
-                (0.5, "4"),
-                (0.75, "8"),
-                (1.0, "16"),
-            ],
-            Self::Error => &[
-                (0.0, "0"),
-                (0.25, "4"),
-                (0.5, "8"),
-                (0.75, "12"),
-                (1.0, "16"),
-            ],
+            Self::Triangles => &[(0.0, "1"), (0.25, "2"), (0.5, "4"), (0.75, "8"), (1.0, "16")],
+            Self::Error => &[(0.0, "0"), (0.25, "4"), (0.5, "8"), (0.75, "12"), (1.0, "16")],
         }
     }
 }
@@ -85,9 +73,7 @@ pub fn triangles(ids: &mut [u32]) -> [u8; 4] {
         }
     }
     let doublings = f64::from(distinct.max(1)).log2();
-    opaque(heat_color(
-        (doublings / f64::from(MOST_TRIANGLES).log2()) as f32,
-    ))
+    opaque(heat_color((doublings / f64::from(MOST_TRIANGLES).log2()) as f32))
 }
 
 /// Colour for the largest difference of two pixels' channels.

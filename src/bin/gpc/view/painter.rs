@@ -27,24 +27,14 @@ impl Painter {
         let renderer = Renderer::with_gpu_allocator(
             device.allocator()?,
             device.handle.clone(),
-            DynamicRendering {
-                color_attachment_format: format,
-                depth_attachment_format: None,
-            },
-            Options {
-                in_flight_frames: SLOTS,
-                ..Options::default()
-            },
+            DynamicRendering { color_attachment_format: format, depth_attachment_format: None },
+            Options { in_flight_frames: SLOTS, ..Options::default() },
         )?;
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.queue_family);
         // SAFETY: a plain creation on a live device.
         let pool = unsafe { device.handle.create_command_pool(&info, None) }
             .map_err(VulkanError::of("vkCreateCommandPool"))?;
-        Ok(Self {
-            renderer,
-            pool,
-            device: device.clone(),
-        })
+        Ok(Self { renderer, pool, device: device.clone() })
     }
 
     /// Uploads changed textures, and waits for the device. The letters come with egui's first layout; later layouts
@@ -53,9 +43,7 @@ impl Painter {
         let changed = &painting.textures.set;
         if !changed.is_empty() {
             let queue = self.device.queue();
-            self.renderer
-                .set_textures(*queue, self.pool, changed)
-                .map_err(failure)?;
+            self.renderer.set_textures(*queue, self.pool, changed).map_err(failure)?;
         }
         Ok(())
     }
@@ -81,18 +69,11 @@ impl Painter {
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
             .load_op(vk::AttachmentLoadOp::LOAD)
             .store_op(vk::AttachmentStoreOp::STORE)];
-        let info = vk::RenderingInfo::default()
-            .render_area(extent.into())
-            .layer_count(1)
-            .color_attachments(&attachments);
+        let info =
+            vk::RenderingInfo::default().render_area(extent.into()).layer_count(1).color_attachments(&attachments);
         // SAFETY: guaranteed by the caller.
         unsafe { self.device.handle.cmd_begin_rendering(commands, &info) };
-        let drawn = self.renderer.cmd_draw(
-            commands,
-            extent,
-            painting.pixels_per_point,
-            &painting.primitives,
-        );
+        let drawn = self.renderer.cmd_draw(commands, extent, painting.pixels_per_point, &painting.primitives);
         // SAFETY: as above.
         unsafe { self.device.handle.cmd_end_rendering(commands) };
         drawn.map_err(failure)

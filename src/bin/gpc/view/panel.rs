@@ -115,30 +115,26 @@ pub fn show(ctx: &egui::Context, facts: &Facts<'_>) -> Wishes {
 }
 
 fn show_panel(ctx: &egui::Context, facts: &Facts<'_>, wishes: &mut Wishes) {
-    egui::Window::new("panel")
-        .title_bar(false)
-        .resizable(false)
-        .default_pos([8.0, 8.0])
-        .show(ctx, |ui| {
-            if let Some(photo) = &facts.photo {
-                let [width, height] = photo.size;
-                ui.strong(&photo.name);
-                ui.label(format!("{width} x {height} pixels"));
-                if photo.is_zoomed {
-                    ui.label("zoomed: U unzooms it under the pointer");
-                }
+    egui::Window::new("panel").title_bar(false).resizable(false).default_pos([8.0, 8.0]).show(ctx, |ui| {
+        if let Some(photo) = &facts.photo {
+            let [width, height] = photo.size;
+            ui.strong(&photo.name);
+            ui.label(format!("{width} x {height} pixels"));
+            if photo.is_zoomed {
+                ui.label("zoomed: U unzooms it under the pointer");
             }
-            if let Some(scene) = &facts.scene {
-                show_scene(ui, scene, facts, wishes);
-                ui.separator();
-                show_overlay(ui, facts, wishes);
-            }
-            show_lenses(ui, facts, wishes);
-            if facts.is_refining {
-                ui.weak("being made in the background");
-            }
-            ui.weak("H lists the keys, P hides this");
-        });
+        }
+        if let Some(scene) = &facts.scene {
+            show_scene(ui, scene, facts, wishes);
+            ui.separator();
+            show_overlay(ui, facts, wishes);
+        }
+        show_lenses(ui, facts, wishes);
+        if facts.is_refining {
+            ui.weak("being made in the background");
+        }
+        ui.weak("H lists the keys, P hides this");
+    });
 }
 
 fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wishes: &mut Wishes) {
@@ -147,13 +143,11 @@ fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wish
     if !scene.warnings.is_empty() {
         let title = format!("warnings: {}", scene.warnings.len());
         ui.collapsing(title, |ui| {
-            egui::ScrollArea::vertical()
-                .max_height(200.0)
-                .show(ui, |ui| {
-                    for warning in scene.warnings {
-                        ui.label(warning);
-                    }
-                });
+            egui::ScrollArea::vertical().max_height(200.0).show(ui, |ui| {
+                for warning in scene.warnings {
+                    ui.label(warning);
+                }
+            });
         });
     }
     if let Some((animations, chosen, player)) = scene.motion {
@@ -176,17 +170,15 @@ fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wish
 /// Controls of the overlay.
 fn show_overlay(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
     let name = |overlay: Option<Overlay>| overlay.map_or("colours", Overlay::name);
-    egui::ComboBox::from_label("shown")
-        .selected_text(name(facts.overlay))
-        .show_ui(ui, |ui| {
-            let all = std::iter::once(None).chain(Overlay::ALL.map(Some));
-            for overlay in all {
-                let is_chosen = overlay == facts.overlay;
-                if ui.selectable_label(is_chosen, name(overlay)).clicked() {
-                    wishes.overlay = Some(overlay);
-                }
+    egui::ComboBox::from_label("shown").selected_text(name(facts.overlay)).show_ui(ui, |ui| {
+        let all = std::iter::once(None).chain(Overlay::ALL.map(Some));
+        for overlay in all {
+            let is_chosen = overlay == facts.overlay;
+            if ui.selectable_label(is_chosen, name(overlay)).clicked() {
+                wishes.overlay = Some(overlay);
             }
-        });
+        }
+    });
     if let Some(overlay) = facts.overlay.filter(|overlay| !overlay.scale().is_empty()) {
         show_scale(ui, overlay.scale());
     }
@@ -257,27 +249,19 @@ fn show_lenses(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
     });
 }
 
-fn show_player(
-    ui: &mut egui::Ui,
-    animations: &[AnimationInfo],
-    chosen: usize,
-    player: &Player,
-    wishes: &mut Wishes,
-) {
+fn show_player(ui: &mut egui::Ui, animations: &[AnimationInfo], chosen: usize, player: &Player, wishes: &mut Wishes) {
     let name = |index: usize| {
         let name = animations.get(index).and_then(|a| a.name.clone());
         name.unwrap_or_else(|| format!("animation {index}"))
     };
     if animations.len() > 1 {
-        egui::ComboBox::from_id_salt("animation")
-            .selected_text(name(chosen))
-            .show_ui(ui, |ui| {
-                for index in 0..animations.len() {
-                    if ui.selectable_label(index == chosen, name(index)).clicked() {
-                        wishes.animation = Some(index);
-                    }
+        egui::ComboBox::from_id_salt("animation").selected_text(name(chosen)).show_ui(ui, |ui| {
+            for index in 0..animations.len() {
+                if ui.selectable_label(index == chosen, name(index)).clicked() {
+                    wishes.animation = Some(index);
                 }
-            });
+            }
+        });
     }
     ui.horizontal(|ui| {
         let label = if player.is_playing() { "Pause" } else { "Play" };
@@ -300,12 +284,7 @@ fn show_player(
 /// Controls of a picture's antialiasing.
 fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
-        for method in [
-            MethodKind::Superpixel,
-            MethodKind::None,
-            MethodKind::Msaa,
-            MethodKind::Ssaa,
-        ] {
+        for method in [MethodKind::Superpixel, MethodKind::None, MethodKind::Msaa, MethodKind::Ssaa] {
             let is_chosen = look.method() == method;
             if ui.selectable_label(is_chosen, method.to_string()).clicked() && !is_chosen {
                 look.set_method(method);
@@ -315,33 +294,25 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     if look.method() == MethodKind::None {
         return;
     }
-    egui::ComboBox::from_label("samples")
-        .selected_text(look.samples().to_string())
-        .show_ui(ui, |ui| {
-            for samples in (0..=10).map(|exponent| 1 << exponent) {
-                // Most devices have these numbers of samples.
-                let is_common = look.method() == MethodKind::Msaa && samples <= 8;
-                if is_common || look.can_have(samples) {
-                    let is_chosen = look.samples() == samples;
-                    if ui
-                        .selectable_label(is_chosen, samples.to_string())
-                        .clicked()
-                    {
-                        look.set_samples(samples);
-                    }
+    egui::ComboBox::from_label("samples").selected_text(look.samples().to_string()).show_ui(ui, |ui| {
+        for samples in (0..=10).map(|exponent| 1 << exponent) {
+            // Most devices have these numbers of samples.
+            let is_common = look.method() == MethodKind::Msaa && samples <= 8;
+            if is_common || look.can_have(samples) {
+                let is_chosen = look.samples() == samples;
+                if ui.selectable_label(is_chosen, samples.to_string()).clicked() {
+                    look.set_samples(samples);
                 }
             }
-        });
+        }
+    });
     let Some(superpixels) = look.superpixels_mut() else {
         return;
     };
     ui.horizontal(|ui| {
         ui.label("contrast");
         let mut contrast = superpixels.threshold();
-        if ui
-            .add(egui::Slider::new(&mut contrast, 0..=MOST_CONTRAST))
-            .changed()
-        {
+        if ui.add(egui::Slider::new(&mut contrast, 0..=MOST_CONTRAST)).changed() {
             superpixels.contrast = Some(contrast);
         }
         if superpixels.contrast.is_some() && ui.button("default").clicked() {
@@ -357,13 +328,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     });
     ui.horizontal(|ui| {
         ui.label("pattern");
-        for pattern in [
-            Pattern::Lines,
-            Pattern::Sobol,
-            Pattern::Lattice,
-            Pattern::Korobov,
-            Pattern::Grid,
-        ] {
+        for pattern in [Pattern::Lines, Pattern::Sobol, Pattern::Lattice, Pattern::Korobov, Pattern::Grid] {
             if pattern.offsets(superpixels.cells.samples).is_ok() {
                 let name = pattern.to_string();
                 ui.selectable_value(&mut superpixels.cells.pattern, pattern, name);
@@ -384,16 +349,9 @@ fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
     let [width, height] = picture.look.settings.size.map(f64::from);
     if picture.look.method() == MethodKind::Superpixel {
         let share = 100.0 * statistics.superpixels as f64 / (width * height).max(1.0);
-        ui.label(format!(
-            "{} superpixels, {share:.1} %",
-            statistics.superpixels
-        ));
+        ui.label(format!("{} superpixels, {share:.1} %", statistics.superpixels));
     }
-    ui.label(format!(
-        "{:.1} ms on the device, {} MiB",
-        statistics.gpu_ms(),
-        statistics.memory_bytes >> 20
-    ));
+    ui.label(format!("{:.1} ms on the device, {} MiB", statistics.gpu_ms(), statistics.memory_bytes >> 20));
     if !statistics.skipped_passes.is_empty() {
         ui.label(format!("skipped: {}", statistics.skipped_passes.join(", ")));
     }
@@ -412,8 +370,7 @@ fn show_split(ctx: &egui::Context, column: u32) {
     let x = column as f32 / ctx.pixels_per_point();
     let line = egui::Stroke::new(1.0, egui::Color32::WHITE);
     let height = ctx.content_rect().y_range();
-    ctx.layer_painter(egui::LayerId::background())
-        .vline(x, height, line);
+    ctx.layer_painter(egui::LayerId::background()).vline(x, height, line);
 }
 
 fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
@@ -427,11 +384,7 @@ fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
         if let Some(loading) = &facts.loading {
             ui.label(format!("Loading {}: {}", loading.name, loading.step));
             let waited = format!("{} s; Esc stops it", loading.since.as_secs());
-            ui.add(
-                egui::ProgressBar::new(loading.share)
-                    .text(waited)
-                    .desired_width(240.0),
-            );
+            ui.add(egui::ProgressBar::new(loading.share).text(waited).desired_width(240.0));
             ctx.request_repaint_after(Duration::from_millis(250));
         }
         for note in facts.notes {
@@ -451,15 +404,13 @@ fn show_keys(ctx: &egui::Context) {
     let area = egui::ScrollArea::vertical().min_scrolled_height(height);
     overlay("keys", egui::Align2::CENTER_CENTER).show(ctx, |ui| {
         area.show(ui, |ui| {
-            egui::Grid::new("list of keys")
-                .striped(true)
-                .show(ui, |ui| {
-                    for (label, does) in keys::list().chain(keys::MOUSE) {
-                        ui.strong(label);
-                        ui.label(does);
-                        ui.end_row();
-                    }
-                });
+            egui::Grid::new("list of keys").striped(true).show(ui, |ui| {
+                for (label, does) in keys::list().chain(keys::MOUSE) {
+                    ui.strong(label);
+                    ui.label(does);
+                    ui.end_row();
+                }
+            });
         });
     });
 }
@@ -467,8 +418,5 @@ fn show_keys(ctx: &egui::Context) {
 /// A small window without a title or a handle.
 fn overlay(id: &'static str, anchor: egui::Align2) -> egui::Window<'static> {
     let margin = egui::vec2(8.0, 8.0) * -anchor.to_sign();
-    egui::Window::new(id)
-        .title_bar(false)
-        .resizable(false)
-        .anchor(anchor, margin)
+    egui::Window::new(id).title_bar(false).resizable(false).anchor(anchor, margin)
 }

@@ -38,10 +38,7 @@ impl Photo {
         } else {
             PhotoImage::Plain(Photograph::from(&output::decode(&bytes, &name)?))
         };
-        Ok(Self {
-            path: path.to_owned(),
-            image,
-        })
+        Ok(Self { path: path.to_owned(), image })
     }
 
     /// The image as a photograph.
@@ -104,11 +101,7 @@ impl Framing {
     }
 
     fn window(&self, size: [u32; 2]) -> Window {
-        Window {
-            size,
-            corner: self.corner.to_array(),
-            step: self.step,
-        }
+        Window { size, corner: self.corner.to_array(), step: self.step }
     }
 }
 
@@ -124,21 +117,11 @@ pub struct Easel {
 impl Easel {
     /// Shows a whole photograph in a window of `window` = [width, height].
     pub fn new(photo: Photo, window: [u32; 2]) -> Self {
-        Self {
-            framing: Framing::fitting(photo.photograph().size(), window),
-            photo: Arc::new(photo),
-            unzooms: false,
-        }
+        Self { framing: Framing::fitting(photo.photograph().size(), window), photo: Arc::new(photo), unzooms: false }
     }
 
     /// Picture of the visible part, for a window of `size` = [width, height].
-    pub fn view(
-        &self,
-        size: [u32; 2],
-        map: Option<ZoomMap>,
-        tints: bool,
-        pointer: DVec2,
-    ) -> PhotoView {
+    pub fn view(&self, size: [u32; 2], map: Option<ZoomMap>, tints: bool, pointer: DVec2) -> PhotoView {
         PhotoView {
             photo: self.photo.clone(),
             window: self.framing.window(size),
@@ -159,11 +142,7 @@ impl Easel {
     pub fn whole(&self, map: ZoomMap) -> PhotoView {
         PhotoView {
             photo: self.photo.clone(),
-            window: Window {
-                size: self.photo.photograph().size(),
-                corner: [0.0, 0.0],
-                step: 1.0,
-            },
+            window: Window { size: self.photo.photograph().size(), corner: [0.0, 0.0], step: 1.0 },
             map: Some(map),
             tints: false,
             loupe: None,
@@ -215,8 +194,7 @@ impl PhotoView {
 
     /// Location in the photograph that a place of the window shows, and its Jacobian.
     fn look(&self, place: DVec2) -> (DVec2, DMat2) {
-        if let (Some((location, rate)), Some(zoomed)) = (self.unzoomed(place), self.photo.zoomed())
-        {
+        if let (Some((location, rate)), Some(zoomed)) = (self.unzoomed(place), self.photo.zoomed()) {
             return zoomed.place(location, DMat2::from_diagonal(DVec2::splat(rate)));
         }
         let plane = self.window.location(place);
@@ -298,10 +276,7 @@ mod tests {
         let whole = Framing::fitting([100, 50], [300, 200]);
         assert_eq!((whole.corner, whole.step), (DVec2::new(-100.0, -75.0), 1.0));
         let smaller = Framing::fitting([1000, 500], [100, 100]);
-        assert_eq!(
-            (smaller.corner, smaller.step),
-            (DVec2::new(0.0, -250.0), 10.0)
-        );
+        assert_eq!((smaller.corner, smaller.step), (DVec2::new(0.0, -250.0), 10.0));
         let mut framing = smaller;
         let pointer = DVec2::new(30.0, 60.0);
         let fixed = framing.place(pointer);

@@ -64,10 +64,7 @@ mod tests {
     }
 
     fn ray(x: f64, y: f64) -> Ray {
-        Ray {
-            start: DVec3::new(x, y, 5.0),
-            direction: DVec3::new(0.0, 0.0, -2.0),
-        }
+        Ray { start: DVec3::new(x, y, 5.0), direction: DVec3::new(0.0, 0.0, -2.0) }
     }
 
     #[test]
@@ -76,10 +73,7 @@ mod tests {
         let hit = first_hit(&geometry, &ray(10.25, 0.5));
         assert_eq!(hit, Some(DVec3::new(10.25, 0.5, 0.0)));
         assert_eq!(first_hit(&geometry, &ray(10.75, 0.5)), None);
-        let away = Ray {
-            direction: DVec3::Z,
-            ..ray(10.25, 0.5)
-        };
+        let away = Ray { direction: DVec3::Z, ..ray(10.25, 0.5) };
         assert_eq!(first_hit(&geometry, &away), None);
     }
 

@@ -72,27 +72,15 @@ impl Picture {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(vk::Format::R8G8B8A8_UNORM)
-            .extent(vk::Extent3D {
-                width: size[0],
-                height: size[1],
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width: size[0], height: size[1], depth: 1 })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC);
         // SAFETY: a plain creation on a live device.
-        let image = unsafe { device.handle.create_image(&info, None) }
-            .map_err(VulkanError::of("vkCreateImage"))?;
-        let mut picture = Self {
-            device: device.clone(),
-            image,
-            memory: None,
-            size,
-            is_written: false,
-            staging: None,
-        };
+        let image = unsafe { device.handle.create_image(&info, None) }.map_err(VulkanError::of("vkCreateImage"))?;
+        let mut picture = Self { device: device.clone(), image, memory: None, size, is_written: false, staging: None };
         // SAFETY: the image was made from this device.
         let requirements = unsafe { device.handle.get_image_memory_requirements(image) };
         let memory = allocate(device, requirements, MemoryLocation::GpuOnly)?;
@@ -123,13 +111,11 @@ impl Picture {
             return;
         };
         self.is_written = true;
-        let copy = [vk::BufferImageCopy::default()
-            .image_subresource(LAYERS)
-            .image_extent(vk::Extent3D {
-                width: self.size[0],
-                height: self.size[1],
-                depth: 1,
-            })];
+        let copy = [vk::BufferImageCopy::default().image_subresource(LAYERS).image_extent(vk::Extent3D {
+            width: self.size[0],
+            height: self.size[1],
+            depth: 1,
+        })];
         // SAFETY: guaranteed by the caller; the buffer has a code for each pixel, and what the host wrote before the
         // submission is visible to it.
         unsafe {
@@ -163,11 +149,7 @@ impl Picture {
     /// Target for a renderer that overwrites the whole picture.
     pub fn target(&mut self) -> Target {
         self.is_written = true;
-        Target::Image {
-            image: self.image,
-            before: UNUSED,
-            after: SOURCE,
-        }
+        Target::Image { image: self.image, before: UNUSED, after: SOURCE }
     }
 
     /// Records a copy of all of another picture to this one, from the row `first_row` on.
@@ -181,16 +163,8 @@ impl Picture {
         let copy = [vk::ImageCopy::default()
             .src_subresource(LAYERS)
             .dst_subresource(LAYERS)
-            .dst_offset(vk::Offset3D {
-                x: 0,
-                y: first_row as i32,
-                z: 0,
-            })
-            .extent(vk::Extent3D {
-                width: from.size[0],
-                height: from.size[1],
-                depth: 1,
-            })];
+            .dst_offset(vk::Offset3D { x: 0, y: first_row as i32, z: 0 })
+            .extent(vk::Extent3D { width: from.size[0], height: from.size[1], depth: 1 })];
         // SAFETY: guaranteed by the caller.
         unsafe {
             change(&self.device, commands, self.image, before, DESTINATION);
@@ -209,17 +183,10 @@ impl Picture {
 
 impl Staging {
     fn new(device: &Arc<Device>, bytes: &[u8]) -> anyhow::Result<Self> {
-        let info = vk::BufferCreateInfo::default()
-            .size(bytes.len() as u64)
-            .usage(vk::BufferUsageFlags::TRANSFER_SRC);
+        let info = vk::BufferCreateInfo::default().size(bytes.len() as u64).usage(vk::BufferUsageFlags::TRANSFER_SRC);
         // SAFETY: a plain creation on a live device.
-        let buffer = unsafe { device.handle.create_buffer(&info, None) }
-            .map_err(VulkanError::of("vkCreateBuffer"))?;
-        let mut staging = Self {
-            device: device.clone(),
-            buffer,
-            memory: None,
-        };
+        let buffer = unsafe { device.handle.create_buffer(&info, None) }.map_err(VulkanError::of("vkCreateBuffer"))?;
+        let mut staging = Self { device: device.clone(), buffer, memory: None };
         // SAFETY: the buffer was made from this device.
         let requirements = unsafe { device.handle.get_buffer_memory_requirements(buffer) };
         let memory = allocate(device, requirements, MemoryLocation::CpuToGpu)?;
@@ -265,10 +232,7 @@ fn allocate(
             linear: location == MemoryLocation::CpuToGpu,
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         })
-        .map_err(|_| VulkanError::OutOfMemory {
-            what: "a picture".to_owned(),
-            bytes: requirements.size,
-        })?;
+        .map_err(|_| VulkanError::OutOfMemory { what: "a picture".to_owned(), bytes: requirements.size })?;
     Ok(allocation)
 }
 
@@ -285,13 +249,7 @@ fn free(device: &Device, memory: Option<Allocation>) {
 /// # Safety
 /// `commands` is being recorded for the device outside of a render pass; the image outlives their execution and is in
 /// the first state, unless that is undefined.
-pub unsafe fn change(
-    device: &Device,
-    commands: vk::CommandBuffer,
-    image: vk::Image,
-    from: ImageState,
-    to: ImageState,
-) {
+pub unsafe fn change(device: &Device, commands: vk::CommandBuffer, image: vk::Image, from: ImageState, to: ImageState) {
     let barriers = [vk::ImageMemoryBarrier2::default()
         .src_stage_mask(from.stage)
         .src_access_mask(from.access)

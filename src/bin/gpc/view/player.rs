@@ -18,12 +18,7 @@ pub struct Player {
 impl Player {
     /// Makes a paused player at `time`; both are in seconds of the animation.
     pub fn new(time: f64, duration: f64) -> Self {
-        Self {
-            time,
-            duration,
-            speed: 1.0,
-            last: None,
-        }
+        Self { time, duration, speed: 1.0, last: None }
     }
 
     /// Time of the animation in seconds.
@@ -71,11 +66,7 @@ impl Player {
         if let Some(last) = self.last.replace(now) {
             let passed = now.saturating_duration_since(last).as_secs_f64();
             let time = self.time + self.speed * passed;
-            self.time = if self.duration > 0.0 {
-                time.rem_euclid(self.duration)
-            } else {
-                0.0
-            };
+            self.time = if self.duration > 0.0 { time.rem_euclid(self.duration) } else { 0.0 };
         } else {
             self.last = None;
         }

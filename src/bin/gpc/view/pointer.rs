@@ -41,9 +41,10 @@ impl Pointer {
 
     /// Starts a drag. Returns whether this is the second press of a double click.
     pub fn pressed(&mut self, drag: Drag, now: Instant) -> bool {
-        let is_double = self.last_press.take().is_some_and(|(then, place)| {
-            now - then < DOUBLE && (place - self.place).length() < NEAR
-        });
+        let is_double = self
+            .last_press
+            .take()
+            .is_some_and(|(then, place)| now - then < DOUBLE && (place - self.place).length() < NEAR);
         if !is_double {
             self.last_press = Some((now, self.place));
         }

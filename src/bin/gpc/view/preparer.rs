@@ -38,20 +38,11 @@ impl Preparer {
     pub fn new(deliver: impl Fn(Prepared) + Send + 'static) -> Self {
         let (requests, received) = channel();
         let thread = std::thread::spawn(move || run(&received, deliver));
-        Self {
-            requests: Some(requests),
-            thread: Some(thread),
-        }
+        Self { requests: Some(requests), thread: Some(thread) }
     }
 
     /// Requests a frame of a scene with these settings.
-    pub fn ask(
-        &self,
-        ticket: &Ticket,
-        settings: Settings,
-        scene: &Arc<PreparedScene>,
-        engine: &Arc<Engine>,
-    ) {
+    pub fn ask(&self, ticket: &Ticket, settings: Settings, scene: &Arc<PreparedScene>, engine: &Arc<Engine>) {
         if let Some(requests) = &self.requests {
             // Sending can't fail: the thread ends only when this sender is dropped.
             let _ = requests.send(Request {
@@ -67,25 +58,13 @@ impl Preparer {
 fn run(requests: &Receiver<Request>, deliver: impl Fn(Prepared)) {
     for request in requests {
         // Variables are dropped in reverse order: the engine after the objects that use it.
-        let Request {
-            engine,
-            scene,
-            settings,
-            ticket,
-        } = request;
+        let Request { engine, scene, settings, ticket } = request;
         if ticket.strong_count() == 0 {
             continue;
         }
-        let frame = engine
-            .renderer
-            .prepare(&scene, &settings, Some(Encoding::Rgba8));
+        let frame = engine.renderer.prepare(&scene, &settings, Some(Encoding::Rgba8));
         drop(scene);
-        deliver(Prepared {
-            ticket,
-            settings,
-            frame,
-            _engine: engine,
-        });
+        deliver(Prepared { ticket, settings, frame, _engine: engine });
     }
 }
 

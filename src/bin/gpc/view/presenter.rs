@@ -37,12 +37,7 @@ impl Presenter {
                 let _ = outcome.send(present(&device, &image));
             }
         });
-        Self {
-            images: Some(images),
-            outcomes,
-            is_busy: false,
-            thread: Some(thread),
-        }
+        Self { images: Some(images), outcomes, is_busy: false, thread: Some(thread) }
     }
 
     /// Whether an image is being presented. Until then the swapchain must not be used.
@@ -74,10 +69,7 @@ impl Presenter {
 
 fn present(device: &Device, image: &Acquired) -> Result<SwapchainFit, VulkanError> {
     let (waits, swapchains, indices) = ([image.drawn], [image.swapchain], [image.index]);
-    let info = vk::PresentInfoKHR::default()
-        .wait_semaphores(&waits)
-        .swapchains(&swapchains)
-        .image_indices(&indices);
+    let info = vk::PresentInfoKHR::default().wait_semaphores(&waits).swapchains(&swapchains).image_indices(&indices);
     let queue = device.queue();
     // SAFETY: the image was acquired, and submitted commands signal its semaphore. Nobody else uses the queue now, nor
     // the swapchain while the presenter is busy.

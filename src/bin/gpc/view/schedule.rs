@@ -56,10 +56,7 @@ impl Took {
     pub fn of(statistics: &Statistics) -> Self {
         let passes = statistics.passes.iter();
         let fixed = passes.filter(|pass| OF_TRIANGLES.contains(&pass.pass));
-        Self {
-            ms: statistics.gpu_ms(),
-            fixed_ms: fixed.map(|pass| pass.ms).sum(),
-        }
+        Self { ms: statistics.gpu_ms(), fixed_ms: fixed.map(|pass| pass.ms).sum() }
     }
 
     /// Milliseconds per row of `rows` rows, without the fixed part.
@@ -148,10 +145,7 @@ impl PictureSchedule {
             Phase::Draft => {
                 let samples = self.draft_samples();
                 self.step = match (self.final_draft == Some(samples), self.steps.first()) {
-                    (false, Some(first)) => Phase::Band {
-                        samples: *first,
-                        row: 0,
-                    },
+                    (false, Some(first)) => Phase::Band { samples: *first, row: 0 },
                     _ => Phase::Done,
                 };
                 Some(PictureWork::Draft { samples })
@@ -168,15 +162,8 @@ impl PictureSchedule {
                 let rows = (target / self.row_ms).min(f64::from(self.height)) as u32;
                 let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
                 let end = (row + rows).min(self.height);
-                self.step = if end < self.height {
-                    Phase::Band { samples, row: end }
-                } else {
-                    self.after(samples)
-                };
-                Some(PictureWork::Band {
-                    samples,
-                    rows: row..end,
-                })
+                self.step = if end < self.height { Phase::Band { samples, row: end } } else { self.after(samples) };
+                Some(PictureWork::Band { samples, rows: row..end })
             }
             Phase::Done => None,
         }
@@ -257,10 +244,7 @@ impl PictureSchedule {
     /// Phase that follows a picture with `done` samples.
     fn after(&self, done: u32) -> Phase {
         let next = self.steps.iter().find(|step| **step > done);
-        next.map_or(Phase::Done, |samples| Phase::Band {
-            samples: *samples,
-            row: 0,
-        })
+        next.map_or(Phase::Done, |samples| Phase::Band { samples: *samples, row: 0 })
     }
 }
 
@@ -297,10 +281,7 @@ mod tests {
     fn refines_at_rest_and_every_row_once() {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 1024, 540, start);
-        assert_eq!(
-            schedule.take(start),
-            Some(PictureWork::Draft { samples: 16 })
-        );
+        assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples: 16 }));
         assert_eq!(schedule.take(after(149, start)), None);
         assert_eq!(schedule.due(), Some(after(150, start)));
         let bands = bands(&mut schedule, 2.0, after(150, start));
@@ -324,17 +305,11 @@ mod tests {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 64, 540, start);
         let draft = schedule.take(start).unwrap();
-        let took = Took {
-            ms: 740.0,
-            fixed_ms: 200.0,
-        };
+        let took = Took { ms: 740.0, fixed_ms: 200.0 };
         schedule.learn(&draft, took, start);
         let bands = bands(&mut schedule, 2.0, after(150, start));
         // 200 ms are fixed, and 100 rows take another 200 ms.
-        let heights: Vec<_> = bands
-            .iter()
-            .map(|(_, rows)| rows.end - rows.start)
-            .collect();
+        let heights: Vec<_> = bands.iter().map(|(_, rows)| rows.end - rows.start).collect();
         assert_eq!(heights, [100, 100, 100, 100, 100, 40]);
     }
 
@@ -343,15 +318,9 @@ mod tests {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 64, 100, start);
         schedule.take(start);
-        assert!(matches!(
-            schedule.take(after(200, start)),
-            Some(PictureWork::Band { samples: 64, .. })
-        ));
+        assert!(matches!(schedule.take(after(200, start)), Some(PictureWork::Band { samples: 64, .. })));
         schedule.restart(after(210, start));
-        assert_eq!(
-            schedule.take(after(210, start)),
-            Some(PictureWork::Draft { samples: 16 })
-        );
+        assert_eq!(schedule.take(after(210, start)), Some(PictureWork::Draft { samples: 16 }));
         assert_eq!(schedule.take(after(300, start)), None);
     }
 
@@ -376,40 +345,24 @@ mod tests {
         }
         // A number that was too slow is tried again only after a while.
         let soon = after(1000, start);
-        assert_eq!(
-            draft(&mut schedule, 10.0, soon),
-            PictureWork::Draft { samples: 1 }
-        );
-        assert_eq!(
-            draft(&mut schedule, 10.0, soon),
-            PictureWork::Draft { samples: 1 }
-        );
+        assert_eq!(draft(&mut schedule, 10.0, soon), PictureWork::Draft { samples: 1 });
+        assert_eq!(draft(&mut schedule, 10.0, soon), PictureWork::Draft { samples: 1 });
         let later = after(2001, start);
         draft(&mut schedule, 10.0, later);
-        assert_eq!(
-            draft(&mut schedule, 90.0, later),
-            PictureWork::Draft { samples: 2 }
-        );
+        assert_eq!(draft(&mut schedule, 90.0, later), PictureWork::Draft { samples: 2 });
         // A rest also lets it be tried again.
         for _ in 0..2 {
             draft(&mut schedule, 200.0, later);
         }
         schedule.take(after(2200, start));
         draft(&mut schedule, 10.0, later);
-        assert_eq!(
-            draft(&mut schedule, 90.0, later),
-            PictureWork::Draft { samples: 2 }
-        );
+        assert_eq!(draft(&mut schedule, 90.0, later), PictureWork::Draft { samples: 2 });
     }
 
     #[test]
     fn methods_with_one_number_of_samples_are_done_at_once() {
         let start = Instant::now();
-        for (method, samples) in [
-            (MethodKind::None, 1),
-            (MethodKind::Msaa, 4),
-            (MethodKind::Ssaa, 1),
-        ] {
+        for (method, samples) in [(MethodKind::None, 1), (MethodKind::Msaa, 4), (MethodKind::Ssaa, 1)] {
             let mut schedule = schedule(method, samples, 100, start);
             assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples }));
             assert!(schedule.is_done());
@@ -418,16 +371,10 @@ mod tests {
         let mut few = schedule(MethodKind::Superpixel, 4, 100, start);
         assert_eq!(few.take(start), Some(PictureWork::Draft { samples: 4 }));
         let rest = after(150, start);
-        assert!(matches!(
-            few.take(rest),
-            Some(PictureWork::Band { samples: 4, .. })
-        ));
+        assert!(matches!(few.take(rest), Some(PictureWork::Band { samples: 4, .. })));
         let mut brute = schedule(MethodKind::Ssaa, 256, 100, start);
         assert_eq!(brute.take(start), Some(PictureWork::Draft { samples: 1 }));
-        let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
-            .into_iter()
-            .map(|band| band.0)
-            .collect();
+        let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start)).into_iter().map(|band| band.0).collect();
         samples.dedup();
         assert_eq!(samples, [64, 256]);
     }

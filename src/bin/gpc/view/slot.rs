@@ -57,19 +57,13 @@ impl Slot {
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(device.queue_family)
                 .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-            slot.pool = handle
-                .create_command_pool(&info, None)
-                .map_err(VulkanError::of("vkCreateCommandPool"))?;
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(slot.pool)
-                .command_buffer_count(1);
-            let commands = handle
-                .allocate_command_buffers(&info)
-                .map_err(VulkanError::of("vkAllocateCommandBuffers"))?;
+            slot.pool = handle.create_command_pool(&info, None).map_err(VulkanError::of("vkCreateCommandPool"))?;
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(slot.pool).command_buffer_count(1);
+            let commands =
+                handle.allocate_command_buffers(&info).map_err(VulkanError::of("vkAllocateCommandBuffers"))?;
             slot.commands = commands.first().copied().unwrap_or_default();
-            slot.done = handle
-                .create_fence(&vk::FenceCreateInfo::default(), None)
-                .map_err(VulkanError::of("vkCreateFence"))?;
+            slot.done =
+                handle.create_fence(&vk::FenceCreateInfo::default(), None).map_err(VulkanError::of("vkCreateFence"))?;
             slot.free = handle
                 .create_semaphore(&vk::SemaphoreCreateInfo::default(), None)
                 .map_err(VulkanError::of("vkCreateSemaphore"))?;
@@ -88,8 +82,8 @@ impl Slot {
             return Ok(false);
         }
         // SAFETY: the fence belongs to the last submission.
-        let is_done = unsafe { self.device.handle.get_fence_status(self.done) }
-            .map_err(VulkanError::of("vkGetFenceStatus"))?;
+        let is_done =
+            unsafe { self.device.handle.get_fence_status(self.done) }.map_err(VulkanError::of("vkGetFenceStatus"))?;
         self.is_busy = !is_done;
         Ok(is_done)
     }
@@ -102,8 +96,7 @@ impl Slot {
                 .handle
                 .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
                 .map_err(VulkanError::of("vkResetCommandPool"))?;
-            let begin = vk::CommandBufferBeginInfo::default()
-                .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+            let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
             self.device
                 .handle
                 .begin_command_buffer(self.commands, &begin)
@@ -117,12 +110,10 @@ impl Slot {
     pub fn submit(&mut self, drawn: vk::Semaphore) -> Result<(), VulkanError> {
         let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
         // Rendering need not wait for the window's image, which is first used by copies.
-        let waits = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(self.free)
-            .stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];
-        let signals = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(drawn)
-            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let waits =
+            [vk::SemaphoreSubmitInfo::default().semaphore(self.free).stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];
+        let signals =
+            [vk::SemaphoreSubmitInfo::default().semaphore(drawn).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
         let submits = [vk::SubmitInfo2::default()
             .command_buffer_infos(&commands)
             .wait_semaphore_infos(&waits)
@@ -130,14 +121,8 @@ impl Slot {
         // SAFETY: the caller recorded the commands and keeps the objects that they use in this slot; the fence is not
         // in use.
         unsafe {
-            self.device
-                .handle
-                .end_command_buffer(self.commands)
-                .map_err(VulkanError::of("vkEndCommandBuffer"))?;
-            self.device
-                .handle
-                .reset_fences(&[self.done])
-                .map_err(VulkanError::of("vkResetFences"))?;
+            self.device.handle.end_command_buffer(self.commands).map_err(VulkanError::of("vkEndCommandBuffer"))?;
+            self.device.handle.reset_fences(&[self.done]).map_err(VulkanError::of("vkResetFences"))?;
             self.device
                 .handle
                 .queue_submit2(*self.device.queue(), &submits, self.done)

@@ -6,9 +6,7 @@ use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
 use glam::DVec3;
 use gpc::render::{PreparedScene, SceneRequest};
-use gpc::scene::{
-    AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
-};
+use gpc::scene::{AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -70,11 +68,7 @@ impl LoadedScene {
 impl SceneSource {
     /// Source for the file's default scene at the start of its animation.
     pub fn new(path: PathBuf) -> Self {
-        Self {
-            path,
-            variant: None,
-            request: PoseRequest::default(),
-        }
+        Self { path, variant: None, request: PoseRequest::default() }
     }
 
     /// Reads a scene and prepares it for the device, or reads a photograph.
@@ -110,9 +104,7 @@ impl SceneSource {
             (pose, Some(motion))
         };
         progress.begin(LoadStep::Prepare)?;
-        let request = SceneRequest::new(&loaded.scene, &pose)
-            .moving(motion.as_ref())
-            .within(max_memory);
+        let request = SceneRequest::new(&loaded.scene, &pose).moving(motion.as_ref()).within(max_memory);
         let prepared = renderer.prepare_scene(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();

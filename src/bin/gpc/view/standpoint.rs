@@ -38,12 +38,7 @@ impl Start {
     ///
     /// # Errors
     /// If the scene has no such camera, or the place and target give no view.
-    pub fn standpoint(
-        &self,
-        cameras: &[SceneCamera],
-        bounds: Bounds,
-        aspect: f64,
-    ) -> Result<Standpoint, NoStart> {
+    pub fn standpoint(&self, cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Result<Standpoint, NoStart> {
         let turntable = match self {
             Self::First => return Ok(Standpoint::first(cameras, bounds, aspect)),
             Self::Camera(asked) => return find(asked, cameras).map(Standpoint::Camera),
@@ -85,23 +80,14 @@ pub enum Standpoint {
 impl Standpoint {
     /// The standpoint of a newly opened scene: its first camera, or a view of the whole scene if it has none.
     pub fn first(cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Self {
-        if cameras.is_empty() {
-            Self::Free(Turntable::fitting(bounds, aspect))
-        } else {
-            Self::Camera(0)
-        }
+        if cameras.is_empty() { Self::Free(Turntable::fitting(bounds, aspect)) } else { Self::Camera(0) }
     }
 
     /// The camera at this standpoint. An index that the scene does not have gives a view of the whole scene.
     ///
     /// # Errors
     /// If eye and target have come to coincide.
-    pub fn camera(
-        &self,
-        cameras: &[SceneCamera],
-        bounds: Bounds,
-        aspect: f64,
-    ) -> Result<Camera, CameraError> {
+    pub fn camera(&self, cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Result<Camera, CameraError> {
         let turntable = match self {
             Self::Camera(index) => match cameras.get(*index) {
                 Some(camera) => return Ok(Camera::from_scene(camera)),
@@ -113,13 +99,7 @@ impl Standpoint {
     }
 
     /// Moves the standpoint. A camera of the scene is first replaced by a turntable at its position.
-    pub fn go(
-        &mut self,
-        cameras: &[SceneCamera],
-        bounds: Bounds,
-        aspect: f64,
-        change: impl FnOnce(&mut Turntable),
-    ) {
+    pub fn go(&mut self, cameras: &[SceneCamera], bounds: Bounds, aspect: f64, change: impl FnOnce(&mut Turntable)) {
         let mut turntable = match self {
             Self::Free(turntable) => *turntable,
             Self::Camera(index) => match cameras.get(*index) {
@@ -145,12 +125,7 @@ mod tests {
             name: Some(name.to_owned()),
             eye: DVec3::ZERO,
             axes: DMat3::IDENTITY,
-            projection: SceneProjection::Perspective {
-                yfov: 1.0,
-                aspect: None,
-                near: 0.1,
-                far: None,
-            },
+            projection: SceneProjection::Perspective { yfov: 1.0, aspect: None, near: 0.1, far: None },
         }
     }
 
@@ -172,11 +147,7 @@ mod tests {
 
     #[test]
     fn a_place_without_a_target_looks_at_the_centre() {
-        let start = Start::Place {
-            eye: DVec3::new(0.5, 0.5, 4.0),
-            target: None,
-            fov: 40.0,
-        };
+        let start = Start::Place { eye: DVec3::new(0.5, 0.5, 4.0), target: None, fov: 40.0 };
         let Ok(Standpoint::Free(turntable)) = start.standpoint(&[], BOUNDS, 1.0) else {
             panic!("a turntable");
         };

@@ -61,8 +61,7 @@ impl Swapchain {
             // The format must not convert: sRGB codes are copied unchanged.
             let fits = |format: &&vk::SurfaceFormatKHR| {
                 let known = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
-                known.contains(&format.format)
-                    && format.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
+                known.contains(&format.format) && format.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
             };
             let Some(format) = formats.iter().find(fits) else {
                 bail!("the window takes no images of 8-bit sRGB colours");
@@ -72,17 +71,9 @@ impl Swapchain {
                 bail!("the window's images can't be both copied to and drawn to");
             }
             let extent = match capabilities.current_extent {
-                vk::Extent2D {
-                    width: u32::MAX, ..
-                } => vk::Extent2D {
-                    width: size[0].clamp(
-                        capabilities.min_image_extent.width,
-                        capabilities.max_image_extent.width,
-                    ),
-                    height: size[1].clamp(
-                        capabilities.min_image_extent.height,
-                        capabilities.max_image_extent.height,
-                    ),
+                vk::Extent2D { width: u32::MAX, .. } => vk::Extent2D {
+                    width: size[0].clamp(capabilities.min_image_extent.width, capabilities.max_image_extent.width),
+                    height: size[1].clamp(capabilities.min_image_extent.height, capabilities.max_image_extent.height),
                 },
                 extent => extent,
             };
@@ -90,13 +81,8 @@ impl Swapchain {
                 0 => u32::MAX,
                 most => most,
             };
-            let alpha = [
-                vk::CompositeAlphaFlagsKHR::OPAQUE,
-                vk::CompositeAlphaFlagsKHR::INHERIT,
-            ];
-            let alpha = alpha
-                .into_iter()
-                .find(|alpha| capabilities.supported_composite_alpha.contains(*alpha));
+            let alpha = [vk::CompositeAlphaFlagsKHR::OPAQUE, vk::CompositeAlphaFlagsKHR::INHERIT];
+            let alpha = alpha.into_iter().find(|alpha| capabilities.supported_composite_alpha.contains(*alpha));
             let info = vk::SwapchainCreateInfoKHR::default()
                 .surface(device.surface)
                 .min_image_count((capabilities.min_image_count + 1).min(most))
@@ -110,34 +96,17 @@ impl Swapchain {
                 .composite_alpha(alpha.unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE))
                 .present_mode(vk::PresentModeKHR::FIFO)
                 .clipped(true)
-                .old_swapchain(
-                    older
-                        .as_ref()
-                        .map_or(vk::SwapchainKHR::null(), |old| old.handle),
-                );
-            let handle = device
-                .swapchains
-                .create_swapchain(&info, None)
-                .map_err(VulkanError::of("vkCreateSwapchainKHR"))?;
+                .old_swapchain(older.as_ref().map_or(vk::SwapchainKHR::null(), |old| old.handle));
+            let handle =
+                device.swapchains.create_swapchain(&info, None).map_err(VulkanError::of("vkCreateSwapchainKHR"))?;
             // The caller waited for all commands that used the older swapchain.
             drop(older);
-            let mut swapchain = Self {
-                device: device.clone(),
-                handle,
-                extent,
-                format: format.format,
-                images: Vec::new(),
-            };
-            let images = device
-                .swapchains
-                .get_swapchain_images(handle)
-                .map_err(VulkanError::of("vkGetSwapchainImagesKHR"))?;
+            let mut swapchain =
+                Self { device: device.clone(), handle, extent, format: format.format, images: Vec::new() };
+            let images =
+                device.swapchains.get_swapchain_images(handle).map_err(VulkanError::of("vkGetSwapchainImagesKHR"))?;
             for image in images {
-                let mut shown = SwapchainImage {
-                    image,
-                    view: vk::ImageView::null(),
-                    drawn: vk::Semaphore::null(),
-                };
+                let mut shown = SwapchainImage { image, view: vk::ImageView::null(), drawn: vk::Semaphore::null() };
                 let info = vk::ImageViewCreateInfo::default()
                     .image(image)
                     .view_type(vk::ImageViewType::TYPE_2D)
@@ -159,27 +128,18 @@ impl Swapchain {
     /// Asks for an image to draw to, without waiting. `free` is signalled when it may be drawn to.
     pub fn acquire(&self, free: vk::Semaphore) -> Result<Turn, VulkanError> {
         // SAFETY: the semaphore is unsignalled and not waited for: the last submission of its slot has been executed.
-        let acquired = unsafe {
-            self.device
-                .swapchains
-                .acquire_next_image(self.handle, 0, free, vk::Fence::null())
-        };
+        let acquired = unsafe { self.device.swapchains.acquire_next_image(self.handle, 0, free, vk::Fence::null()) };
         match acquired {
-            Ok((index, stale)) => {
-                Ok(self
-                    .images
-                    .get(index as usize)
-                    .map_or(Turn::Stale, |shown| {
-                        Turn::Ready(Acquired {
-                            swapchain: self.handle,
-                            index,
-                            image: shown.image,
-                            view: shown.view,
-                            drawn: shown.drawn,
-                            stale,
-                        })
-                    }))
-            }
+            Ok((index, stale)) => Ok(self.images.get(index as usize).map_or(Turn::Stale, |shown| {
+                Turn::Ready(Acquired {
+                    swapchain: self.handle,
+                    index,
+                    image: shown.image,
+                    view: shown.view,
+                    drawn: shown.drawn,
+                    stale,
+                })
+            })),
             Err(vk::Result::NOT_READY | vk::Result::TIMEOUT) => Ok(Turn::Busy),
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Turn::Stale),
             Err(result) => Err(VulkanError::of("vkAcquireNextImageKHR")(result)),

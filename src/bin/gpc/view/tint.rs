@@ -8,10 +8,7 @@ const TINTS: [[u8; 3]; 4] = [[255, 64, 64], [64, 160, 255], [64, 220, 96], [255,
 
 /// Mixes `code` with the tint of the last lens in whose transition `place` lies; `place` is in pixels of the picture.
 pub fn tinted(code: [u8; 4], place: DVec2, regions: &[ZoomRegion]) -> [u8; 4] {
-    let Some(index) = regions
-        .iter()
-        .rposition(|region| region.in_transition(place))
-    else {
+    let Some(index) = regions.iter().rposition(|region| region.in_transition(place)) else {
         return code;
     };
     let tint = TINTS[index % TINTS.len()];

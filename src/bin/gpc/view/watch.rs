@@ -24,25 +24,20 @@ impl Watch {
             _ => PathBuf::from("."),
         };
         let name = path.file_name().map(OsStr::to_owned);
-        let mut watcher =
-            notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
-                let Ok(event) = event else {
-                    return;
-                };
-                let is_ours = |path: &PathBuf| {
-                    let beside = path.extension().is_some_and(|extension| {
-                        BESIDE
-                            .iter()
-                            .any(|known| extension.eq_ignore_ascii_case(known))
-                    });
-                    path.file_name() == name.as_deref() || beside
-                };
-                if matches!(event.kind, EventKind::Create(_) | EventKind::Modify(_))
-                    && event.paths.iter().any(is_ours)
-                {
-                    changed();
-                }
-            })?;
+        let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+            let Ok(event) = event else {
+                return;
+            };
+            let is_ours = |path: &PathBuf| {
+                let beside = path
+                    .extension()
+                    .is_some_and(|extension| BESIDE.iter().any(|known| extension.eq_ignore_ascii_case(known)));
+                path.file_name() == name.as_deref() || beside
+            };
+            if matches!(event.kind, EventKind::Create(_) | EventKind::Modify(_)) && event.paths.iter().any(is_ours) {
+                changed();
+            }
+        })?;
         // The folder is watched instead of the file, because editors replace files.
         watcher.watch(&folder, RecursiveMode::NonRecursive)?;
         Ok(Self { _watcher: watcher })

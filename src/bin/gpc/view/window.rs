@@ -108,18 +108,11 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    pub fn new(
-        events: &ActiveEventLoop,
-        options: Options,
-        proxy: EventLoopProxy<Event>,
-    ) -> anyhow::Result<Self> {
+    pub fn new(events: &ActiveEventLoop, options: Options, proxy: EventLoopProxy<Event>) -> anyhow::Result<Self> {
         let [width, height] = options.look.settings.size;
-        let attributes = Window::default_attributes()
-            .with_title("gpc")
-            .with_inner_size(PhysicalSize::new(width, height));
-        let window = events
-            .create_window(attributes)
-            .map_err(|error| NoDisplay::new(&error))?;
+        let attributes =
+            Window::default_attributes().with_title("gpc").with_inner_size(PhysicalSize::new(width, height));
+        let window = events.create_window(attributes).map_err(|error| NoDisplay::new(&error))?;
         let window = Arc::new(window);
         let canvas = canvas(&window, &options.device, &proxy)?;
         let interface = interface(&window);
@@ -206,8 +199,7 @@ impl Viewer {
         };
         view.canvas.refines = !view.cover.is_wanted();
         view.source.request.time = view.time();
-        view.notes
-            .say("the device was lost; everything is made again");
+        view.notes.say("the device was lost; everything is made again");
         view.load(keeps_view);
         Ok(view)
     }
@@ -325,18 +317,8 @@ impl Viewer {
         if self.is_dirty || self.canvas.is_busy() {
             return Ok(ControlFlow::WaitUntil(now + POLL));
         }
-        let next = [
-            self.canvas.due(),
-            self.repaint,
-            self.reload,
-            self.cover.due(),
-            self.notes.next_change(),
-        ];
-        Ok(next
-            .into_iter()
-            .flatten()
-            .min()
-            .map_or(ControlFlow::Wait, ControlFlow::WaitUntil))
+        let next = [self.canvas.due(), self.repaint, self.reload, self.cover.due(), self.notes.next_change()];
+        Ok(next.into_iter().flatten().min().map_or(ControlFlow::Wait, ControlFlow::WaitUntil))
     }
 
     /// Draws the window, if one of its images is free.
@@ -355,10 +337,7 @@ impl Viewer {
         let (painting, wishes) = self.lay_out(now);
         let aspect = self.aspect();
         let camera = match self.canvas.stage() {
-            Some(stage) => Some(
-                self.standpoint
-                    .camera(self.cameras(), stage.bounds, aspect)?,
-            ),
+            Some(stage) => Some(self.standpoint.camera(self.cameras(), stage.bounds, aspect)?),
             None => None,
         };
         let size = self.pixels();
@@ -397,14 +376,12 @@ impl Viewer {
         let split = self.split_column();
         let facts = Facts {
             notes: self.notes.seen(now),
-            loading: names
-                .as_ref()
-                .map(|(name, since, (step, share))| LoadingFacts {
-                    name,
-                    since: *since,
-                    step: step.name(),
-                    share: *share,
-                }),
+            loading: names.as_ref().map(|(name, since, (step, share))| LoadingFacts {
+                name,
+                since: *since,
+                step: step.name(),
+                share: *share,
+            }),
             shows_keys: self.shows_keys,
             shows_panel: self.shows_panel,
             split,
@@ -422,10 +399,7 @@ impl Viewer {
                 name: stage.source.name(),
                 warnings: &stage.warnings,
                 triangles: stage.prepared.triangle_count(),
-                motion: self
-                    .player
-                    .as_ref()
-                    .map(|player| (stage.animations.as_slice(), stage.animation(), player)),
+                motion: self.player.as_ref().map(|player| (stage.animations.as_slice(), stage.animation(), player)),
             }),
             pictures: self
                 .canvas
@@ -441,8 +415,7 @@ impl Viewer {
         };
         let mut wishes = Wishes::default();
         let output = context.run(input, |context| wishes = panel::show(context, &facts));
-        self.interface
-            .handle_platform_output(&self.window, output.platform_output);
+        self.interface.handle_platform_output(&self.window, output.platform_output);
         let again = output
             .viewport_output
             .get(&egui::ViewportId::ROOT)
@@ -467,19 +440,13 @@ impl Viewer {
 
     /// Time of the animation in seconds.
     pub fn time(&self) -> f64 {
-        self.player
-            .as_ref()
-            .map_or(self.source.request.time, Player::time)
+        self.player.as_ref().map_or(self.source.request.time, Player::time)
     }
 
     /// Moves the scene to the player's time.
     pub fn show_time(&mut self) {
         let time = self.time();
-        let Some((stage, motion)) = self
-            .canvas
-            .stage()
-            .and_then(|stage| Some((stage, stage.motion.as_ref()?)))
-        else {
+        let Some((stage, motion)) = self.canvas.stage().and_then(|stage| Some((stage, stage.motion.as_ref()?))) else {
             return;
         };
         match motion.at(&stage.scene, time) {
@@ -528,16 +495,8 @@ impl Viewer {
 }
 
 /// Opens a device that can present pictures in the window.
-fn canvas(
-    window: &Arc<Window>,
-    options: &HeadlessOptions,
-    proxy: &EventLoopProxy<Event>,
-) -> anyhow::Result<Canvas> {
-    let device = Device::new(
-        window.clone(),
-        options.device.as_deref(),
-        options.validation,
-    )?;
+fn canvas(window: &Arc<Window>, options: &HeadlessOptions, proxy: &EventLoopProxy<Event>) -> anyhow::Result<Canvas> {
+    let device = Device::new(window.clone(), options.device.as_deref(), options.validation)?;
     let engine = Engine::new(Arc::new(device))?;
     let deliver = proxy.clone();
     let preparer = Preparer::new(move |prepared| {

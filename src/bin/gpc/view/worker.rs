@@ -17,8 +17,8 @@ use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered,
-    SceneRequest, Settings, Shadows, Statistics,
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
+    Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest, Scene};
@@ -93,8 +93,7 @@ impl Task {
 
 impl SceneTask {
     fn is_quick(&self) -> bool {
-        let needs_all =
-            matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
+        let needs_all = matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
         self.settings.method.samples() <= QUICK && !needs_all
     }
 }
@@ -116,11 +115,7 @@ impl Pixels {
             let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
             [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
         };
-        Self {
-            size,
-            codes: colors.iter().map(code).collect(),
-            figures: None,
-        }
+        Self { size, codes: colors.iter().map(code).collect(), figures: None }
     }
 
     /// Replaces each code by `change` of the code and the pixel's centre.
@@ -166,19 +161,9 @@ impl PictureWorker {
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
         let thread = std::thread::spawn(move || {
-            Maker {
-                shown: None,
-                headless: None,
-                options,
-            }
-            .run(&received, deliver);
+            Maker { shown: None, headless: None, options }.run(&received, deliver);
         });
-        Self {
-            orders: Some(orders),
-            thread: Some(thread),
-            picture: Stop::default(),
-            files: Vec::new(),
-        }
+        Self { orders: Some(orders), thread: Some(thread), picture: Stop::default(), files: Vec::new() }
     }
 
     /// Orders a picture. An order for the window supersedes earlier ones.
@@ -303,12 +288,7 @@ impl Maker {
         Ok(())
     }
 
-    fn write(
-        &mut self,
-        task: &SceneTask,
-        path: &Path,
-        map: Option<&ZoomMap>,
-    ) -> anyhow::Result<()> {
+    fn write(&mut self, task: &SceneTask, path: &Path, map: Option<&ZoomMap>) -> anyhow::Result<()> {
         let rendered = match map {
             Some(map) => self.enlarged(task, map)?,
             None => self.scenery(task)?,
@@ -326,9 +306,10 @@ impl Maker {
         let mut rendered = self.render(task, &task.settings)?;
         if task.shows_environment {
             let (_, shown) = self.show(task)?;
-            let environment = shown.pose.environment(&task.scene).context(
-                "--background environment: there is none; name one by --environment FILE",
-            )?;
+            let environment = shown
+                .pose
+                .environment(&task.scene)
+                .context("--background environment: there is none; name one by --environment FILE")?;
             rendered.show_behind(environment, &camera(task, shown)?, &task.settings)?;
         }
         Ok(rendered)
@@ -349,29 +330,17 @@ impl Maker {
     fn zoom(&mut self, task: &SceneTask, map: &ZoomMap, tints: bool) -> anyhow::Result<Pixels> {
         let rendered = self.enlarged(task, map)?;
         let pixels = Pixels::new(rendered.size, &rendered.colors);
-        Ok(if tints {
-            pixels.map(|code, place| tinted(code, place, map.regions()))
-        } else {
-            pixels
-        })
+        Ok(if tints { pixels.map(|code, place| tinted(code, place, map.regions())) } else { pixels })
     }
 
     fn stored(&mut self, task: &SceneTask, kind: AovKind) -> anyhow::Result<Pixels> {
-        let settings = task
-            .settings
-            .clone()
-            .attributes(true)
-            .shadows(Shadows::None);
+        let settings = task.settings.clone().attributes(true).shadows(Shadows::None);
         let rendered = self.render(task, &settings)?;
         let aov = Aov::from_attributes(kind, &rendered.attributes);
         // The same colours as in files.
         let file = output::encode_aov(rendered.size, &aov)?;
         let image = image::load_from_memory(&file)?.to_rgba8();
-        Ok(Pixels {
-            size: rendered.size,
-            codes: image.pixels().map(|pixel| pixel.0).collect(),
-            figures: None,
-        })
+        Ok(Pixels { size: rendered.size, codes: image.pixels().map(|pixel| pixel.0).collect(), figures: None })
     }
 
     /// Picture of the number of triangles in each pixel, counted at a grid of samples.
@@ -398,28 +367,13 @@ impl Maker {
                 }
             }
         })?;
-        Ok(Pixels {
-            size,
-            codes,
-            figures: None,
-        })
+        Ok(Pixels { size, codes, figures: None })
     }
 
     /// Picture of the differences from supersampling.
     fn error(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
-        let side = task
-            .settings
-            .method
-            .samples()
-            .max(REFERENCE_SAMPLES)
-            .isqrt();
-        let brute = task
-            .settings
-            .clone()
-            .shadows(Shadows::None)
-            .method(Method::Ssaa {
-                samples: side * side,
-            });
+        let side = task.settings.method.samples().max(REFERENCE_SAMPLES).isqrt();
+        let brute = task.settings.clone().shadows(Shadows::None).method(Method::Ssaa { samples: side * side });
         let reference = self.render(task, &brute)?.colors;
         let rendered = task.settings.clone().shadows(Shadows::None);
         let rendered = self.render(task, &rendered)?;
@@ -452,10 +406,7 @@ impl Maker {
     ) -> anyhow::Result<()> {
         let [width, height] = settings.size;
         for first in (0..height).step_by(rows as usize) {
-            let region = PixelRect {
-                corner: [0, first],
-                size: [width, rows.min(height - first)],
-            };
+            let region = PixelRect { corner: [0, first], size: [width, rows.min(height - first)] };
             let band = settings.clone().region(Some(region));
             let (headless, shown) = self.show(task)?;
             let camera = camera(task, shown)?;
@@ -473,11 +424,7 @@ impl Maker {
             attributes: Vec::new(),
             statistics: Statistics::default(),
         };
-        let rows = if settings.method.samples() <= QUICK {
-            settings.size[1]
-        } else {
-            BAND
-        };
+        let rows = if settings.method.samples() <= QUICK { settings.size[1] } else { BAND };
         self.render_bands(task, settings, rows, |band| {
             whole.colors.extend(band.colors);
             whole.attributes.extend(band.attributes);
@@ -489,25 +436,16 @@ impl Maker {
     /// Uploads the task's scene and pose, unless they are on the device already.
     fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &OpenScene)> {
         let headless = self.headless.as_mut().context("there is no device")?;
-        let is_shown =
-            |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
+        let is_shown = |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
         if !self.shown.as_ref().is_some_and(is_shown) {
             // The memory of the pose before is freed first, so that this one can use it.
             self.shown = None;
-            let pose = task.scene.pose(&PoseRequest {
-                time: task.time,
-                ..task.source.request.clone()
-            })?;
+            let pose = task.scene.pose(&PoseRequest { time: task.time, ..task.source.request.clone() })?;
             let request = SceneRequest::new(&task.scene, &pose)
                 .shadowed(task.settings.scene.shadows)
                 .within(task.settings.scene.max_memory);
             let prepared = headless.upload(request)?;
-            self.shown = Some(OpenScene {
-                scene: task.scene.clone(),
-                time: task.time,
-                pose,
-                prepared,
-            });
+            self.shown = Some(OpenScene { scene: task.scene.clone(), time: task.time, pose, prepared });
         }
         let shown = self.shown.as_ref().context("there is no scene")?;
         Ok((headless, shown))
@@ -519,12 +457,7 @@ fn write_photo(view: &PhotoView, path: &Path) -> anyhow::Result<()> {
 }
 
 /// Writes a PNG that also stores its enlarged regions.
-fn write_png(
-    path: &Path,
-    size: [u32; 2],
-    colors: &[[f32; 4]],
-    map: Option<&ZoomMap>,
-) -> anyhow::Result<()> {
+fn write_png(path: &Path, size: [u32; 2], colors: &[[f32; 4]], map: Option<&ZoomMap>) -> anyhow::Result<()> {
     let mut bytes = output::encode(Format::Png8, &Picture::new(size, colors)?, &[])?;
     if let Some(map) = map {
         bytes = Zoomed::add_map(&bytes, size, map)?;
@@ -535,17 +468,12 @@ fn write_png(
 fn camera(task: &SceneTask, shown: &OpenScene) -> anyhow::Result<gpc::camera::Camera> {
     let [width, height] = task.settings.size.map(f64::from);
     let pose = &shown.pose;
-    Ok(task
-        .standpoint
-        .camera(&pose.cameras, bounds(pose), width / height)?)
+    Ok(task.standpoint.camera(&pose.cameras, bounds(pose), width / height)?)
 }
 
 /// Whether an error means that the picture was stopped.
 fn is_stopped(error: &anyhow::Error) -> bool {
-    matches!(
-        error.downcast_ref::<RenderError>(),
-        Some(RenderError::Stopped)
-    )
+    matches!(error.downcast_ref::<RenderError>(), Some(RenderError::Stopped))
 }
 
 /// Fails if the validation layer is on and has reported a message.

@@ -65,12 +65,7 @@ impl Resources {
             (frame_set::TILE_LOADS, &self.locations.tile_loads),
         ]
         .map(|(binding, buffer)| (binding, Descriptor::from(buffer)));
-        let shown: Vec<_> = others
-            .iter()
-            .copied()
-            .chain(texels)
-            .chain(buffers)
-            .collect();
+        let shown: Vec<_> = others.iter().copied().chain(texels).chain(buffers).collect();
         // SAFETY: the sets were just allocated and no frame uses them; every handle is alive and outlives them.
         unsafe { set.sets.write(&shown) };
     }
@@ -92,11 +87,9 @@ impl Resources {
                 (frame_set::IDS_MS, ids),
                 (frame_set::BLEND_IDS_MS, blend_ids),
             ],
-            (None, Some(depth)) => vec![
-                (frame_set::IDS, ids),
-                (frame_set::BLEND_IDS, blend_ids),
-                (frame_set::RASTER_DEPTH, depth),
-            ],
+            (None, Some(depth)) => {
+                vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids), (frame_set::RASTER_DEPTH, depth)]
+            }
             (None, None) => vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids)],
         };
         for set in &self.sets {

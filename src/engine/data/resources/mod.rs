@@ -86,12 +86,7 @@ impl Resources {
             .collect::<Result<Vec<_>, VulkanError>>()?;
         let mut resources = Self {
             sizes,
-            counters: memory.storage_buffer(
-                "counters",
-                Counter::BYTES,
-                STORAGE,
-                MemoryUse::Device,
-            )?,
+            counters: memory.storage_buffer("counters", Counter::BYTES, STORAGE, MemoryUse::Device)?,
             sets: Vec::new(),
             scratch: scratch.clone(),
         };

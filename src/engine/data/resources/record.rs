@@ -44,12 +44,7 @@ impl Resources {
     ///
     /// The passes of the first round are timed separately, all others together: timestamps are not skipped, and on CPU
     /// devices they cost ten times as much as the rest of a skipped round.
-    pub(crate) fn record_rounds(
-        &self,
-        recorder: &Recorder<'_>,
-        rounds: u32,
-        record: impl Fn(&Recorder<'_>),
-    ) {
+    pub(crate) fn record_rounds(&self, recorder: &Recorder<'_>, rounds: u32, record: impl Fn(&Recorder<'_>)) {
         if rounds > 0 {
             self.record_round(recorder, &record);
         }
@@ -65,9 +60,7 @@ impl Resources {
             record(recorder);
             return;
         };
-        let waiting = vk::BufferCopy::default()
-            .src_offset(4 * Counter::Waiting as u64)
-            .size(4);
+        let waiting = vk::BufferCopy::default().src_offset(4 * Counter::Waiting as u64).size(4);
         // SAFETY: the counter lies in its buffer; both buffers were created for copies and live as long as the frame.
         unsafe { recorder.copy_raw(self.counters.raw, another_round.raw, &[waiting]) };
         // Dispatches of a host are not skipped. Their cleared sizes make them do nothing in a skipped round.
@@ -107,13 +100,7 @@ impl Resources {
 
     /// Records filling the first `pixels` pixels or locations with the background: its premultiplied colour, its
     /// display code and, for locations with attributes, the attributes of an empty location.
-    pub(crate) fn record_background(
-        &self,
-        recorder: &Recorder<'_>,
-        pixels: u32,
-        background: [f32; 4],
-        code: u32,
-    ) {
+    pub(crate) fn record_background(&self, recorder: &Recorder<'_>, pixels: u32, background: [f32; 4], code: u32) {
         recorder.fill(&self.display.buffer, vk::WHOLE_SIZE, code);
         fill(recorder, &self.color.buffer, background, pixels);
         if self.sizes.attributes && self.sizes.locations.is_some() {

@@ -2,9 +2,7 @@
 
 use crate::engine::data::FrameUniform;
 use crate::engine::data::upload::Upload;
-use crate::vulkan::{
-    Buffer, DescriptorSets, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError,
-};
+use crate::vulkan::{Buffer, DescriptorSets, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 
 /// Sample offsets from the pixel's centre, in pixels.
@@ -42,12 +40,7 @@ impl SampleSet {
                 | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryUse::Device,
         )?;
-        let upload = Upload::new(
-            memory,
-            "location upload",
-            &offsets.buffer,
-            bytemuck::cast_slice(all),
-        )?;
+        let upload = Upload::new(memory, "location upload", &offsets.buffer, bytemuck::cast_slice(all))?;
         Ok(Self {
             uniform: memory.buffer(
                 "frame uniform",

@@ -64,16 +64,12 @@ impl Scratch {
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
         let location_sizes = sizes.locations.unwrap_or_default();
-        let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
-            memory.storage_buffer(name, bytes, STORAGE, location)
-        };
+        let storage_in =
+            |name: &str, bytes: u64, location: MemoryUse| memory.storage_buffer(name, bytes, STORAGE, location);
         let storage = |name: &str, bytes: u64| storage_in(name, bytes, MemoryUse::Device);
-        let texels_in = |name: &str, elements: u64, format, location| {
-            memory.texel_buffer(name, elements, format, TEXELS, location)
-        };
-        let texels = |name: &str, elements: u64, format| {
-            texels_in(name, elements, format, MemoryUse::Device)
-        };
+        let texels_in =
+            |name: &str, elements: u64, format, location| memory.texel_buffer(name, elements, format, TEXELS, location);
+        let texels = |name: &str, elements: u64, format| texels_in(name, elements, format, MemoryUse::Device);
         // The host reads the colours of its own locations after each run.
         let output = match sizes.locations {
             Some(LocationSizes { lent: false, .. }) => MemoryUse::Readback,
@@ -87,10 +83,7 @@ impl Scratch {
             display: texels("display codes", pixels, vk::Format::R32_UINT)?,
             color: texels_in("colour", pixels, float4, output)?,
             masks: storage("superpixel mask", tiles * 4)?,
-            marks: storage(
-                "marks of pixels",
-                sizes.work_items() * ResourceSizes::MARK_BYTES,
-            )?,
+            marks: storage("marks of pixels", sizes.work_items() * ResourceSizes::MARK_BYTES)?,
             tiles: storage("tiles", sizes.tile_bytes())?,
             tile_lists: storage("tile lists", sizes.work_bytes())?,
             survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
@@ -106,16 +99,8 @@ impl Scratch {
                 STORAGE | vk::BufferUsageFlags::INDIRECT_BUFFER,
                 MemoryUse::Device,
             )?,
-            pairs: texels(
-                "pairs",
-                u64::from(sizes.pair_capacity),
-                vk::Format::R32G32_UINT,
-            )?,
-            candidates: texels(
-                "candidates",
-                u64::from(sizes.list_capacity) * ResourceSizes::CANDIDATE_TEXELS,
-                uint4,
-            )?,
+            pairs: texels("pairs", u64::from(sizes.pair_capacity), vk::Format::R32G32_UINT)?,
+            candidates: texels("candidates", u64::from(sizes.list_capacity) * ResourceSizes::CANDIDATE_TEXELS, uint4)?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility samples", records, uint4)?,
             shaded: texels("shaded records", records, float4)?,
@@ -133,17 +118,12 @@ impl Scratch {
                 .limits()
                 .conditional_rendering
                 .then(|| {
-                    let usage = vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT
-                        | vk::BufferUsageFlags::TRANSFER_DST;
+                    let usage = vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT | vk::BufferUsageFlags::TRANSFER_DST;
                     memory.buffer("another round", 4, usage, MemoryUse::Device)
                 })
                 .transpose()?,
             filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
-            attributes: storage_in(
-                "attributes",
-                if sizes.attributes { 32 * pixels } else { 0 },
-                output,
-            )?,
+            attributes: storage_in("attributes", if sizes.attributes { 32 * pixels } else { 0 }, output)?,
             encoded: storage("encoded colour", sizes.encoded)?,
             locations: LocationBuffers::new(memory, &location_sizes, tiles)?,
         })

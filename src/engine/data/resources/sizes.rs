@@ -62,13 +62,9 @@ impl ResourceSizes {
     /// Whether memory of these sizes suffices for a region of pixels with the sizes `others`.
     pub(crate) fn suffice(&self, others: &Self) -> bool {
         let of = |sizes: &Self| {
-            let [records, lists, pairs, survivors] = [
-                sizes.record_capacity,
-                sizes.list_capacity,
-                sizes.pair_capacity,
-                sizes.survivor_capacity,
-            ]
-            .map(u64::from);
+            let [records, lists, pairs, survivors] =
+                [sizes.record_capacity, sizes.list_capacity, sizes.pair_capacity, sizes.survivor_capacity]
+                    .map(u64::from);
             [
                 sizes.colors(),
                 sizes.tiles().into(),
@@ -99,19 +95,9 @@ impl ResourceSizes {
         let work = self.work_bytes();
         let receivers = u64::from(self.receivers()) * 32;
         let shadows = self.all_shadow_words() * 4;
-        [
-            attributes,
-            colors,
-            records,
-            candidates,
-            pairs,
-            work,
-            receivers,
-            shadows,
-            self.corner_bytes(),
-        ]
-        .into_iter()
-        .fold(0, u64::max)
+        [attributes, colors, records, candidates, pairs, work, receivers, shadows, self.corner_bytes()]
+            .into_iter()
+            .fold(0, u64::max)
     }
 
     /// Number of pixels of a region.
@@ -123,10 +109,7 @@ impl ResourceSizes {
     /// Number of colours of a region: one for each pixel or location.
     #[must_use]
     pub fn colors(&self) -> u64 {
-        self.locations
-            .map_or(u64::from(self.pixels()), |locations| {
-                u64::from(locations.locations)
-            })
+        self.locations.map_or(u64::from(self.pixels()), |locations| u64::from(locations.locations))
     }
 
     /// Largest number of places that are shaded at once with shadows; 0 without shadows.
@@ -155,11 +138,7 @@ impl ResourceSizes {
     /// Number of bytes of the work lists: one for each kind of tile, and one each for the opaque and the alpha-tested cells that a
     /// first run leaves. Each has room for all entries that the cells of the work items may fill.
     pub(crate) fn work_bytes(&self) -> u64 {
-        let entries = if self.locations.is_some() {
-            1
-        } else {
-            32 / self.team
-        };
+        let entries = if self.locations.is_some() { 1 } else { 32 / self.team };
         let lists = TILE_LISTS + 2;
         self.work_items() * u64::from(4 * lists * entries)
     }
@@ -169,10 +148,8 @@ impl ResourceSizes {
     pub fn largest_texels(&self) -> u64 {
         let [records, pairs, candidates] =
             [self.record_capacity, self.pair_capacity, self.list_capacity].map(u64::from);
-        let [locations, cells, places] = self
-            .locations
-            .map_or([0; 3], |sizes| [sizes.locations, sizes.cells, sizes.places])
-            .map(u64::from);
+        let [locations, cells, places] =
+            self.locations.map_or([0; 3], |sizes| [sizes.locations, sizes.cells, sizes.places]).map(u64::from);
         [
             self.colors(),
             records,

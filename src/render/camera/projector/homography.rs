@@ -49,10 +49,8 @@ impl Homography {
         }
         let place = |pair: &Correspondence| DVec2::from(pair.place);
         let location = |pair: &Correspondence| DVec2::from(pair.location);
-        let from =
-            normalisation(pairs.iter().map(place)).ok_or(ProjectorError::Collinear("projector"))?;
-        let to = normalisation(pairs.iter().map(location))
-            .ok_or(ProjectorError::Collinear("image plane"))?;
+        let from = normalisation(pairs.iter().map(place)).ok_or(ProjectorError::Collinear("projector"))?;
+        let to = normalisation(pairs.iter().map(location)).ok_or(ProjectorError::Collinear("image plane"))?;
         // There are two equations for each pair, in nine numbers that are known up to scale. The solution is the
         // eigenvector of the smallest eigenvalue of their normal matrix.
         let mut normal = [[0.0; 9]; 9];
@@ -101,13 +99,8 @@ impl Homography {
         let mut lowest = best.cost(pairs, tolerance);
         let mut random = Random::new(seed);
         for _ in 0..TRIALS {
-            let chosen: Vec<_> = (0..4)
-                .filter_map(|_| {
-                    pairs
-                        .get(random.below(pairs.len() as u64) as usize)
-                        .copied()
-                })
-                .collect();
+            let chosen: Vec<_> =
+                (0..4).filter_map(|_| pairs.get(random.below(pairs.len() as u64) as usize).copied()).collect();
             // Four correspondences that are on a line, or contain duplicates, are skipped.
             let Ok(fitted) = Self::fit(&chosen) else {
                 continue;
@@ -119,17 +112,9 @@ impl Homography {
         }
         // Each fit to the correspondences that agree may make more of them agree.
         for _ in 0..5 {
-            let agreeing: Vec<_> = pairs
-                .iter()
-                .filter(|pair| best.error(pair) <= tolerance)
-                .copied()
-                .collect();
+            let agreeing: Vec<_> = pairs.iter().filter(|pair| best.error(pair) <= tolerance).copied().collect();
             if 2 * agreeing.len() < pairs.len() || agreeing.len() < 4 {
-                return Err(ProjectorError::Outliers {
-                    agreeing: agreeing.len(),
-                    count: pairs.len(),
-                    tolerance,
-                });
+                return Err(ProjectorError::Outliers { agreeing: agreeing.len(), count: pairs.len(), tolerance });
             }
             best = Self::fit(&agreeing)?;
         }

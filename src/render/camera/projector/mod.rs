@@ -55,10 +55,7 @@ impl Projector {
         let [width, height] = size.map(f64::from);
         // The distance from the horizon is linear in the place, so that its minimum is in a corner.
         let corners = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)];
-        if !corners
-            .into_iter()
-            .all(|corner| map.is_ahead(corner.into()))
-        {
+        if !corners.into_iter().all(|corner| map.is_ahead(corner.into())) {
             return Err(ProjectorError::Horizon(size));
         }
         let map = ProjectorMap::Planar(map);
@@ -91,9 +88,7 @@ impl Projector {
     #[must_use]
     pub fn location(&self, row: u32, col: u32) -> Option<DVec2> {
         match &self.map {
-            ProjectorMap::Planar(map) => {
-                Some(map.location(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)))
-            }
+            ProjectorMap::Planar(map) => Some(map.location(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5))),
             ProjectorMap::Dense(map) => map.at(row, col),
         }
     }
@@ -145,9 +140,7 @@ impl Projector {
     /// Depth of a place inside of the projector's frame: 0 on the border, 1 in the middle.
     fn depth(&self, place: DVec2) -> f64 {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
-        (2.0 * place.min(size - place) / size)
-            .min_element()
-            .max(0.0)
+        (2.0 * place.min(size - place) / size).min_element().max(0.0)
     }
 }
 
@@ -166,9 +159,7 @@ pub fn blend_weights(projectors: &[Projector]) -> Vec<Vec<f32>> {
                     return 0.0;
                 };
                 let others = projectors.iter().filter(|other| !std::ptr::eq(*other, own));
-                let others: f64 = others
-                    .filter_map(|other| Some(other.depth(other.place(location)?)))
-                    .sum();
+                let others: f64 = others.filter_map(|other| Some(other.depth(other.place(location)?))).sum();
                 let depth = own.depth(place);
                 (depth / (depth + others)) as f32
             })

@@ -51,11 +51,7 @@ impl WarpMap {
             return Err(ProjectorError::Dark);
         }
         let rough = Homography::fit(&pairs)?;
-        Ok(Self {
-            size,
-            locations,
-            rough,
-        })
+        Ok(Self { size, locations, rough })
     }
 
     /// Location of a pixel's centre; `None` if the pixel lights nothing.

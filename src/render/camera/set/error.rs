@@ -23,9 +23,7 @@ pub enum SetError {
         v: f64,
     },
     /// Location so far from the image that single precision can't tell its pixels apart.
-    #[error(
-        "sampling location {index} is ({u}, {v}); both coordinates must be within {FARTHEST} pixels of 0"
-    )]
+    #[error("sampling location {index} is ({u}, {v}); both coordinates must be within {FARTHEST} pixels of 0")]
     Far {
         /// Index of the location in the list.
         index: usize,
@@ -59,9 +57,7 @@ pub enum SetError {
         rows: u32,
     },
     /// Superpixel marks whose number differs from the number of pixels.
-    #[error(
-        "{found} marks for the superpixels of an image of {expected} pixels; give one for each"
-    )]
+    #[error("{found} marks for the superpixels of an image of {expected} pixels; give one for each")]
     Marks {
         /// Number of pixels.
         expected: usize,

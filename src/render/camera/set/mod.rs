@@ -97,11 +97,7 @@ impl SamplingSet {
     pub fn planar(size: [u32; 2]) -> Result<Self, SetError> {
         check_size(size)?;
         let samples: Vec<_> = cells(size)
-            .map(|(row, col)| Sample {
-                uv: [f64::from(col) + 0.5, f64::from(row) + 0.5],
-                row,
-                col,
-            })
+            .map(|(row, col)| Sample { uv: [f64::from(col) + 0.5, f64::from(row) + 0.5], row, col })
             .collect();
         Ok(Self::in_pixels(size, samples))
     }
@@ -125,11 +121,7 @@ impl SamplingSet {
     /// # Errors
     /// [`SetError::Marks`] unless there is a mark for each pixel, [`SetError::Size`] if there are no pixels or too
     /// many, and [`SetError::NotFinite`] or [`SetError::Far`] for samples at impossible places.
-    pub fn superpixel(
-        size: [u32; 2],
-        marks: &[bool],
-        offsets: &[[f32; 2]],
-    ) -> Result<Self, SetError> {
+    pub fn superpixel(size: [u32; 2], marks: &[bool], offsets: &[[f32; 2]]) -> Result<Self, SetError> {
         check_size(size)?;
         let expected = size[0] as usize * size[1] as usize;
         if marks.len() != expected {
@@ -139,10 +131,7 @@ impl SamplingSet {
         let mut samples = Vec::with_capacity(expected);
         for ((row, col), marked) in cells(size).zip(marks) {
             let at = |[x, y]: [f32; 2]| Sample {
-                uv: [
-                    f64::from(col) + 0.5 + f64::from(x),
-                    f64::from(row) + 0.5 + f64::from(y),
-                ],
+                uv: [f64::from(col) + 0.5 + f64::from(x), f64::from(row) + 0.5 + f64::from(y)],
                 row,
                 col,
             };
@@ -200,10 +189,7 @@ impl SamplingSet {
     }
 
     /// Set of samples whose Jacobians (per output column and row) are known to the caller.
-    pub(super) fn with_jacobians(
-        size: [u32; 2],
-        mapped: Vec<(Sample, DMat2)>,
-    ) -> Result<Self, SetError> {
+    pub(super) fn with_jacobians(size: [u32; 2], mapped: Vec<(Sample, DMat2)>) -> Result<Self, SetError> {
         let (samples, jacobians): (Vec<_>, Vec<_>) = mapped.into_iter().unzip();
         check(size, &samples)?;
         let mut set = match offset::fit(&samples) {
@@ -216,12 +202,7 @@ impl SamplingSet {
 
     /// Set of samples in a grid of the output's own pixels.
     fn in_pixels(size: [u32; 2], samples: Vec<Sample>) -> Self {
-        let grid = Grid {
-            origin: [0.0, 0.0],
-            pitch: 1.0,
-            columns: size[0],
-            rows: size[1],
-        };
+        let grid = Grid { origin: [0.0, 0.0], pitch: 1.0, columns: size[0], rows: size[1] };
         let cell = |sample: &Sample| sample.row * size[0] + sample.col;
         let owners: Vec<_> = samples.iter().map(cell).collect();
         Self::in_grid(size, samples, grid, &owners)
@@ -244,14 +225,7 @@ impl SamplingSet {
             members[*place as usize] = index;
             *place += 1;
         }
-        Self {
-            size,
-            samples,
-            jacobians: None,
-            layout: Layout::Grid(grid),
-            members,
-            starts,
-        }
+        Self { size, samples, jacobians: None, layout: Layout::Grid(grid), members, starts }
     }
 
     /// Number of columns and rows of the output.
@@ -275,10 +249,7 @@ impl SamplingSet {
     /// Cells of the set: for each, the indices of its samples.
     pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
         self.starts.windows(2).map(|bounds| match bounds {
-            [start, end] => self
-                .members
-                .get(*start as usize..*end as usize)
-                .unwrap_or(&[]),
+            [start, end] => self.members.get(*start as usize..*end as usize).unwrap_or(&[]),
             _ => &[],
         })
     }
@@ -296,9 +267,7 @@ impl SamplingSet {
         };
         let offsets = self.cells().enumerate().map(|(cell, members)| {
             let samples = members.iter().filter_map(|i| self.samples.get(*i as usize));
-            samples
-                .map(|sample| (DVec2::from(sample.uv) - centre(cell)).to_array())
-                .collect()
+            samples.map(|sample| (DVec2::from(sample.uv) - centre(cell)).to_array()).collect()
         });
         Some(offsets.collect())
     }
@@ -316,16 +285,12 @@ impl SamplingSet {
         match &self.jacobians {
             Some(jacobians) => {
                 let pairs = self.samples.iter().zip(jacobians);
-                pairs
-                    .map(|(sample, jacobian)| location(sample, *jacobian))
-                    .collect()
+                pairs.map(|(sample, jacobian)| location(sample, *jacobian)).collect()
             }
             None => {
                 let neighbours = Neighbours::new(self.size, &self.samples);
                 let samples = self.samples.iter();
-                samples
-                    .map(|sample| location(sample, neighbours.jacobian(sample.row, sample.col)))
-                    .collect()
+                samples.map(|sample| location(sample, neighbours.jacobian(sample.row, sample.col))).collect()
             }
         }
     }
@@ -390,13 +355,7 @@ fn check(size: [u32; 2], samples: &[Sample]) -> Result<(), SetError> {
         }
         let Sample { row, col, .. } = *sample;
         if row >= rows || col >= columns {
-            return Err(SetError::Cell {
-                index,
-                row,
-                col,
-                columns,
-                rows,
-            });
+            return Err(SetError::Cell { index, row, col, columns, rows });
         }
     }
     Ok(())

@@ -16,25 +16,15 @@ impl Neighbours {
     pub(super) fn new(size: [u32; 2], samples: &[Sample]) -> Self {
         let columns = u64::from(size[0]);
         let index = |sample: &Sample| u64::from(sample.row) * columns + u64::from(sample.col);
-        let mut all: Vec<_> = samples
-            .iter()
-            .map(|sample| (index(sample), DVec2::from(sample.uv)))
-            .collect();
+        let mut all: Vec<_> = samples.iter().map(|sample| (index(sample), DVec2::from(sample.uv))).collect();
         all.sort_by_key(|(index, _)| *index);
         let mean = |run: &[(u64, DVec2)]| {
             let sum: DVec2 = run.iter().map(|(_, location)| *location).sum();
-            run.first()
-                .map(|(index, _)| (*index, sum / run.len() as f64))
+            run.first().map(|(index, _)| (*index, sum / run.len() as f64))
         };
         let cells: Vec<_> = all.chunk_by(|a, b| a.0 == b.0).filter_map(mean).collect();
-        let complete = cells
-            .last()
-            .is_some_and(|(last, _)| last + 1 == cells.len() as u64);
-        Self {
-            columns,
-            cells,
-            complete,
-        }
+        let complete = cells.last().is_some_and(|(last, _)| last + 1 == cells.len() as u64);
+        Self { columns, cells, complete }
     }
 
     /// Rows and columns of the cells that have samples.
@@ -53,9 +43,7 @@ impl Neighbours {
         let place = if self.complete {
             usize::try_from(index).ok()?
         } else {
-            self.cells
-                .binary_search_by_key(&index, |(index, _)| *index)
-                .ok()?
+            self.cells.binary_search_by_key(&index, |(index, _)| *index).ok()?
         };
         self.cells.get(place).map(|(_, location)| *location)
     }

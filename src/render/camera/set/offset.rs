@@ -18,8 +18,7 @@ pub(super) fn fit(samples: &[Sample]) -> Result<(Grid, Vec<u32>), SetError> {
         return Err(SetError::Empty);
     };
     let grid_of = |k: i32| {
-        let pitch =
-            2.0_f64.powi(-k.div_euclid(2)) * [1.0, 0.5_f64.sqrt()][k.rem_euclid(2) as usize];
+        let pitch = 2.0_f64.powi(-k.div_euclid(2)) * [1.0, 0.5_f64.sqrt()][k.rem_euclid(2) as usize];
         let first = low.map(|v| (v / pitch).floor());
         let last = high.map(|v| (v / pitch).floor());
         let sides = [last[0] - first[0] + 1.0, last[1] - first[1] + 1.0];
@@ -35,11 +34,7 @@ pub(super) fn fit(samples: &[Sample]) -> Result<(Grid, Vec<u32>), SetError> {
         let (pitch, first, sides) = grid_of(k);
         if sides[0] * sides[1] > most || k > FINEST {
             let (first, second, pitch) = conflict;
-            return Err(SetError::NoGrid {
-                first,
-                second,
-                pitch,
-            });
+            return Err(SetError::NoGrid { first, second, pitch });
         }
         let columns = sides[0] as usize;
         let cell = |sample: &Sample| {
@@ -48,12 +43,8 @@ pub(super) fn fit(samples: &[Sample]) -> Result<(Grid, Vec<u32>), SetError> {
         };
         match assign(samples, columns * sides[1] as usize, cell) {
             Ok(owners) => {
-                let grid = Grid {
-                    origin: first.map(|v| v * pitch),
-                    pitch,
-                    columns: sides[0] as u32,
-                    rows: sides[1] as u32,
-                };
+                let grid =
+                    Grid { origin: first.map(|v| v * pitch), pitch, columns: sides[0] as u32, rows: sides[1] as u32 };
                 return Ok((grid, owners));
             }
             Err((first, second)) => conflict = (first, second, pitch),
@@ -66,19 +57,12 @@ fn bounds(samples: &[Sample]) -> Option<([f64; 2], [f64; 2])> {
     let first = samples.first()?.uv;
     Some(samples.iter().fold((first, first), |(low, high), sample| {
         let [u, v] = sample.uv;
-        (
-            [low[0].min(u), low[1].min(v)],
-            [high[0].max(u), high[1].max(v)],
-        )
+        ([low[0].min(u), low[1].min(v)], [high[0].max(u), high[1].max(v)])
     }))
 }
 
 /// Cell of each sample; otherwise the indices of the first two samples that share a cell.
-fn assign(
-    samples: &[Sample],
-    cells: usize,
-    cell: impl Fn(&Sample) -> usize,
-) -> Result<Vec<u32>, (usize, usize)> {
+fn assign(samples: &[Sample], cells: usize, cell: impl Fn(&Sample) -> usize) -> Result<Vec<u32>, (usize, usize)> {
     let mut owners = vec![FREE; cells];
     let mut of_samples = Vec::with_capacity(samples.len());
     for (index, sample) in samples.iter().enumerate() {

@@ -29,16 +29,9 @@ impl Leaf {
     fn quarter(&self, which: usize) -> Self {
         let centre = self.centre();
         let corner = |axis: usize| {
-            if which >> axis & 1 == 1 {
-                centre[axis]
-            } else {
-                self.low[axis]
-            }
+            if which >> axis & 1 == 1 { centre[axis] } else { self.low[axis] }
         };
-        Self {
-            low: [corner(0), corner(1)],
-            side: 0.5 * self.side,
-        }
+        Self { low: [corner(0), corner(1)], side: 0.5 * self.side }
     }
 }
 
@@ -57,11 +50,7 @@ struct Branch {
     depth: u32,
 }
 
-pub(super) fn build(
-    samples: &[Sample],
-    window: Option<[[f64; 2]; 2]>,
-    most: usize,
-) -> Result<Tree, SetError> {
+pub(super) fn build(samples: &[Sample], window: Option<[[f64; 2]; 2]>, most: usize) -> Result<Tree, SetError> {
     if most == 0 {
         return Err(SetError::LeafSize);
     }
@@ -70,21 +59,11 @@ pub(super) fn build(
         None => around(samples),
     };
     let is_inside = |index: &u32| root.contains(samples[*index as usize].uv);
-    let (mut members, outside): (Vec<u32>, Vec<u32>) =
-        (0..samples.len() as u32).partition(is_inside);
+    let (mut members, outside): (Vec<u32>, Vec<u32>) = (0..samples.len() as u32).partition(is_inside);
     let inside = members.len();
     members.extend(outside);
-    let mut tree = Tree {
-        leaves: Vec::new(),
-        members,
-        starts: vec![0],
-    };
-    let mut open = vec![Branch {
-        square: root,
-        start: 0,
-        end: inside,
-        depth: 0,
-    }];
+    let mut tree = Tree { leaves: Vec::new(), members, starts: vec![0] };
+    let mut open = vec![Branch { square: root, start: 0, end: inside, depth: 0 }];
     let mut sorted = Vec::new();
     while let Some(branch) = open.pop() {
         let run = &mut tree.members[branch.start..branch.end];
@@ -128,12 +107,8 @@ pub(super) fn build(
 /// Square that holds a window, with the window's longer side as its side.
 fn square(low: [f64; 2], high: [f64; 2]) -> Option<Leaf> {
     let sides = [high[0] - low[0], high[1] - low[1]];
-    let valid =
-        low.iter().all(|v| v.is_finite()) && sides.iter().all(|v| v.is_finite() && *v > 0.0);
-    valid.then(|| Leaf {
-        low,
-        side: sides[0].max(sides[1]),
-    })
+    let valid = low.iter().all(|v| v.is_finite()) && sides.iter().all(|v| v.is_finite() && *v > 0.0);
+    valid.then(|| Leaf { low, side: sides[0].max(sides[1]) })
 }
 
 /// Square that holds all samples. Its corner and side are whole pixels, so that no sample lies on its excluded sides.
@@ -144,10 +119,7 @@ fn around(samples: &[Sample]) -> Leaf {
     };
     let low = [0, 1].map(|axis| extreme(axis, f64::min).floor());
     let high = [0, 1].map(|axis| extreme(axis, f64::max).floor() + 1.0);
-    Leaf {
-        low,
-        side: (high[0] - low[0]).max(high[1] - low[1]),
-    }
+    Leaf { low, side: (high[0] - low[0]).max(high[1] - low[1]) }
 }
 
 /// Whether all samples have the same location, so that no split separates them.

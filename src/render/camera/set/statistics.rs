@@ -22,29 +22,17 @@ pub struct SetStatistics {
 }
 
 pub(super) fn of(neighbours: &Neighbours, fullest_cell: usize) -> SetStatistics {
-    let mut found = SetStatistics {
-        quads: 0,
-        lowest_rate: None,
-        highest_rate: None,
-        folds: 0,
-        fullest_cell,
-    };
+    let mut found = SetStatistics { quads: 0, lowest_rate: None, highest_rate: None, folds: 0, fullest_cell };
     for (row, col) in neighbours.places() {
         let corners = [(0, 0), (0, 1), (1, 1), (1, 0)];
-        let [Some(a), Some(b), Some(c), Some(d)] =
-            corners.map(|(y, x)| neighbours.at(row + y, col + x))
-        else {
+        let [Some(a), Some(b), Some(c), Some(d)] = corners.map(|(y, x)| neighbours.at(row + y, col + x)) else {
             continue;
         };
         found.quads += 1;
         // Twice the signed areas of the triangles at the corners; with y down, a quad that is not inverted has
         // positive areas.
-        let turns = [
-            (b - a).perp_dot(d - a),
-            (c - b).perp_dot(a - b),
-            (d - c).perp_dot(b - c),
-            (a - d).perp_dot(c - d),
-        ];
+        let turns =
+            [(b - a).perp_dot(d - a), (c - b).perp_dot(a - b), (d - c).perp_dot(b - c), (a - d).perp_dot(c - d)];
         if turns.iter().any(|turn| *turn < 0.0) {
             found.folds += 1;
         }

@@ -63,9 +63,7 @@ pub struct ZoomRegion {
 pub enum ZoomError {
     /// Multiplicity that is not above 0 and at most 1. Above 1 the region would shrink, and above the square root of 2
     /// the map would fold.
-    #[error(
-        "a multiplicity of {0}: it must be above 0 and at most 1; 0.5 shows things twice as large"
-    )]
+    #[error("a multiplicity of {0}: it must be above 0 and at most 1; 0.5 shows things twice as large")]
     Multiplicity(f64),
     /// Radii that are not finite, or not above 0.
     #[error("a radius of {} x {} pixels: both must be above 0", .0[0], .0[1])]
@@ -119,9 +117,7 @@ impl ZoomRegion {
     /// region has in the output.
     #[must_use]
     pub fn window(&self) -> Window {
-        let size = self
-            .radius
-            .map(|radius| (2.0 * radius).ceil().clamp(1.0, 65_535.0));
+        let size = self.radius.map(|radius| (2.0 * radius).ceil().clamp(1.0, 65_535.0));
         let half = 0.5 * self.multiplicity * DVec2::from(size);
         Window {
             size: size.map(|side| side as u32),

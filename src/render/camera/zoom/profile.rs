@@ -106,11 +106,7 @@ impl Profile {
                 low = q;
             }
             let next = q - excess / slope;
-            let next = if next > low && next < high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
             if (next - q).abs() <= 1e-16 * q {
                 return next;
             }

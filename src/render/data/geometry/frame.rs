@@ -23,10 +23,7 @@ impl FrameGeometry {
     pub fn new(memory: &Memory, scene: &GpuScene, moves: bool) -> Result<Self, VulkanError> {
         let moves = moves || scene.geometry.strokes.is_some();
         let moving = moves.then(|| MovingVertices::new(memory, &scene.geometry));
-        Ok(Self {
-            placed: PlacedInstances::new(memory, &scene.geometry)?,
-            moving: moving.transpose()?.flatten(),
-        })
+        Ok(Self { placed: PlacedInstances::new(memory, &scene.geometry)?, moving: moving.transpose()?.flatten() })
     }
 
     /// Approximate number of bytes for a scene that moves.
@@ -57,23 +54,10 @@ impl FrameGeometry {
             (frame_set::INSTANCES, &self.placed.buffer),
         ];
         if let Some(moving) = &self.moving {
-            texels.extend([
-                (frame_set::POSITIONS_OUT, &moving.positions),
-                (frame_set::NORMALS_OUT, &moving.normals),
-            ]);
+            texels.extend([(frame_set::POSITIONS_OUT, &moving.positions), (frame_set::NORMALS_OUT, &moving.normals)]);
             texels.extend(moving_tangents.map(|tangents| (frame_set::TANGENTS_OUT, tangents)));
-            texels.extend(
-                moving
-                    .moment
-                    .as_ref()
-                    .map(|moment| (frame_set::MOMENT, moment)),
-            );
-            texels.extend(
-                geometry
-                    .strokes
-                    .as_ref()
-                    .map(|strokes| (frame_set::STROKES, &strokes.records)),
-            );
+            texels.extend(moving.moment.as_ref().map(|moment| (frame_set::MOMENT, moment)));
+            texels.extend(geometry.strokes.as_ref().map(|strokes| (frame_set::STROKES, &strokes.records)));
         }
         if let Some(motion) = &geometry.motion {
             texels.extend([
@@ -82,17 +66,11 @@ impl FrameGeometry {
                 (frame_set::DISPLACEMENTS, &motion.displacements),
             ]);
         }
-        texels
-            .into_iter()
-            .map(|(binding, texels)| (binding, texels.texels().into()))
-            .collect()
+        texels.into_iter().map(|(binding, texels)| (binding, texels.texels().into())).collect()
     }
 
     /// Runs of a scene's triangles for [`Raster`](crate::engine::passes::Raster), without those outside of the camera's view.
-    pub(crate) fn runs<'a>(
-        &'a self,
-        scene: &'a GpuScene,
-    ) -> impl Iterator<Item = RasterRun> + Clone + 'a {
+    pub(crate) fn runs<'a>(&'a self, scene: &'a GpuScene) -> impl Iterator<Item = RasterRun> + Clone + 'a {
         let runs = scene.geometry.runs.iter();
         runs.filter_map(|run| {
             Some(RasterRun {

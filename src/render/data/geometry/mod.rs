@@ -51,16 +51,8 @@ impl Place {
     fn of(instance: &Instance, bounds: [DVec3; 2]) -> Self {
         let offset = instance.first_triangle.wrapping_sub(instance.first_index);
         let end = instance.first_index + instance.triangle_count;
-        let flags = if instance.mirrored() {
-            spirv::INSTANCE_MIRRORED
-        } else {
-            0
-        };
-        Self {
-            words: [offset, end, flags, 0],
-            transform: instance.transform,
-            bounds,
-        }
+        let flags = if instance.mirrored() { spirv::INSTANCE_MIRRORED } else { 0 };
+        Self { words: [offset, end, flags, 0], transform: instance.transform, bounds }
     }
 }
 
@@ -92,11 +84,7 @@ pub(in crate::render) struct GpuGeometry {
 
 /// `stream`, or `count` vectors of the same value if it is empty.
 fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
-    if stream.is_empty() {
-        Cow::Owned(vec![[value; 4]; count])
-    } else {
-        Cow::Borrowed(stream)
-    }
+    if stream.is_empty() { Cow::Owned(vec![[value; 4]; count]) } else { Cow::Borrowed(stream) }
 }
 
 impl GpuGeometry {
@@ -108,27 +96,16 @@ impl GpuGeometry {
         records: &[[u32; 4]],
     ) -> Result<Self, VulkanError> {
         // The alpha test reads both streams, colours and texture coordinates, even if the scene has only one of them.
-        let has_mask = scene
-            .materials
-            .iter()
-            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
-        let filled = if has_mask {
-            geometry.positions.len()
-        } else {
-            0
-        };
+        let has_mask = scene.materials.iter().any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
+        let filled = if has_mask { geometry.positions.len() } else { 0 };
         let colors = or_filled(&geometry.streams.colors, 1.0, filled);
         let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
         let positions = geometry.positions.iter();
         let positions: Vec<_> = positions.map(|&[x, y, z]| [x, y, z, 1.0]).collect();
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let triangle_slots = geometry
-            .instances
-            .last()
-            .map_or(records.len() as u32, |last| {
-                last.first_index + last.triangle_count
-            });
+        let triangle_slots =
+            geometry.instances.last().map_or(records.len() as u32, |last| last.first_index + last.triangle_count);
         Ok(Self {
             positions: uploader.texels("positions", float4, &positions)?,
             triangles: uploader.texels("triangles", uint4, records)?,
@@ -136,20 +113,14 @@ impl GpuGeometry {
             tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
             uvs: uploader.texels("texture coordinates", float4, &uvs)?,
             colors: uploader.texels("vertex colours", float4, &colors)?,
-            blocks: uploader.texels(
-                "instances of blocks",
-                vk::Format::R32_UINT,
-                &blocks(geometry),
-            )?,
+            blocks: uploader.texels("instances of blocks", vk::Format::R32_UINT, &blocks(geometry))?,
             runs: runs(geometry),
             places: places(geometry, motion.is_some()),
             strokes: geometry
                 .has_strokes()
                 .then(|| GpuStrokes::new(uploader, &geometry.strokes, &geometry.edges))
                 .transpose()?,
-            motion: motion
-                .map(|motion| GpuMotion::new(uploader, motion))
-                .transpose()?,
+            motion: motion.map(|motion| GpuMotion::new(uploader, motion)).transpose()?,
             has_tangents: !geometry.streams.tangents.is_empty(),
             is_instanced: !geometry.instances.is_empty(),
             triangle_count: geometry.triangle_count(),
@@ -171,10 +142,7 @@ impl GpuGeometry {
 
     /// Index of the first triangle of a class or of a later one; the number of indices if there is no such triangle.
     pub(in crate::render) fn first_of(&self, class: DrawClass) -> u32 {
-        self.runs
-            .iter()
-            .find(|run| run.class >= class)
-            .map_or(self.triangle_slots, |run| run.first_index)
+        self.runs.iter().find(|run| run.class >= class).map_or(self.triangle_slots, |run| run.first_index)
     }
 }
 
@@ -240,9 +208,7 @@ fn runs(geometry: &Geometry) -> Vec<Run> {
         return runs;
     }
     for (place, instance) in (0..).zip(&geometry.instances) {
-        let after = geometry
-            .draws
-            .partition_point(|draw| draw.first_triangle <= instance.first_triangle);
+        let after = geometry.draws.partition_point(|draw| draw.first_triangle <= instance.first_triangle);
         if let Some(draw) = geometry.draws.get(after.wrapping_sub(1)) {
             runs.push(Run {
                 class: draw.class,
@@ -257,10 +223,7 @@ fn runs(geometry: &Geometry) -> Vec<Run> {
 
 /// Whether a class shows back faces.
 pub(in crate::render) fn double_sided(class: DrawClass) -> bool {
-    matches!(
-        class,
-        DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
-    )
+    matches!(class, DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided)
 }
 
 #[cfg(test)]
@@ -279,18 +242,13 @@ mod tests {
         let mut geometry = Geometry {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             triangles: vec![[0, 1, 2]; 2],
-            instances: vec![
-                instance(0, 0, DAffine3::IDENTITY),
-                instance(1, 64, DAffine3::from_translation(DVec3::X)),
-            ],
+            instances: vec![instance(0, 0, DAffine3::IDENTITY), instance(1, 64, DAffine3::from_translation(DVec3::X))],
             ..Geometry::default()
         };
         let known = |geometry: &Geometry, moves: bool| -> Vec<bool> {
             let places = places(geometry, moves);
             let corners = places.iter().map(|place| place.bounds);
-            corners
-                .map(|[low, high]| low.is_finite() && high.is_finite())
-                .collect()
+            corners.map(|[low, high]| low.is_finite() && high.is_finite()).collect()
         };
         assert_eq!(known(&geometry, false), [true, true]);
         assert_eq!(known(&geometry, true), [false, true]);

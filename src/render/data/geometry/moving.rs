@@ -22,10 +22,7 @@ pub(in crate::render) struct GpuMotion {
 
 impl GpuMotion {
     /// Allocates and fills the buffers.
-    pub(in crate::render) fn new(
-        uploader: &mut Uploader<'_>,
-        motion: &Motion,
-    ) -> Result<Self, VulkanError> {
+    pub(in crate::render) fn new(uploader: &mut Uploader<'_>, motion: &Motion) -> Result<Self, VulkanError> {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         Ok(Self {
@@ -66,14 +63,10 @@ impl GpuStrokes {
         let of_corner = |stroke: &Stroke| {
             let [x, y] = stroke.part.offset().map(f32::to_bits);
             let shape = stroke.part.code() | flag(spirv::CORNER_FACES_CAMERA, stroke.faces_camera);
-            [
-                [stroke.vertex, stroke.at, stroke.other, stroke.beyond],
-                [shape, x, y, 0],
-            ]
+            [[stroke.vertex, stroke.at, stroke.other, stroke.beyond], [shape, x, y, 0]]
         };
         let of_edge = |edge: &Edge| {
-            let flags = flag(spirv::EDGE_SMOOTH, edge.is_smooth)
-                | flag(spirv::EDGE_DOUBLE_SIDED, edge.is_double_sided);
+            let flags = flag(spirv::EDGE_SMOOTH, edge.is_smooth) | flag(spirv::EDGE_DOUBLE_SIDED, edge.is_double_sided);
             let ([from, to], [a, b]) = (edge.ends, edge.opposite);
             [[edge.first_vertex, from, to, flags], [a, b, 0, 0]]
         };
@@ -101,10 +94,7 @@ pub(in crate::render) struct MovingVertices {
 impl MovingVertices {
     /// Allocates memory for all vertices of a geometry, if some of them move in the world or, as points and lines,
     /// with the camera.
-    pub(in crate::render) fn new(
-        memory: &Memory,
-        geometry: &GpuGeometry,
-    ) -> Result<Option<Self>, VulkanError> {
+    pub(in crate::render) fn new(memory: &Memory, geometry: &GpuGeometry) -> Result<Option<Self>, VulkanError> {
         if !geometry.vertices_move() {
             return Ok(None);
         }
@@ -115,9 +105,7 @@ impl MovingVertices {
             let format = vk::Format::R32G32B32A32_SFLOAT;
             memory.texel_buffer(name, elements, format, usage, place)
         };
-        let like = |name: &str, view: &TexelBuffer| {
-            texels(name, view.buffer.size() / 16, usage, MemoryUse::Device)
-        };
+        let like = |name: &str, view: &TexelBuffer| texels(name, view.buffer.size() / 16, usage, MemoryUse::Device);
         let moment = |motion: &GpuMotion| {
             let mut moment = texels(
                 "matrices and weights",
@@ -136,10 +124,7 @@ impl MovingVertices {
         Ok(Some(Self {
             positions: like("moving positions", &geometry.positions)?,
             normals: like("moving normals", &geometry.normals)?,
-            tangents: geometry
-                .is_posed()
-                .then(|| like("moving tangents", &geometry.tangents))
-                .transpose()?,
+            tangents: geometry.is_posed().then(|| like("moving tangents", &geometry.tangents)).transpose()?,
             moment: geometry.motion.as_ref().map(moment).transpose()?,
         }))
     }
@@ -160,10 +145,7 @@ impl MovingVertices {
     /// Records copies of the vertices of the first pose. Vertices that don't move keep them.
     pub(in crate::render) fn record_upload(&self, recorder: &Recorder<'_>, geometry: &GpuGeometry) {
         let tangents = self.tangents.as_ref().map(|to| (&geometry.tangents, to));
-        let streams = [
-            (&geometry.positions, &self.positions),
-            (&geometry.normals, &self.normals),
-        ];
+        let streams = [(&geometry.positions, &self.positions), (&geometry.normals, &self.normals)];
         for (from, to) in streams.into_iter().chain(tangents) {
             recorder.copy(&from.buffer, from.buffer.size(), &to.buffer, 0);
         }

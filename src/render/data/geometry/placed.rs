@@ -20,10 +20,7 @@ pub(in crate::render) struct PlacedInstances {
 
 impl PlacedInstances {
     /// Allocates memory for the instances of a geometry.
-    pub(in crate::render) fn new(
-        memory: &Memory,
-        geometry: &GpuGeometry,
-    ) -> Result<Self, VulkanError> {
+    pub(in crate::render) fn new(memory: &Memory, geometry: &GpuGeometry) -> Result<Self, VulkanError> {
         let instances = Self::count(geometry);
         let mut placed = Self {
             buffer: memory.texel_buffer(
@@ -37,10 +34,7 @@ impl PlacedInstances {
             hidden: vec![false; geometry.places.len()],
         };
         if placed.vectors(instances).len() < instances {
-            return Err(VulkanError::Call {
-                call: "mapping instances",
-                result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-            });
+            return Err(VulkanError::Call { call: "mapping instances", result: vk::Result::ERROR_MEMORY_MAP_FAILED });
         }
         Ok(placed)
     }
@@ -51,31 +45,18 @@ impl PlacedInstances {
     }
 
     fn count(geometry: &GpuGeometry) -> usize {
-        if geometry.is_instanced {
-            geometry.places.len()
-        } else {
-            0
-        }
+        if geometry.is_instanced { geometry.places.len() } else { 0 }
     }
 
     /// Writes the instances for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled clip
     /// space. The device must have finished the previous recording. Products are computed in 64 bits and rounded once.
     /// If `image` is the size of an image in pixels, places outside of that image are not drawn.
-    pub(in crate::render) fn write(
-        &mut self,
-        geometry: &GpuGeometry,
-        to_clip: &DMat4,
-        image: Option<[u32; 2]>,
-    ) {
+    pub(in crate::render) fn write(&mut self, geometry: &GpuGeometry, to_clip: &DMat4, image: Option<[u32; 2]>) {
         let draws = self.draws.iter_mut().zip(&mut self.hidden);
         for ((draw, hidden), place) in draws.zip(&geometry.places) {
             let matrix = *to_clip * DMat4::from(place.transform);
-            *draw = RasterPush {
-                matrix: matrix.as_mat4().to_cols_array(),
-                instance: place.words,
-            };
-            *hidden = geometry.is_instanced
-                && image.is_some_and(|image| is_outside(&matrix, place.bounds, image));
+            *draw = RasterPush { matrix: matrix.as_mat4().to_cols_array(), instance: place.words };
+            *hidden = geometry.is_instanced && image.is_some_and(|image| is_outside(&matrix, place.bounds, image));
         }
         if !geometry.is_instanced {
             return;
@@ -115,11 +96,7 @@ fn is_outside(matrix: &DMat4, [low, high]: [DVec3; 2], image: [u32; 2]) -> bool 
     let half = image.map(|pixels| 0.5 * f64::from(pixels) + MARGIN);
     let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| {
         let high_on = |axis: u32| corner >> axis & 1 == 1;
-        let at = DVec3::select(
-            glam::BVec3::new(high_on(0), high_on(1), high_on(2)),
-            high,
-            low,
-        );
+        let at = DVec3::select(glam::BVec3::new(high_on(0), high_on(1), high_on(2)), high, low);
         *matrix * at.extend(1.0)
     });
     let all = |outside: &dyn Fn(&DVec4) -> bool| corners.iter().all(outside);
@@ -134,13 +111,7 @@ fn is_outside(matrix: &DMat4, [low, high]: [DVec3; 2], image: [u32; 2]) -> bool 
 /// Rows of the transform to the scene's coordinates, as bits of floats.
 fn rows(place: &DAffine3) -> [[u32; 4]; 3] {
     let linear = place.matrix3.transpose();
-    let row = |axis: glam::DVec3, offset: f64| {
-        [axis.x, axis.y, axis.z, offset].map(|value| (value as f32).to_bits())
-    };
+    let row = |axis: glam::DVec3, offset: f64| [axis.x, axis.y, axis.z, offset].map(|value| (value as f32).to_bits());
     let offset = place.translation;
-    [
-        row(linear.x_axis, offset.x),
-        row(linear.y_axis, offset.y),
-        row(linear.z_axis, offset.z),
-    ]
+    [row(linear.x_axis, offset.x), row(linear.y_axis, offset.y), row(linear.z_axis, offset.z)]
 }

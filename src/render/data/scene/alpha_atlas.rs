@@ -2,8 +2,7 @@
 
 use super::mipmaps::halve;
 use crate::engine::data::alpha_flags::{
-    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
-    TEXTURED, beyond,
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT, TEXTURED, beyond,
 };
 use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, Wrap};
 
@@ -17,18 +16,13 @@ pub(super) struct AlphaAtlas {
 impl AlphaAtlas {
     /// Atlas with one untextured entry, for materials without a texture.
     pub(super) fn new() -> Self {
-        Self {
-            words: vec![0; 8],
-            placed: Vec::new(),
-        }
+        Self { words: vec![0; 8], placed: Vec::new() }
     }
 
     /// Adds a material's alpha texture, unless the atlas has it already; returns the material's vector `MATERIAL_ALPHA`.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
-        let (AlphaMode::Mask { .. }, Some(used)) =
-            (material.alpha_mode, material.base_color_texture)
-        else {
+        let (AlphaMode::Mask { .. }, Some(used)) = (material.alpha_mode, material.base_color_texture) else {
             return none;
         };
         let Some(texture) = scene.textures.get(used.texture as usize) else {
@@ -38,40 +32,25 @@ impl AlphaAtlas {
             return none;
         };
         let flags = flags(&texture.sampler);
-        if let Some((_, _, alpha)) = self
-            .placed
-            .iter()
-            .find(|(index, known, _)| *index == texture.image && *known == flags)
+        if let Some((_, _, alpha)) =
+            self.placed.iter().find(|(index, known, _)| *index == texture.image && *known == flags)
         {
             return *alpha;
         }
         let table = self.words.len();
-        let levels = if flags & NO_MIP == 0 {
-            image.full_levels()
-        } else {
-            1
-        };
+        let levels = if flags & NO_MIP == 0 { image.full_levels() } else { 1 };
         self.words.resize(table + levels as usize, 0);
         let mut level = Vec::new();
         for i in 0..levels as usize {
             let size = image.level_size(i as u32);
             level = match image.levels().nth(i) {
                 Some(given) => alpha_channel(given),
-                None => halve::<1>(
-                    &level,
-                    image.level_size((i as u32).saturating_sub(1)),
-                    false,
-                ),
+                None => halve::<1>(&level, image.level_size((i as u32).saturating_sub(1)), false),
             };
             self.words[table + i] = self.words.len() as u32;
             self.push(&level, size, &texture.sampler);
         }
-        let alpha = [
-            table as u32,
-            image.width | image.height << 16,
-            levels,
-            flags,
-        ];
+        let alpha = [table as u32, image.width | image.height << 16, levels, flags];
         self.placed.push((texture.image, flags, alpha));
         alpha
     }
@@ -80,20 +59,12 @@ impl AlphaAtlas {
     /// the image.
     fn push(&mut self, level: &[u8], [width, height]: [u32; 2], sampler: &Sampler) {
         let texel = |x: i64, y: i64| {
-            let (x, y) = (
-                wrap(x, width, sampler.wrap_u),
-                wrap(y, height, sampler.wrap_v),
-            );
+            let (x, y) = (wrap(x, width, sampler.wrap_u), wrap(y, height, sampler.wrap_v));
             u32::from(level[y * width as usize + x])
         };
         for y in -1..i64::from(height) {
             for x in -1..i64::from(width) {
-                self.words.push(
-                    texel(x, y)
-                        | texel(x + 1, y) << 8
-                        | texel(x, y + 1) << 16
-                        | texel(x + 1, y + 1) << 24,
-                );
+                self.words.push(texel(x, y) | texel(x + 1, y) << 8 | texel(x, y + 1) << 16 | texel(x + 1, y + 1) << 24);
             }
         }
     }
@@ -106,16 +77,8 @@ fn flags(sampler: &Sampler) -> u32 {
         Wrap::ClampToEdge => CLAMP_TO_EDGE,
     };
     TEXTURED
-        | if sampler.mag == Filter::Nearest {
-            NEAREST_MAG
-        } else {
-            0
-        }
-        | if sampler.min == Filter::Nearest {
-            NEAREST_MIN
-        } else {
-            0
-        }
+        | if sampler.mag == Filter::Nearest { NEAREST_MAG } else { 0 }
+        | if sampler.min == Filter::Nearest { NEAREST_MIN } else { 0 }
         | match sampler.mip {
             None => NO_MIP,
             Some(Filter::Nearest) => NEAREST_MIP,

@@ -186,11 +186,7 @@ impl Bins {
         let bin = |(key, (plain, averaged)): (&BinKey, _)| {
             textures.write(&plain, &key.textures, false);
             textures.write(&averaged, &key.textures, true);
-            MaterialBin {
-                features: key.features,
-                textures: Arc::new(plain),
-                averaged_textures: Arc::new(averaged),
-            }
+            MaterialBin { features: key.features, textures: Arc::new(plain), averaged_textures: Arc::new(averaged) }
         };
         Ok(self.keys.iter().zip(sets).map(bin).collect())
     }

@@ -68,20 +68,15 @@ impl GpuEnvironment {
         let finest = levels[0].0;
         let brightest = colors.as_flattened().iter().copied().fold(0.0, f32::max);
         let factor = (brightest / LARGEST).max(1.0);
-        let mut texels: Vec<[f16; 4]> = colors
-            .iter()
-            .map(|[r, g, b]| [r / factor, g / factor, b / factor, 1.0].map(f16::from_f32))
-            .collect();
+        let mut texels: Vec<[f16; 4]> =
+            colors.iter().map(|[r, g, b]| [r / factor, g / factor, b / factor, 1.0].map(f16::from_f32)).collect();
         let name = "environment upload";
         let upload = if environment.is_none_or(Environment::is_filtered) {
             let bytes = bytemuck::cast_slice(&texels);
             EnvironmentUpload::Levels(uploader.memory.upload(name, bytes)?)
         } else {
             levels = prefilter::levels(finest).collect();
-            let end = levels
-                .iter()
-                .map(|(side, first)| first + 6 * side * side)
-                .max();
+            let end = levels.iter().map(|(side, first)| first + 6 * side * side).max();
             texels.resize(texels.len().max(end.unwrap_or(0) as usize), [f16::ZERO; 4]);
             let buffer = uploader.storage(name, bytemuck::cast_slice(&texels))?;
             let prefilter = Prefilter::new(layout, uploader.memory, buffer, finest)?;
@@ -91,18 +86,12 @@ impl GpuEnvironment {
             .flags(vk::ImageCreateFlags::CUBE_COMPATIBLE)
             .image_type(vk::ImageType::TYPE_2D)
             .format(vk::Format::R16G16B16A16_SFLOAT)
-            .extent(vk::Extent3D {
-                width: finest,
-                height: finest,
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width: finest, height: finest, depth: 1 })
             .mip_levels(levels.len() as u32)
             .array_layers(6)
             .samples(vk::SampleCountFlags::TYPE_1)
             .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
-        let image = uploader
-            .memory
-            .image("environment", &info, vk::ImageAspectFlags::COLOR)?;
+        let image = uploader.memory.image("environment", &info, vk::ImageAspectFlags::COLOR)?;
         let uniform = environment.map_or(EnvironmentUniform::default(), |environment| {
             let rows = environment.rotation().transpose();
             let last = (levels.len() - 1) as f32;
@@ -110,19 +99,10 @@ impl GpuEnvironment {
             let row = |row: glam::DVec3, w: f32| row.as_vec3().extend(w).to_array();
             EnvironmentUniform {
                 irradiance: environment.irradiance().map(|[r, g, b]| [r, g, b, 0.0]),
-                axes: [
-                    row(rows.x_axis, factor),
-                    row(rows.y_axis, last),
-                    row(rows.z_axis, suns),
-                ],
+                axes: [row(rows.x_axis, factor), row(rows.y_axis, last), row(rows.z_axis, suns)],
             }
         });
-        let this = Self {
-            image,
-            sampler: DeviceSampler::new(&layout.gpu, &TRILINEAR)?,
-            uniform,
-            levels,
-        };
+        let this = Self { image, sampler: DeviceSampler::new(&layout.gpu, &TRILINEAR)?, uniform, levels };
         Ok((this, upload))
     }
 
@@ -153,22 +133,12 @@ impl GpuEnvironment {
                         base_array_layer: 0,
                         layer_count: 6,
                     })
-                    .image_extent(vk::Extent3D {
-                        width: side,
-                        height: side,
-                        depth: 1,
-                    })
+                    .image_extent(vk::Extent3D { width: side, height: side, depth: 1 })
             })
             .collect();
         // SAFETY: guaranteed by the recorder's caller; the buffer holds all levels, which are in the named layout.
         unsafe {
-            recorder.device().cmd_copy_buffer_to_image(
-                recorder.raw(),
-                texels.raw,
-                self.image.raw,
-                write,
-                &copies,
-            );
+            recorder.device().cmd_copy_buffer_to_image(recorder.raw(), texels.raw, self.image.raw, write, &copies);
         }
         let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         recorder.transition(&self.image, write, shown);

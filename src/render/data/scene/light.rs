@@ -14,18 +14,12 @@ impl GpuLight {
         let (kind, scale, offset) = match light.kind {
             LightKind::Directional => (0.0, 0.0, 1.0),
             LightKind::Point => (1.0, 0.0, 1.0),
-            LightKind::Spot {
-                inner_angle,
-                outer_angle,
-            } => {
+            LightKind::Spot { inner_angle, outer_angle } => {
                 let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
                 (2.0, scale, -outer_angle.cos() * scale)
             }
         };
-        let range = light
-            .range
-            .filter(|range| *range > 0.0)
-            .map_or(0.0, |range| 1.0 / (range * range));
+        let range = light.range.filter(|range| *range > 0.0).map_or(0.0, |range| 1.0 / (range * range));
         Self {
             position_range: [position.x, position.y, position.z, range],
             direction_kind: [direction.x, direction.y, direction.z, kind],
@@ -59,11 +53,6 @@ pub struct LightFeatures {
 
 impl LightFeatures {
     pub(super) fn of(lights: &[Light]) -> Self {
-        Self {
-            count: lights.len() as u32,
-            local: lights
-                .iter()
-                .any(|light| light.kind != LightKind::Directional),
-        }
+        Self { count: lights.len() as u32, local: lights.iter().any(|light| light.kind != LightKind::Directional) }
     }
 }

@@ -5,9 +5,7 @@ use super::material::MaterialRow;
 use super::{GpuScene, Slots};
 use crate::engine::spirv::frame_set;
 use crate::scene::{Moment, Motion};
-use crate::vulkan::{
-    BoundDescriptor, Buffer, Descriptor, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError,
-};
+use crate::vulkan::{BoundDescriptor, Buffer, Descriptor, Memory, MemoryUse, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
 
 /// Materials and lights of a scene that change.
@@ -24,10 +22,7 @@ impl ChangingLook {
             let (slots, alpha) = (slots.get(index)?.clone(), *alphas.get(index)?);
             Some((index, MaterialRow { slots, alpha }))
         };
-        Self {
-            materials: motion.materials.iter().filter_map(row).collect(),
-            lights: motion.changes_lights,
-        }
+        Self { materials: motion.materials.iter().filter_map(row).collect(), lights: motion.changes_lights }
     }
 }
 
@@ -75,9 +70,7 @@ impl FrameLook {
         };
         let has_materials = !changing.materials.is_empty();
         Ok(Self {
-            materials: has_materials
-                .then(|| materials(&scene.materials))
-                .transpose()?,
+            materials: has_materials.then(|| materials(&scene.materials)).transpose()?,
             lights: changing.lights.then(|| lights(&scene.lights)).transpose()?,
             updates: Vec::new(),
         })
@@ -134,9 +127,7 @@ impl FrameLook {
         }
         if self.lights.is_some() {
             let lights = moment.lights.iter();
-            let lights: Vec<_> = lights
-                .map(|light| GpuLight::of_scene(light, scene.origin()))
-                .collect();
+            let lights: Vec<_> = lights.map(|light| GpuLight::of_scene(light, scene.origin())).collect();
             self.updates.push(Update {
                 of_materials: false,
                 first_byte: 0,

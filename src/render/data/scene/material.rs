@@ -51,10 +51,7 @@ impl MaterialTable {
             words.extend(MaterialRow { slots, alpha }.words(material));
             words.resize(words.len().next_multiple_of(vectors), [0; 4]);
         }
-        Self {
-            words,
-            vectors: vectors as u32,
-        }
+        Self { words, vectors: vectors as u32 }
     }
 }
 
@@ -71,12 +68,7 @@ fn fixed_vectors(material: &Material, alpha: [u32; 4]) -> [[u32; 4]; FIXED] {
         AlphaMode::Mask { cutoff } => cutoff,
         AlphaMode::Blend => -1.0,
     };
-    let factors = [
-        material.roughness,
-        material.normal_scale,
-        material.occlusion_strength,
-        cutoff,
-    ];
+    let factors = [material.roughness, material.normal_scale, material.occlusion_strength, cutoff];
     let Lobes {
         specular,
         clearcoat,
@@ -143,12 +135,7 @@ pub(super) fn high_frequency(material: &Material) -> bool {
 }
 
 fn is_glossy(material: &Material) -> bool {
-    let Lobes {
-        clearcoat,
-        iridescence,
-        specular_glossiness,
-        ..
-    } = &material.lobes;
+    let Lobes { clearcoat, iridescence, specular_glossiness, .. } = &material.lobes;
     let base = specular_glossiness.map_or(material.roughness, |base| 1.0 - base.glossiness);
     let coat = clearcoat.map_or(1.0, |coat| coat.roughness);
     base.min(coat) < GLOSSY_ROUGHNESS || iridescence.is_some()

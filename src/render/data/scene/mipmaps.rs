@@ -29,11 +29,7 @@ pub(super) fn levels(image: &Image, srgb: bool) -> Cow<'_, [u8]> {
 
 /// The next level of an image with `N` channels, the fourth of which is alpha: means of 2 x 2 texels, of 3 along an
 /// odd side.
-pub(super) fn halve<const N: usize>(
-    level: &[u8],
-    [width, height]: [u32; 2],
-    srgb: bool,
-) -> Vec<u8> {
+pub(super) fn halve<const N: usize>(level: &[u8], [width, height]: [u32; 2], srgb: bool) -> Vec<u8> {
     let half = [(width / 2).max(1), (height / 2).max(1)];
     let span = |i: u32, from: u32, to: u32| (i * from / to)..((i + 1) * from).div_ceil(to);
     let curve = srgb.then(|| &*CURVE);
@@ -97,11 +93,7 @@ impl Curve {
             let reached = least.partition_point(|least| *least <= (begins as u32) << Self::REST);
             (reached - 1) as u8
         });
-        Self {
-            light,
-            least,
-            codes,
-        }
+        Self { light, least, codes }
     }
 
     /// Nearest code of a light.
@@ -125,10 +117,7 @@ mod tests {
     fn colours_are_means_of_light_and_alpha_is_one_of_codes() {
         let texels = [[0, 0, 0, 0], [255, 100, 10, 100]].concat();
         let mean = |code| srgb::encode_u8(srgb::decode_u8(code) / 2.0);
-        assert_eq!(
-            halve::<4>(&texels, [2, 1], true),
-            [mean(255), mean(100), mean(10), 50]
-        );
+        assert_eq!(halve::<4>(&texels, [2, 1], true), [mean(255), mean(100), mean(10), 50]);
         assert_eq!(halve::<4>(&texels, [2, 1], false), [128, 50, 5, 50]);
     }
 
@@ -137,10 +126,7 @@ mod tests {
         for light in 0..=1 << 22 {
             let expected = srgb::encode(f64::from(light) / Curve::UNIT) * 255.0;
             let found = f64::from(CURVE.code(light));
-            assert!(
-                (found - expected).abs() < 0.5 + 1e-4,
-                "{light}: {found}, {expected}"
-            );
+            assert!((found - expected).abs() < 0.5 + 1e-4, "{light}: {found}, {expected}");
         }
         for code in 0..=255 {
             assert_eq!(CURVE.code(CURVE.light[usize::from(code)]), code);
@@ -149,11 +135,7 @@ mod tests {
 
     #[test]
     fn all_levels_are_made_unless_they_are_there() {
-        let image = |pixels| Image {
-            width: 5,
-            height: 2,
-            pixels,
-        };
+        let image = |pixels| Image { width: 5, height: 2, pixels };
         let bare = image(vec![200; 4 * 10]);
         let all = levels(&bare, true);
         assert_eq!(*all, vec![200; 4 * (10 + 2 + 1)]);

@@ -99,10 +99,7 @@ impl GpuScene {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
         let looks = pose.materials(scene);
-        let slots = looks
-            .iter()
-            .map(|material| Slots::of(scene, material))
-            .collect::<Result<Vec<_>, _>>()?;
+        let slots = looks.iter().map(|material| Slots::of(scene, material)).collect::<Result<Vec<_>, _>>()?;
         let bins = Bins::new(scene, (&looks, geometry), &slots, &mut textures)?;
         let triangles = Triangles::new(&looks, geometry, &bins);
         let mut atlas = AlphaAtlas::new();
@@ -118,16 +115,9 @@ impl GpuScene {
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let bins = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
-        let (environment, environment_upload) =
-            GpuEnvironment::new(layout, &mut uploader, surroundings)?;
-        let device_geometry =
-            GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
-        let TextureSet {
-            textures,
-            texture_uploads,
-            samplers,
-            ..
-        } = textures;
+        let (environment, environment_upload) = GpuEnvironment::new(layout, &mut uploader, surroundings)?;
+        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
+        let TextureSet { textures, texture_uploads, samplers, .. } = textures;
         let scene = Self {
             materials: uploader.texels("materials", uint4, &materials.words)?,
             material_vectors: materials.vectors,

@@ -50,14 +50,9 @@ impl Slots {
                 slots.uses.push(read);
             }
         }
-        VulkanError::check_limit(
-            "a material",
-            slots.uses.len() as u64,
-            "textures",
-            SLOTS as u64,
-        )?;
-        let mut sizes = (slots.uses.iter().filter_map(|(used, _)| image(used)))
-            .map(|image| [image.width, image.height]);
+        VulkanError::check_limit("a material", slots.uses.len() as u64, "textures", SLOTS as u64)?;
+        let mut sizes =
+            (slots.uses.iter().filter_map(|(used, _)| image(used))).map(|image| [image.width, image.height]);
         let first = sizes.next();
         slots.one_size = sizes.all(|size| Some(size) == first);
         Ok(slots)
@@ -65,10 +60,7 @@ impl Slots {
 
     /// Whether all textures are read at the same coordinates.
     pub(super) fn one_uv_transform(&self) -> bool {
-        let mut places = self
-            .uses
-            .iter()
-            .map(|(used, _)| (used.uv_set, used.transform));
+        let mut places = self.uses.iter().map(|(used, _)| (used.uv_set, used.transform));
         let first = places.next();
         places.all(|place| Some(place) == first && !self.is_animated)
     }

@@ -13,26 +13,14 @@ pub(super) struct GpuTexture {
 
 impl GpuTexture {
     /// Makes the image, and a buffer with its contents; `srgb` is true for colours.
-    pub(super) fn new(
-        memory: &Memory,
-        source: &SceneImage,
-        srgb: bool,
-    ) -> Result<(Self, Buffer), VulkanError> {
+    pub(super) fn new(memory: &Memory, source: &SceneImage, srgb: bool) -> Result<(Self, Buffer), VulkanError> {
         let limit = u64::from(memory.gpu().limits().max_image_side);
         let side = u64::from(source.width.max(source.height));
         VulkanError::check_limit("a texture's side", side, "texels", limit)?;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
-            .format(if srgb {
-                vk::Format::R8G8B8A8_SRGB
-            } else {
-                vk::Format::R8G8B8A8_UNORM
-            })
-            .extent(vk::Extent3D {
-                width: source.width,
-                height: source.height,
-                depth: 1,
-            })
+            .format(if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM })
+            .extent(vk::Extent3D { width: source.width, height: source.height, depth: 1 })
             .mip_levels(source.full_levels())
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -49,8 +37,7 @@ impl GpuTexture {
         let mut offset = 0;
         let copies: Vec<_> = (0..image.levels)
             .map(|level| {
-                let [width, height] =
-                    [image.extent.width, image.extent.height].map(|side| (side >> level).max(1));
+                let [width, height] = [image.extent.width, image.extent.height].map(|side| (side >> level).max(1));
                 let copy = vk::BufferImageCopy::default()
                     .buffer_offset(offset)
                     .image_subresource(vk::ImageSubresourceLayers {
@@ -59,11 +46,7 @@ impl GpuTexture {
                         base_array_layer: 0,
                         layer_count: 1,
                     })
-                    .image_extent(vk::Extent3D {
-                        width,
-                        height,
-                        depth: 1,
-                    });
+                    .image_extent(vk::Extent3D { width, height, depth: 1 });
                 offset += 4 * u64::from(width) * u64::from(height);
                 copy
             })
@@ -71,13 +54,7 @@ impl GpuTexture {
         recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
         // SAFETY: guaranteed by the recorder's caller; the buffer holds these levels, which are in the named layout.
         unsafe {
-            recorder.device().cmd_copy_buffer_to_image(
-                recorder.raw(),
-                upload.raw,
-                image.raw,
-                write,
-                &copies,
-            );
+            recorder.device().cmd_copy_buffer_to_image(recorder.raw(), upload.raw, image.raw, write, &copies);
         };
         recorder.transition(image, write, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     }
@@ -109,18 +86,10 @@ impl DeviceSampler {
             })
             .address_mode_u(wrap(sampler.wrap_u))
             .address_mode_v(wrap(sampler.wrap_v))
-            .max_lod(if sampler.mip.is_some() {
-                vk::LOD_CLAMP_NONE
-            } else {
-                0.25
-            });
+            .max_lod(if sampler.mip.is_some() { vk::LOD_CLAMP_NONE } else { 0.25 });
         // SAFETY: plain creation on a live device.
-        let raw = unsafe { gpu.device.create_sampler(&info, None) }
-            .map_err(VulkanError::of("vkCreateSampler"))?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            raw,
-        })
+        let raw = unsafe { gpu.device.create_sampler(&info, None) }.map_err(VulkanError::of("vkCreateSampler"))?;
+        Ok(Self { gpu: gpu.clone(), raw })
     }
 }
 

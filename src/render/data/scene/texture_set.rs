@@ -34,12 +34,7 @@ impl<'a> TextureSet<'a> {
     }
 
     /// Index of a texture of the scene; `srgb` is true for colours. `None` if the scene lacks it.
-    pub(super) fn get(
-        &mut self,
-        scene: &Scene,
-        texture: u32,
-        srgb: bool,
-    ) -> Result<Option<TextureIndex>, VulkanError> {
+    pub(super) fn get(&mut self, scene: &Scene, texture: u32, srgb: bool) -> Result<Option<TextureIndex>, VulkanError> {
         let Some(texture) = scene.textures.get(texture as usize) else {
             return Ok(None);
         };
@@ -71,15 +66,10 @@ impl<'a> TextureSet<'a> {
     }
 
     fn add_sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
-        if let Some(index) = self
-            .samplers
-            .iter()
-            .position(|(known, _)| *known == sampler)
-        {
+        if let Some(index) = self.samplers.iter().position(|(known, _)| *known == sampler) {
             return Ok(index);
         }
-        self.samplers
-            .push((sampler, DeviceSampler::new(self.memory.gpu(), &sampler)?));
+        self.samplers.push((sampler, DeviceSampler::new(self.memory.gpu(), &sampler)?));
         Ok(self.samplers.len() - 1)
     }
 
@@ -88,11 +78,7 @@ impl<'a> TextureSet<'a> {
         let index = match self.white {
             Some(index) => index,
             None => {
-                let texel = SceneImage {
-                    width: 1,
-                    height: 1,
-                    pixels: vec![255; 4],
-                };
+                let texel = SceneImage { width: 1, height: 1, pixels: vec![255; 4] };
                 self.add(&texel, false)?
             }
         };
@@ -123,9 +109,5 @@ impl<'a> TextureSet<'a> {
 /// smaller than the footprint are read linearly, and from mipmaps: the nearest texel of the full image is a sample of a
 /// mean, not the mean.
 fn averaging(sampler: Sampler) -> Sampler {
-    Sampler {
-        min: Filter::Linear,
-        mip: Some(Filter::Nearest),
-        ..sampler
-    }
+    Sampler { min: Filter::Linear, mip: Some(Filter::Nearest), ..sampler }
 }

@@ -12,10 +12,7 @@ fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
     let position = |corner: u32| positions.get(corner as usize).copied().unwrap_or_default();
     let before = |a: u32, b: u32| {
         let pairs = position(a).into_iter().zip(position(b));
-        pairs
-            .map(|(a, b)| a.total_cmp(&b))
-            .find(|order| order.is_ne())
-            .is_some_and(std::cmp::Ordering::is_lt)
+        pairs.map(|(a, b)| a.total_cmp(&b)).find(|order| order.is_ne()).is_some_and(std::cmp::Ordering::is_lt)
     };
     let [a, b, c] = corners;
     if before(b, a) && !before(c, b) {
@@ -42,9 +39,7 @@ impl Triangles {
             let word = TriangleWord {
                 material: draw.material,
                 bin: bins.of(draw.material),
-                high_frequency: materials
-                    .get(draw.material as usize)
-                    .is_some_and(high_frequency),
+                high_frequency: materials.get(draw.material as usize).is_some_and(high_frequency),
                 double_sided: double_sided(draw.class),
             };
             let first = draw.first_triangle as usize;
@@ -59,10 +54,7 @@ impl Triangles {
                 [a, b, c, word]
             })
             .collect();
-        Self {
-            high_frequency: high_frequency_count(geometry, &records),
-            records,
-        }
+        Self { high_frequency: high_frequency_count(geometry, &records), records }
     }
 }
 

@@ -41,8 +41,7 @@ impl Cube {
     pub(super) fn sample(&self, direction: DVec3) -> Vec3 {
         let (face, [a, b]) = place(direction);
         let along = |v: f64| {
-            let at =
-                ((v + 1.0) / 2.0 * f64::from(self.side) - 0.5).clamp(0.0, f64::from(self.side - 1));
+            let at = ((v + 1.0) / 2.0 * f64::from(self.side) - 0.5).clamp(0.0, f64::from(self.side - 1));
             let low = at.floor();
             let next = (low as u32 + 1).min(self.side - 1);
             (low as u32, next, (at - low) as f32)
@@ -148,10 +147,7 @@ mod tests {
             for at in [[0.0, 0.0], [0.7, -0.3], [-0.9, 0.2]] {
                 let (found, [a, b]) = place(direction(face, at) * 3.0);
                 assert_eq!(found, face);
-                assert!(
-                    (a - at[0]).abs() < 1e-12 && (b - at[1]).abs() < 1e-12,
-                    "{face}"
-                );
+                assert!((a - at[0]).abs() < 1e-12 && (b - at[1]).abs() < 1e-12, "{face}");
             }
         }
     }
@@ -160,14 +156,9 @@ mod tests {
     #[test]
     fn the_middle_of_the_image_is_ahead() {
         let (width, height) = (64, 32);
-        let pixels: Vec<[f32; 3]> = (0..width * height)
-            .map(|i| [(i % width) as f32, (i / width) as f32, 0.0])
-            .collect();
-        let image = Equirectangular {
-            width,
-            height,
-            pixels,
-        };
+        let pixels: Vec<[f32; 3]> =
+            (0..width * height).map(|i| [(i % width) as f32, (i / width) as f32, 0.0]).collect();
+        let image = Equirectangular { width, height, pixels };
         let cube = resampled(&image);
         for (direction, x, y) in [
             (DVec3::NEG_Z, 31.5, 15.5),

@@ -22,13 +22,9 @@ impl Equirectangular {
         );
         let (left, top) = (x.floor(), y.floor());
         let column = |x: f64| x.rem_euclid(f64::from(self.width)) as usize;
-        let rows = [
-            top as usize,
-            (top as usize + 1).min(self.height as usize - 1),
-        ];
-        let texel = |x: f64, row: usize| {
-            DVec3::from_array(self.pixels[row * self.width as usize + column(x)].map(f64::from))
-        };
+        let rows = [top as usize, (top as usize + 1).min(self.height as usize - 1)];
+        let texel =
+            |x: f64, row: usize| DVec3::from_array(self.pixels[row * self.width as usize + column(x)].map(f64::from));
         let row = |row| texel(left, row).lerp(texel(left + 1.0, row), x - left);
         row(rows[0]).lerp(row(rows[1]), y - top)
     }

@@ -46,9 +46,7 @@ pub(super) fn irradiance(pyramid: &[Cube], suns: &[Sun]) -> [[f32; 3]; 9] {
                 let weight = solid_angle(at);
                 let color = weight * cube.texel(face, x, y).as_dvec3();
                 let values = basis(direction(face, at).normalize());
-                sums.iter_mut()
-                    .zip(values)
-                    .for_each(|(s, v)| *s += color * v);
+                sums.iter_mut().zip(values).for_each(|(s, v)| *s += color * v);
                 weights += weight;
             }
         }
@@ -57,9 +55,7 @@ pub(super) fn irradiance(pyramid: &[Cube], suns: &[Sun]) -> [[f32; 3]; 9] {
     let mut sums = sums.map(|sum| sum * of_all);
     for sun in suns {
         let values = basis(sun.direction);
-        sums.iter_mut()
-            .zip(values)
-            .for_each(|(s, v)| *s += sun.light * v);
+        sums.iter_mut().zip(values).for_each(|(s, v)| *s += sun.light * v);
     }
     std::array::from_fn(|i| (sums[i] * COSINE[i]).as_vec3().to_array())
 }
@@ -83,10 +79,7 @@ mod tests {
         for normal in [DVec3::Y, DVec3::X, DVec3::NEG_Y, DVec3::new(0.6, 0.8, 0.0)] {
             let found = sky.irradiance_towards(normal).x;
             let expected = 1.0 + 2.0 / 3.0 * normal.y;
-            assert!(
-                (found - expected).abs() < 3e-3,
-                "{normal}: {found}, expected {expected}"
-            );
+            assert!((found - expected).abs() < 3e-3, "{normal}: {found}, expected {expected}");
         }
     }
 }

@@ -59,18 +59,10 @@ impl Environment {
     ///
     /// # Errors
     /// [`EnvironmentError`] if the number of colours contradicts the size or a colour is negative or not finite.
-    pub fn from_equirectangular(
-        width: u32,
-        height: u32,
-        pixels: Vec<[f32; 3]>,
-    ) -> Result<Self, EnvironmentError> {
+    pub fn from_equirectangular(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Result<Self, EnvironmentError> {
         let found = pixels.len();
         if width < 2 || height < 1 || found as u64 != u64::from(width) * u64::from(height) {
-            return Err(EnvironmentError::Size {
-                width,
-                height,
-                found,
-            });
+            return Err(EnvironmentError::Size { width, height, found });
         }
         let is_radiance = |color: &[f32; 3]| color.iter().all(|x| x.is_finite() && *x >= 0.0);
         if let Some(index) = pixels.iter().position(|color| !is_radiance(color)) {
@@ -80,11 +72,7 @@ impl Environment {
                 color: format!("{:?}", pixels[index]),
             });
         }
-        let image = Equirectangular {
-            width,
-            height,
-            pixels,
-        };
+        let image = Equirectangular { width, height, pixels };
         let mut finest = cube::resampled(&image);
         let suns = suns::take(&mut finest);
         let cubes = cube::pyramid(finest);
@@ -100,11 +88,7 @@ impl Environment {
     /// Makes an environment from filtered levels, each half as large as the one before: the side of a face in texels,
     /// and the colours of its faces in Vulkan's order, row by row. `irradiance` is divided by pi; `rotation` leads
     /// from the map to the world.
-    pub(super) fn from_levels(
-        levels: Vec<(u32, Vec<[f32; 3]>)>,
-        irradiance: [[f32; 3]; 9],
-        rotation: DQuat,
-    ) -> Self {
+    pub(super) fn from_levels(levels: Vec<(u32, Vec<[f32; 3]>)>, irradiance: [[f32; 3]; 9], rotation: DQuat) -> Self {
         let cube = |(side, texels)| Cube { side, texels };
         Self {
             image: None,
@@ -166,9 +150,7 @@ impl Environment {
     pub fn irradiance_towards(&self, normal: DVec3) -> DVec3 {
         let basis = harmonics::basis(self.rotation * normal.normalize());
         let terms = self.irradiance.iter().zip(basis);
-        let sum: DVec3 = terms
-            .map(|(color, weight)| DVec3::from_array(color.map(f64::from)) * weight)
-            .sum();
+        let sum: DVec3 = terms.map(|(color, weight)| DVec3::from_array(color.map(f64::from)) * weight).sum();
         sum.max(DVec3::ZERO)
     }
 }

@@ -33,9 +33,7 @@ pub(super) fn take(cube: &mut Cube) -> Vec<Sun> {
     let brightness = |color: &[f32; 3]| color.iter().copied().fold(0.0, f32::max);
     let bound = bound(cube.texels.iter().map(brightness));
     let excess = |color: &[f32; 3]| (1.0 - bound / brightness(color)).max(0.0);
-    let mut bright: Vec<usize> = (0..cube.texels.len())
-        .filter(|index| excess(&cube.texels[*index]) > 0.0)
-        .collect();
+    let mut bright: Vec<usize> = (0..cube.texels.len()).filter(|index| excess(&cube.texels[*index]) > 0.0).collect();
     // In the middle of a face, a texel's solid angle is its area.
     let solid = |index: usize| solid_angle(place(index).1) * 4.0 / f64::from(side * side);
     let light = |index: usize| {
@@ -49,11 +47,7 @@ pub(super) fn take(cube: &mut Cube) -> Vec<Sun> {
     bright.truncate(MOST);
     let sun = |&index: &usize| {
         let (face, at) = place(index);
-        Sun {
-            direction: direction(face, at).normalize(),
-            solid_angle: solid(index),
-            light: light(index),
-        }
+        Sun { direction: direction(face, at).normalize(), solid_angle: solid(index), light: light(index) }
     };
     let suns = bright.iter().map(sun).collect();
     for index in bright {
@@ -98,10 +92,7 @@ mod tests {
                 panic!("{suns:?}");
             };
             let kept = rest.texels[index];
-            assert!(
-                (15.9..16.5).contains(&kept[0]) && kept[1] == kept[0] / 2.0,
-                "{kept:?}"
-            );
+            assert!((15.9..16.5).contains(&kept[0]) && kept[1] == kept[0] / 2.0, "{kept:?}");
             let taken = sun.light / sun.solid_angle;
             for (channel, taken) in taken.to_array().into_iter().enumerate() {
                 let sum = f64::from(kept[channel]) + taken;

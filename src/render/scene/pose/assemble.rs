@@ -57,12 +57,7 @@ pub fn assemble(
     let total = |count: fn(&Placement<'_>) -> usize, what| {
         let count = placements.iter().map(|p| count(p) as u64).sum();
         if count > MAX_ELEMENTS {
-            return Err(SceneError::TooLarge {
-                file: scene.document.file.clone(),
-                what,
-                count,
-                limit: MAX_ELEMENTS,
-            });
+            return Err(SceneError::TooLarge { file: scene.document.file.clone(), what, count, limit: MAX_ELEMENTS });
         }
         Ok(())
     };
@@ -70,9 +65,7 @@ pub fn assemble(
     total(|p| p.primitive.triangles.len(), "triangles")?;
 
     let (jobs, origin) = plan(scene, placements, warnings);
-    let count = |count: fn(&Placement<'_>) -> usize| -> usize {
-        jobs.iter().map(|job| count(&job.placement)).sum()
-    };
+    let count = |count: fn(&Placement<'_>) -> usize| -> usize { jobs.iter().map(|job| count(&job.placement)).sum() };
     let vertices = count(|p| p.primitive.positions.len());
     let needed = Needed::by(scene, &jobs);
     let mut geometry = Geometry {
@@ -102,10 +95,7 @@ pub fn assemble(
     }
     fill(&jobs, &mut geometry);
     let moving = jobs.iter().filter(|job| job.placement.moves);
-    let moving = moving.map(|job| MovingPlacement {
-        placement: job.index,
-        first_vertex: job.first_vertex,
-    });
+    let moving = moving.map(|job| MovingPlacement { placement: job.index, first_vertex: job.first_vertex });
     Ok((geometry, moving.collect()))
 }
 
@@ -131,9 +121,8 @@ struct Needed {
 impl Needed {
     fn by(scene: &Scene, jobs: &[PlacementJob<'_, '_>]) -> Self {
         let any = |has: &dyn Fn(&Placement<'_>) -> bool| jobs.iter().any(|job| has(&job.placement));
-        let material = |p: &Placement<'_>, has: fn(&Material) -> bool| {
-            scene.materials.get(p.primitive.material).is_some_and(has)
-        };
+        let material =
+            |p: &Placement<'_>, has: fn(&Material) -> bool| scene.materials.get(p.primitive.material).is_some_and(has);
         Self {
             tangents: any(&|p| material(p, |m| m.tangent_uv_set().is_some())),
             uvs: any(&|p| material(p, |m| m.textures().next().is_some())),
@@ -165,11 +154,7 @@ fn plan<'p, 'd>(
         (low, high) = (low.min(corners.0), high.max(corners.1));
         placed.push((index, placement));
     }
-    let origin = if placed.is_empty() {
-        DVec3::ZERO
-    } else {
-        (low + high) / 2.0
-    };
+    let origin = if placed.is_empty() { DVec3::ZERO } else { (low + high) / 2.0 };
     let mut jobs = jobs(scene, &placed, origin);
     let mut next = 0;
     for job in &mut jobs {
@@ -181,11 +166,7 @@ fn plan<'p, 'd>(
 }
 
 /// The jobs by class; within a class, meshes in world space come before meshes with instances.
-fn jobs<'p, 'd>(
-    scene: &Scene,
-    placed: &[(usize, &'p Placement<'d>)],
-    origin: DVec3,
-) -> Vec<PlacementJob<'p, 'd>> {
+fn jobs<'p, 'd>(scene: &Scene, placed: &[(usize, &'p Placement<'d>)], origin: DVec3) -> Vec<PlacementJob<'p, 'd>> {
     let mut sharing: HashMap<*const Primitive, usize> = HashMap::new();
     for mesh in placed.iter().filter_map(|(_, placement)| placement.mesh()) {
         *sharing.entry(std::ptr::from_ref(mesh)).or_default() += 1;
@@ -256,9 +237,7 @@ fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<Instance> {
                         .iter()
                         .filter_map(|placement| placement.rigid())
                         .map(|place| {
-                            DAffine3::from_translation(-origin)
-                                * place
-                                * DAffine3::from_translation(job.origin)
+                            DAffine3::from_translation(-origin) * place * DAffine3::from_translation(job.origin)
                         })
                         .collect(),
                 };
@@ -314,12 +293,7 @@ fn draws(jobs: &[PlacementJob<'_, '_>]) -> Vec<Draw> {
             Some(last) if last.material == material && last.class == class => {
                 last.triangle_count += triangle_count;
             }
-            _ => draws.push(Draw {
-                first_triangle,
-                triangle_count,
-                material,
-                class,
-            }),
+            _ => draws.push(Draw { first_triangle, triangle_count, material, class }),
         }
         first_triangle += triangle_count;
     }
@@ -364,8 +338,7 @@ fn fill(jobs: &[PlacementJob<'_, '_>], geometry: &mut Geometry) {
             },
         ));
     }
-    work.into_par_iter()
-        .for_each(|(job, parts)| job.fill(parts));
+    work.into_par_iter().for_each(|(job, parts)| job.fill(parts));
 }
 
 /// Splits the first `count` elements off; returns an empty slice if the stream is empty.
@@ -387,45 +360,29 @@ impl PlacementJob<'_, '_> {
         }
         for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
             // Points and lines always face the camera.
-            let triangle = if placement.mirrored && !primitive.is_strokes() {
-                [a, c, b]
-            } else {
-                [a, b, c]
-            };
+            let triangle = if placement.mirrored && !primitive.is_strokes() { [a, c, b] } else { [a, b, c] };
             *to = triangle.map(|v| v + self.first_vertex);
         }
-        parts
-            .positions
-            .par_chunks_mut(CHUNK)
-            .enumerate()
-            .for_each(|(chunk, positions)| {
-                for (v, to) in (chunk * CHUNK..).zip(positions) {
-                    *to = (placement.position(v) - origin).as_vec3().to_array();
-                }
-            });
-        parts
-            .normals
-            .par_chunks_mut(CHUNK)
-            .enumerate()
-            .for_each(|(chunk, normals)| {
-                if primitive.is_flat() {
-                    self.flat_normals(chunk * CHUNK, normals);
-                    return;
-                }
-                for (v, to) in (chunk * CHUNK..).zip(normals) {
-                    *to = placement.normal(v, &placement.frame(v));
-                }
-            });
+        parts.positions.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, positions)| {
+            for (v, to) in (chunk * CHUNK..).zip(positions) {
+                *to = (placement.position(v) - origin).as_vec3().to_array();
+            }
+        });
+        parts.normals.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, normals)| {
+            if primitive.is_flat() {
+                self.flat_normals(chunk * CHUNK, normals);
+                return;
+            }
+            for (v, to) in (chunk * CHUNK..).zip(normals) {
+                *to = placement.normal(v, &placement.frame(v));
+            }
+        });
         if !primitive.tangents.is_empty() {
-            parts
-                .tangents
-                .par_chunks_mut(CHUNK)
-                .enumerate()
-                .for_each(|(chunk, tangents)| {
-                    for (v, to) in (chunk * CHUNK..).zip(tangents) {
-                        *to = placement.tangent(v, &placement.frame(v));
-                    }
-                });
+            parts.tangents.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, tangents)| {
+                for (v, to) in (chunk * CHUNK..).zip(tangents) {
+                    *to = placement.tangent(v, &placement.frame(v));
+                }
+            });
         }
     }
 
@@ -435,16 +392,14 @@ impl PlacementJob<'_, '_> {
         let first = self.first_vertex;
         let corners = primitive.positions.len() - primitive.corners.len();
         let vertices = first + corners as u32..;
-        vertices
-            .zip(&primitive.corners)
-            .map(move |(vertex, corner)| Stroke {
-                part: corner.part,
-                vertex,
-                at: first + corner.at,
-                other: first + corner.other,
-                beyond: first + corner.beyond,
-                faces_camera: primitive.normals.is_empty(),
-            })
+        vertices.zip(&primitive.corners).map(move |(vertex, corner)| Stroke {
+            part: corner.part,
+            vertex,
+            at: first + corner.at,
+            other: first + corner.other,
+            beyond: first + corner.beyond,
+            faces_camera: primitive.normals.is_empty(),
+        })
     }
 
     /// Edges of the job's mesh.

@@ -29,10 +29,7 @@ impl NodeStates {
                 Animated::Weight(node, target) => {
                     let all = weights[node].get_or_insert_with(|| document.weights(node));
                     all.resize(all.len().max(target + 1), 0.0);
-                    all[target] = keyframes::sample(channel, time)
-                        .first()
-                        .copied()
-                        .unwrap_or(0.0);
+                    all[target] = keyframes::sample(channel, time).first().copied().unwrap_or(0.0);
                     continue;
                 }
                 Animated::Visibility(node) => {
@@ -52,9 +49,7 @@ impl NodeStates {
             match (property, value.as_slice()) {
                 (Property::Translation, &[x, y, z]) => parts.translation = DVec3::new(x, y, z),
                 (Property::Scale, &[x, y, z]) => parts.scale = DVec3::new(x, y, z),
-                (Property::Rotation, &[x, y, z, w]) => {
-                    parts.rotation = DQuat::from_xyzw(x, y, z, w)
-                }
+                (Property::Rotation, &[x, y, z, w]) => parts.rotation = DQuat::from_xyzw(x, y, z, w),
                 _ => {}
             }
         }
@@ -69,10 +64,6 @@ impl NodeStates {
                 None => local,
             };
         }
-        Self {
-            world,
-            weights,
-            drawn: document.drawn(visible),
-        }
+        Self { world, weights, drawn: document.drawn(visible) }
     }
 }

@@ -10,28 +10,19 @@ use crate::scene::{
 };
 
 /// Channels of the requested animation; empty if there is none.
-pub fn choose<'d>(
-    document: &'d Document,
-    request: &PoseRequest,
-) -> Result<&'d [Channel], SceneError> {
+pub fn choose<'d>(document: &'d Document, request: &PoseRequest) -> Result<&'d [Channel], SceneError> {
     let animations = &document.root.animations;
     let channels = |index: usize| document.animations.get(index).map(Vec::as_slice);
     let Some(asked) = &request.animation else {
-        return Ok(channels(0)
-            .filter(|_| request.time > 0.0)
-            .unwrap_or_default());
+        return Ok(channels(0).filter(|_| request.time > 0.0).unwrap_or_default());
     };
-    let named = animations
-        .iter()
-        .position(|animation| animation.name.as_ref() == Some(asked));
+    let named = animations.iter().position(|animation| animation.name.as_ref() == Some(asked));
     let index = named.or_else(|| asked.parse().ok());
-    index
-        .and_then(channels)
-        .ok_or_else(|| SceneError::NoSuchAnimation {
-            file: document.file.clone(),
-            asked: asked.clone(),
-            known: describe(animations),
-        })
+    index.and_then(channels).ok_or_else(|| SceneError::NoSuchAnimation {
+        file: document.file.clone(),
+        asked: asked.clone(),
+        known: describe(animations),
+    })
 }
 
 fn describe(animations: &[Animation]) -> String {
@@ -81,10 +72,7 @@ fn linear(channel: &Channel, i: usize, fraction: f64) -> Vec<f64> {
             _ => DQuat::IDENTITY,
         };
         // glam interpolates along the shorter arc.
-        return quaternion(&from)
-            .slerp(quaternion(&to), fraction)
-            .to_array()
-            .to_vec();
+        return quaternion(&from).slerp(quaternion(&to), fraction).to_array().to_vec();
     }
     let mix = |(a, b)| a + (b - a) * fraction;
     from.into_iter().zip(to).map(mix).collect()
@@ -93,18 +81,9 @@ fn linear(channel: &Channel, i: usize, fraction: f64) -> Vec<f64> {
 /// Cubic Hermite spline; tangents are per second, hence the `duration` of the interval.
 fn spline(channel: &Channel, i: usize, t: f64, duration: f64) -> Vec<f64> {
     let (t2, t3) = (t * t, t * t * t);
-    let weights = [
-        2.0 * t3 - 3.0 * t2 + 1.0,
-        duration * (t3 - 2.0 * t2 + t),
-        -2.0 * t3 + 3.0 * t2,
-        duration * (t3 - t2),
-    ];
-    let terms = [
-        channel.part(i, 1, 3),
-        channel.part(i, 2, 3),
-        channel.part(i + 1, 1, 3),
-        channel.part(i + 1, 0, 3),
-    ];
+    let weights =
+        [2.0 * t3 - 3.0 * t2 + 1.0, duration * (t3 - 2.0 * t2 + t), -2.0 * t3 + 3.0 * t2, duration * (t3 - t2)];
+    let terms = [channel.part(i, 1, 3), channel.part(i, 2, 3), channel.part(i + 1, 1, 3), channel.part(i + 1, 0, 3)];
     let mut value = vec![0.0; channel.width];
     for (weight, term) in weights.into_iter().zip(terms) {
         for (sum, x) in value.iter_mut().zip(term) {

@@ -97,9 +97,7 @@ pub fn changing_materials(scene: &Scene, animation: &[Channel]) -> Vec<usize> {
         Animated::Description(Described::Material(index), _) => Some(*index),
         _ => None,
     });
-    let mut all: Vec<usize> = materials
-        .flat_map(|index| iter::once(index).chain(unlit_copy(scene, index)))
-        .collect();
+    let mut all: Vec<usize> = materials.flat_map(|index| iter::once(index).chain(unlit_copy(scene, index))).collect();
     all.sort_unstable();
     all.dedup();
     all

@@ -95,16 +95,10 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
     Ok(posed(scene, request, &Moving::default())?.0)
 }
 
-pub(super) fn pose_in_motion(
-    scene: &Scene,
-    request: &PoseRequest,
-) -> Result<(Pose, Motion), SceneError> {
+pub(super) fn pose_in_motion(scene: &Scene, request: &PoseRequest) -> Result<(Pose, Motion), SceneError> {
     let document = &scene.document;
     // At time 0 no animation is chosen by default, but a motion needs the animation that is chosen at later times.
-    let later = PoseRequest {
-        time: f64::MAX,
-        ..request.clone()
-    };
+    let later = PoseRequest { time: f64::MAX, ..request.clone() };
     let moving = Moving::new(scene, keyframes::choose(document, &later)?);
     let (pose, placements) = posed(scene, request, &moving)?;
     let mut warnings = Warnings::new(&document.file);
@@ -114,11 +108,7 @@ pub(super) fn pose_in_motion(
 }
 
 /// A pose, and the vertices of moving placements in it.
-fn posed(
-    scene: &Scene,
-    request: &PoseRequest,
-    moving: &Moving,
-) -> Result<(Pose, Vec<MovingPlacement>), SceneError> {
+fn posed(scene: &Scene, request: &PoseRequest, moving: &Moving) -> Result<(Pose, Vec<MovingPlacement>), SceneError> {
     let document = &scene.document;
     let mut warnings = Warnings::new(&document.file);
     let shown = show(scene, request, moving, &mut warnings)?;
@@ -142,10 +132,7 @@ fn posed(
 }
 
 /// Environment of a scene of the file, or of its default scene.
-pub(super) fn environment_of(
-    document: &Document,
-    scene: Option<usize>,
-) -> Option<Arc<Environment>> {
+pub(super) fn environment_of(document: &Document, scene: Option<usize>) -> Option<Arc<Environment>> {
     let scene = scene.or(document.default_scene)?;
     document.environments.get(scene)?.clone()
 }
@@ -161,11 +148,7 @@ fn show<'d>(
     if let Some(asked) = request.scene
         && asked >= document.root.scenes.len()
     {
-        return Err(SceneError::NoSuchScene {
-            file: document.file.clone(),
-            asked,
-            count: document.root.scenes.len(),
-        });
+        return Err(SceneError::NoSuchScene { file: document.file.clone(), asked, count: document.root.scenes.len() });
     }
     let animation = keyframes::choose(document, request)?;
     let state = hierarchy::NodeStates::new(document, animation, request.time);
@@ -176,15 +159,12 @@ fn show<'d>(
     let mut placements = Vec::new();
     let (mut lights, mut cameras) = (Vec::new(), Vec::new());
     for index in drawn {
-        let (Some(node), Some(world)) = (document.root.nodes.get(index), state.world.get(index))
-        else {
+        let (Some(node), Some(world)) = (document.root.nodes.get(index), state.world.get(index)) else {
             continue;
         };
         if !world.is_finite() {
-            warnings.push(&Fault::new(
-                format!("/nodes/{index}"),
-                "its transform is not finite; what it holds is left out",
-            ));
+            warnings
+                .push(&Fault::new(format!("/nodes/{index}"), "its transform is not finite; what it holds is left out"));
             continue;
         }
         let visible = state.drawn[index];
@@ -193,12 +173,7 @@ fn show<'d>(
         }
         if let Some((name, projection)) = camera_of(document, &looks.cameras, node) {
             match axes(world) {
-                Some(axes) => cameras.push(SceneCamera {
-                    name,
-                    eye: world.translation,
-                    axes,
-                    projection,
-                }),
+                Some(axes) => cameras.push(SceneCamera { name, eye: world.translation, axes, projection }),
                 None => warnings.push(&Fault::new(
                     format!("/nodes/{index}"),
                     "its transform gives the camera no direction; the camera is left out",
@@ -209,12 +184,7 @@ fn show<'d>(
             placements.extend(placer.of_node(index, node));
         }
     }
-    Ok(PoseContents {
-        materials: looks.materials,
-        placements,
-        lights,
-        cameras,
-    })
+    Ok(PoseContents { materials: looks.materials, placements, lights, cameras })
 }
 
 /// Nodes of a scene, depth first, each once; `None` walks from all root nodes.
@@ -222,9 +192,7 @@ pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usiz
     let nodes = &document.root.nodes;
     let mut open: Vec<usize> = match scene.and_then(|index| document.root.scenes.get(index)) {
         Some(scene) => scene.nodes.iter().map(Index::value).collect(),
-        None => (0..nodes.len())
-            .filter(|&i| document.nodes[i].parent.is_none())
-            .collect(),
+        None => (0..nodes.len()).filter(|&i| document.nodes[i].parent.is_none()).collect(),
     };
     open.reverse();
     let mut seen = vec![false; nodes.len()];
@@ -274,11 +242,7 @@ pub(super) fn copies(document: &Document, index: usize) -> usize {
 }
 
 fn place_light(light: &Light, world: &DAffine3) -> Light {
-    Light {
-        position: world.translation,
-        direction: -world.matrix3.z_axis.normalize_or(DVec3::Z),
-        ..*light
-    }
+    Light { position: world.translation, direction: -world.matrix3.z_axis.normalize_or(DVec3::Z), ..*light }
 }
 
 /// Axes (right, up and backward) of a node without its scale; `None` if the transform has no direction.

@@ -48,16 +48,8 @@ impl VertexTransform {
     fn new(affine: DAffine3) -> Self {
         let m = affine.matrix3;
         let sign = 1.0_f64.copysign(m.determinant());
-        let cofactors = DMat3::from_cols(
-            m.y_axis.cross(m.z_axis),
-            m.z_axis.cross(m.x_axis),
-            m.x_axis.cross(m.y_axis),
-        );
-        Self {
-            affine,
-            normals: cofactors * sign,
-            sign,
-        }
+        let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+        Self { affine, normals: cofactors * sign, sign }
     }
 
     /// Factor by which the transform enlarges lengths.
@@ -103,13 +95,7 @@ pub struct Placer<'d, 's> {
 
 impl<'d, 's> Placer<'d, 's> {
     pub fn new(document: &'d Document, state: &'s NodeStates, moving: &'s Moving) -> Self {
-        Self {
-            document,
-            state,
-            moving,
-            skins: HashMap::new(),
-            targets: HashMap::new(),
-        }
+        Self { document, state, moving, skins: HashMap::new(), targets: HashMap::new() }
     }
 
     /// Targets of the primitives of a node's mesh.
@@ -118,8 +104,7 @@ impl<'d, 's> Placer<'d, 's> {
         let weighted = |weights: &[f64]| {
             let of_primitive = |primitive: &'d Primitive| {
                 let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
-                let weighted =
-                    weighted.filter(|(weight, (_, target))| **weight != 0.0 && target.displaces());
+                let weighted = weighted.filter(|(weight, (_, target))| **weight != 0.0 && target.displaces());
                 let weighted = weighted.map(|(weight, (index, target))| (*weight, index, target));
                 weighted.collect()
             };
@@ -158,10 +143,7 @@ impl<'d, 's> Placer<'d, 's> {
 
         let mut placements = Vec::new();
         for copy in 0..copies(document, index) {
-            let instance = document.nodes[index]
-                .instances
-                .as_ref()
-                .and_then(|i| i.get(copy));
+            let instance = document.nodes[index].instances.as_ref().and_then(|i| i.get(copy));
             let rigid = VertexTransform::new(world * instance.copied().unwrap_or_default());
             for (primitive, targets) in primitives.iter().zip(targets.iter()) {
                 let (motion, mirrored) = match skin {
@@ -189,8 +171,7 @@ impl<'d> Placement<'d> {
     /// Mesh of the placement; `None` unless a [`rigid`](Self::rigid) transform is all that tells placements of the mesh
     /// apart.
     pub fn mesh(&self) -> Option<&'d Primitive> {
-        let is_rigid =
-            matches!(self.motion, VertexMotion::Rigid(_)) && self.targets.is_empty() && !self.moves;
+        let is_rigid = matches!(self.motion, VertexMotion::Rigid(_)) && self.targets.is_empty() && !self.moves;
         is_rigid.then_some(self.primitive)
     }
 
@@ -218,11 +199,7 @@ impl<'d> Placement<'d> {
     /// Placement of the same mesh at another place.
     pub fn at(&self, affine: DAffine3) -> Self {
         let frame = VertexTransform::new(affine);
-        Self {
-            motion: VertexMotion::Rigid(frame),
-            mirrored: frame.sign < 0.0,
-            ..self.clone()
-        }
+        Self { motion: VertexMotion::Rigid(frame), mirrored: frame.sign < 0.0, ..self.clone() }
     }
 
     /// Transform of vertex `v`.
@@ -283,12 +260,7 @@ impl<'d> Placement<'d> {
     }
 
     #[inline]
-    fn morph(
-        &self,
-        v: usize,
-        base: [f32; 3],
-        stream: fn(&Displacements) -> &Vec<[f32; 3]>,
-    ) -> DVec3 {
+    fn morph(&self, v: usize, base: [f32; 3], stream: fn(&Displacements) -> &Vec<[f32; 3]>) -> DVec3 {
         let mut value = Vec3::from_array(base).as_dvec3();
         for (weight, _, target) in self.targets.iter() {
             if let Some(&displacement) = stream(target).get(v) {
@@ -303,10 +275,6 @@ impl<'d> Placement<'d> {
 #[inline]
 fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
     let largest = v.abs().max_element();
-    let direction = if largest > 0.0 && largest.is_finite() {
-        (v / largest).normalize()
-    } else {
-        otherwise
-    };
+    let direction = if largest > 0.0 && largest.is_finite() { (v / largest).normalize() } else { otherwise };
     direction.as_vec3().to_array()
 }

@@ -29,13 +29,7 @@ struct Elements<'b> {
 
 impl<'b> Elements<'b> {
     /// `count` elements of `size` bytes from `offset` on, checked to lie within `view`.
-    fn new(
-        place: &str,
-        view: BufferView<'b>,
-        offset: USize64,
-        count: usize,
-        size: usize,
-    ) -> Result<Self, Fault> {
+    fn new(place: &str, view: BufferView<'b>, offset: USize64, count: usize, size: usize) -> Result<Self, Fault> {
         let offset = offset.0 as usize;
         let stride = view.stride.unwrap_or(size);
         if stride < size {
@@ -44,16 +38,9 @@ impl<'b> Elements<'b> {
                 format!("elements of {size} bytes do not fit the buffer view's stride of {stride}"),
             ));
         }
-        let end = count
-            .saturating_sub(1)
-            .checked_mul(stride)
-            .and_then(|n| n.checked_add(size)?.checked_add(offset));
+        let end = count.saturating_sub(1).checked_mul(stride).and_then(|n| n.checked_add(size)?.checked_add(offset));
         match end.and_then(|end| view.bytes.get(offset..end)) {
-            Some(bytes) => Ok(Self {
-                bytes,
-                stride,
-                size,
-            }),
+            Some(bytes) => Ok(Self { bytes, stride, size }),
             None => Err(Fault::new(
                 place,
                 format!(
@@ -99,18 +86,10 @@ pub struct Accessor<'b> {
 
 impl<'b> Accessor<'b> {
     /// Reads and checks the accessor `index`, referred to at the place `from`.
-    pub fn new(
-        model: &Model,
-        index: Index<Description>,
-        from: &str,
-        buffers: &'b Buffers<'_>,
-    ) -> Result<Self, Fault> {
+    pub fn new(model: &Model, index: Index<Description>, from: &str, buffers: &'b Buffers<'_>) -> Result<Self, Fault> {
         let (item, place) = model.get(index, from)?;
-        let GenericComponentType(component) =
-            model.valid(&item.component_type, &format!("{place}/componentType"))?;
-        let components = model
-            .valid(&item.type_, &format!("{place}/type"))?
-            .multiplicity();
+        let GenericComponentType(component) = model.valid(&item.component_type, &format!("{place}/componentType"))?;
+        let components = model.valid(&item.type_, &format!("{place}/type"))?.multiplicity();
         let count = item.count.0 as usize;
         if count == 0 || u32::try_from(item.count.0).is_err() {
             let reason = format!("{count} elements are too few or too many");
@@ -119,24 +98,12 @@ impl<'b> Accessor<'b> {
         let size = component.size() * components;
         let elements = item.buffer_view.map(|view| {
             let view = buffers.view(view, &format!("{place}/bufferView"))?;
-            Elements::new(
-                &place,
-                view,
-                item.byte_offset.unwrap_or_default(),
-                count,
-                size,
-            )
+            Elements::new(&place, view, item.byte_offset.unwrap_or_default(), count, size)
         });
-        let sparse = item.sparse.as_ref().map(|sparse| {
-            read_sparse(
-                model,
-                sparse,
-                &format!("{place}/sparse"),
-                buffers,
-                count,
-                size,
-            )
-        });
+        let sparse = item
+            .sparse
+            .as_ref()
+            .map(|sparse| read_sparse(model, sparse, &format!("{place}/sparse"), buffers, count, size));
         Ok(Self {
             count,
             component,
@@ -152,21 +119,14 @@ impl<'b> Accessor<'b> {
     pub fn of_stream(stream: &'b Stream, normalized: bool, place: &str) -> Result<Self, Fault> {
         let size = stream.component.size() * stream.components;
         if stream.count == 0 || stream.bytes.len() != stream.count * size {
-            return Err(Fault::new(
-                place,
-                "there are no values in the compressed data",
-            ));
+            return Err(Fault::new(place, "there are no values in the compressed data"));
         }
         Ok(Self {
             count: stream.count,
             component: stream.component,
             components: stream.components,
             normalized,
-            elements: Some(Elements {
-                bytes: &stream.bytes,
-                stride: size,
-                size,
-            }),
+            elements: Some(Elements { bytes: &stream.bytes, stride: size, size }),
             sparse: None,
             place: place.to_owned(),
         })
@@ -196,10 +156,7 @@ impl<'b> Accessor<'b> {
         if self.elements.is_some() || self.count <= FREE + replaced.saturating_mul(PER_SPARSE) {
             Ok(())
         } else {
-            Err(self.fault(format!(
-                "claims {} elements, but has no buffer view",
-                self.count
-            )))
+            Err(self.fault(format!("claims {} elements, but has no buffer view", self.count)))
         }
     }
 
@@ -208,10 +165,7 @@ impl<'b> Accessor<'b> {
         if components.contains(&self.components) {
             Ok(self)
         } else {
-            Err(self.fault(format!(
-                "expected elements of {components:?} components, found {}",
-                self.components
-            )))
+            Err(self.fault(format!("expected elements of {components:?} components, found {}", self.components)))
         }
     }
 
@@ -220,10 +174,7 @@ impl<'b> Accessor<'b> {
         if allowed.contains(&self.component) {
             Ok(self)
         } else {
-            Err(self.fault(format!(
-                "expected components of {allowed:?}, found {:?}",
-                self.component
-            )))
+            Err(self.fault(format!("expected components of {allowed:?}, found {:?}", self.component)))
         }
     }
 
@@ -257,26 +208,16 @@ impl<'b> Accessor<'b> {
     pub fn floats<const N: usize>(&self, i: usize) -> [f32; N] {
         let bytes = self.bytes(i);
         let scale = |x: f32, most: f32| {
-            if self.normalized {
-                (x / most).max(-1.0)
-            } else {
-                x
-            }
+            if self.normalized { (x / most).max(-1.0) } else { x }
         };
         let mut floats = [0.0; N];
         match self.component {
             ComponentType::F32 => each(bytes, &mut floats, f32::from_le_bytes),
             ComponentType::U32 => each(bytes, &mut floats, |b| u32::from_le_bytes(b) as f32),
-            ComponentType::I8 => each(bytes, &mut floats, |[b]: [u8; 1]| {
-                scale(f32::from(b as i8), 127.0)
-            }),
+            ComponentType::I8 => each(bytes, &mut floats, |[b]: [u8; 1]| scale(f32::from(b as i8), 127.0)),
             ComponentType::U8 => each(bytes, &mut floats, |[b]: [u8; 1]| scale(b.into(), 255.0)),
-            ComponentType::I16 => each(bytes, &mut floats, |b| {
-                scale(i16::from_le_bytes(b).into(), 32_767.0)
-            }),
-            ComponentType::U16 => each(bytes, &mut floats, |b| {
-                scale(u16::from_le_bytes(b).into(), 65_535.0)
-            }),
+            ComponentType::I16 => each(bytes, &mut floats, |b| scale(i16::from_le_bytes(b).into(), 32_767.0)),
+            ComponentType::U16 => each(bytes, &mut floats, |b| scale(u16::from_le_bytes(b).into(), 65_535.0)),
         }
         floats
     }
@@ -312,10 +253,7 @@ fn read_sparse<'b>(
         Elements::new(&place, view, offset, replaced, size)
     };
     let (at, values) = (&item.indices, &item.values);
-    let IndexComponentType(component) = model.valid(
-        &at.component_type,
-        &format!("{place}/indices/componentType"),
-    )?;
+    let IndexComponentType(component) = model.valid(&at.component_type, &format!("{place}/indices/componentType"))?;
     let indices = part("indices", at.buffer_view, at.byte_offset, component.size())?;
     let indices: Vec<u32> = (0..replaced)
         .map(|i| {

@@ -43,9 +43,7 @@ pub fn read_all(
     let mut animations = Vec::new();
     for found in model.all::<json::Animation>() {
         let mut channels: Vec<Channel> = Vec::new();
-        let found = reader
-            .context
-            .tolerate(found.map(Some), "the animation does nothing");
+        let found = reader.context.tolerate(found.map(Some), "the animation does nothing");
         if let Some((item, place)) = found {
             let all = item.channels.iter().enumerate();
             for (i, channel) in all.filter(|(_, c)| !model::is_nothing(c.sampler)) {
@@ -53,9 +51,7 @@ pub fn read_all(
                     let target = format!("{place}/channels/{i}/target");
                     read_channel(&channel.target, &target, sampler, &at, &mut reader)
                 });
-                let read = reader
-                    .context
-                    .tolerate(read.map(Some), "the channel is left out");
+                let read = reader.context.tolerate(read.map(Some), "the channel is left out");
                 channels.extend(read.into_iter().flatten());
                 let notes = reader.cache.notes.drain(..);
                 reader.context.warnings.extend(notes);
@@ -114,10 +110,7 @@ fn read_channel(
     if let Animated::Description(described, pointer) = first {
         reader.check_effect(*described, pointer, &channel, &at)?;
     }
-    let of_target = |target| Channel {
-        target,
-        ..channel.clone()
-    };
+    let of_target = |target| Channel { target, ..channel.clone() };
     Ok(targets.into_iter().map(of_target).collect())
 }
 
@@ -130,9 +123,7 @@ fn read_keyframes(
 ) -> Result<Channel, Fault> {
     let (context, cache) = (&*reader.context, &mut reader.cache);
     let interpolation_place = format!("{place}/interpolation");
-    let interpolation = context
-        .model
-        .valid(&sampler.interpolation, &interpolation_place)?;
+    let interpolation = context.model.valid(&sampler.interpolation, &interpolation_place)?;
     let input = context
         .accessor(sampler.input, &format!("{place}/input"))?
         .expect_components(&[1])?
@@ -140,18 +131,14 @@ fn read_keyframes(
     let components: &[usize] = match &target {
         Animated::Node(_, Property::Translation | Property::Scale) => &[3],
         Animated::Node(_, Property::Rotation) => &[4],
-        Animated::Node(_, Property::MorphTargetWeights)
-        | Animated::Weight(..)
-        | Animated::Visibility(_) => &[1],
+        Animated::Node(_, Property::MorphTargetWeights) | Animated::Weight(..) | Animated::Visibility(_) => &[1],
         Animated::Description(..) => &[1, 2, 3, 4],
     };
     if matches!(target, Animated::Visibility(_)) && interpolation != Interpolation::Step {
         let reason = "there is nothing between visible and not: only STEP is possible";
         return Err(Fault::new(interpolation_place, reason));
     }
-    let output = context
-        .accessor(sampler.output, &format!("{place}/output"))?
-        .expect_components(components)?;
+    let output = context.accessor(sampler.output, &format!("{place}/output"))?.expect_components(components)?;
     let parts = match interpolation {
         Interpolation::CubicSpline => 3,
         Interpolation::Step | Interpolation::Linear => 1,
@@ -171,13 +158,7 @@ fn read_keyframes(
     let width = per_keyframe * output.components;
     let times = cache.times(&input)?;
     let values = cache.values(&output.normalized(), &times, parts * width)?;
-    Ok(Channel {
-        target,
-        interpolation,
-        width,
-        values,
-        times: times.kept,
-    })
+    Ok(Channel { target, interpolation, width, values, times: times.kept })
 }
 
 /// Times of keyframes.
@@ -201,11 +182,7 @@ impl KeyTimes {
         let repeated: Arc<[usize]> = (1..all.len()).filter(repeats).collect();
         let mut kept = all;
         kept.dedup();
-        Ok(Self {
-            place: accessor.place().to_owned(),
-            kept: kept.into(),
-            repeated,
-        })
+        Ok(Self { place: accessor.place().to_owned(), kept: kept.into(), repeated })
     }
 }
 
@@ -241,17 +218,9 @@ impl KeyframeCache {
     }
 
     /// Values of an accessor, `width` numbers for each keyframe, without those of the keyframes that `times` leaves out.
-    fn values(
-        &mut self,
-        accessor: &Accessor<'_>,
-        times: &KeyTimes,
-        width: usize,
-    ) -> Result<Arc<[f32]>, Fault> {
+    fn values(&mut self, accessor: &Accessor<'_>, times: &KeyTimes, width: usize) -> Result<Arc<[f32]>, Fault> {
         let repeats = !times.repeated.is_empty();
-        let key = (
-            accessor.place().to_owned(),
-            repeats.then(|| times.place.clone()),
-        );
+        let key = (accessor.place().to_owned(), repeats.then(|| times.place.clone()));
         if let Some(known) = self.values.get(&key) {
             return Ok(Arc::clone(known));
         }
@@ -317,9 +286,7 @@ impl ChannelReader<'_, '_> {
             })
         };
         match described {
-            Described::Material(i) => {
-                model.check(&Index::<json::Material>::new(i as u32), place)?
-            }
+            Described::Material(i) => model.check(&Index::<json::Material>::new(i as u32), place)?,
             Described::Light(i) => model.check(&Index::<Light>::new(i as u32), place)?,
             Described::Camera(i) => model.check(&Index::<json::Camera>::new(i as u32), place)?,
         }
@@ -354,14 +321,8 @@ enum AnimatedProperty {
 /// Numbers of an accessor of up to four components.
 fn numbers(accessor: &Accessor<'_>) -> Result<Vec<f32>, Fault> {
     accessor.check_justified()?;
-    let numbers: Vec<f32> = (0..accessor.count)
-        .flat_map(|i| {
-            accessor
-                .floats::<4>(i)
-                .into_iter()
-                .take(accessor.components)
-        })
-        .collect();
+    let numbers: Vec<f32> =
+        (0..accessor.count).flat_map(|i| accessor.floats::<4>(i).into_iter().take(accessor.components)).collect();
     if let Some(broken) = numbers.iter().position(|x| !x.is_finite()) {
         let element = broken / accessor.components;
         return Err(accessor.fault(format!("element {element} is not finite")));

@@ -45,23 +45,13 @@ const APPROXIMATED: [(&str, &str); 3] = [
         "KHR_materials_diffuse_transmission",
         "light from behind is that of the lights and the environment, not of other surfaces",
     ),
-    (
-        "KHR_materials_transmission",
-        "what lies behind is tinted, but neither refracted nor blurred",
-    ),
-    (
-        "KHR_materials_volume",
-        "light is absorbed over the thickness, but neither refracted nor scattered",
-    ),
+    ("KHR_materials_transmission", "what lies behind is tinted, but neither refracted nor blurred"),
+    ("KHR_materials_volume", "light is absorbed over the thickness, but neither refracted nor scattered"),
 ];
 
 /// Unsupported extensions without which a file looks different. All others are metadata, or have a fallback that looks
 /// the same.
-const VISIBLE: [&str; 3] = [
-    "KHR_materials_dispersion",
-    "KHR_materials_subsurface",
-    "KHR_materials_volume_scatter",
-];
+const VISIBLE: [&str; 3] = ["KHR_materials_dispersion", "KHR_materials_subsurface", "KHR_materials_volume_scatter"];
 
 /// Whether an extension is read, or a warning about it names it.
 pub fn is_mentioned(name: &str) -> bool {
@@ -75,16 +65,9 @@ pub fn read(value: &Value, file: &str) -> Result<Asset, SceneError> {
     let value = value.get("asset").ok_or(root).map_err(malformed)?;
     let asset: Asset = model::typed(value, "/asset").map_err(malformed)?;
     let (major, _) = parse_version(&asset.version, "/asset/version").map_err(malformed)?;
-    let refuse = |found: String, way_out| SceneError::Version {
-        file: file.to_owned(),
-        found,
-        way_out,
-    };
+    let refuse = |found: String, way_out| SceneError::Version { file: file.to_owned(), found, way_out };
     if major != 2 {
-        return Err(refuse(
-            asset.version,
-            if major < 2 { CONVERT_OLD } else { EXPORT_2 },
-        ));
+        return Err(refuse(asset.version, if major < 2 { CONVERT_OLD } else { EXPORT_2 }));
     }
     if let Some(least) = &asset.min_version
         && parse_version(least, "/asset/minVersion").map_err(malformed)? > (2, 0)
@@ -96,22 +79,10 @@ pub fn read(value: &Value, file: &str) -> Result<Asset, SceneError> {
 
 /// Refuses extensions that are required but unsupported; warns of those that are approximated, and of unsupported ones
 /// that change the image.
-pub fn check_extensions(
-    root: &Root,
-    file: &str,
-    warnings: &mut Warnings,
-) -> Result<(), SceneError> {
+pub fn check_extensions(root: &Root, file: &str, warnings: &mut Warnings) -> Result<(), SceneError> {
     let supported = |name: &str| SUPPORTED.contains(&(name, true));
-    if let Some(name) = root
-        .extensions_required
-        .iter()
-        .find(|name| !supported(name))
-    {
-        return Err(SceneError::Extension {
-            file: file.to_owned(),
-            name: name.clone(),
-            way_out: way_out(name),
-        });
+    if let Some(name) = root.extensions_required.iter().find(|name| !supported(name)) {
+        return Err(SceneError::Extension { file: file.to_owned(), name: name.clone(), way_out: way_out(name) });
     }
     for (name, how) in APPROXIMATED {
         if root.extensions_required.iter().any(|other| other == name) {
@@ -140,9 +111,7 @@ fn parse_version(text: &str, place: &str) -> Result<(u32, u32), Fault> {
 fn way_out(name: &str) -> String {
     match name {
         "KHR_draco_mesh_compression" => "decode it with `gltf-transform copy IN OUT`".to_owned(),
-        "KHR_texture_basisu" => {
-            "convert its textures with `gltf-transform ktxdecompress IN OUT`".to_owned()
-        }
+        "KHR_texture_basisu" => "convert its textures with `gltf-transform ktxdecompress IN OUT`".to_owned(),
         _ => format!("export the scene without {name}"),
     }
 }

@@ -32,9 +32,7 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
     };
     if !levels.chain([global]).all(within) {
         let all = bytes.len();
-        return Err(format!(
-            "the KTX2 header refers beyond the {all} bytes of the file"
-        ));
+        return Err(format!("the KTX2 header refers beyond the {all} bytes of the file"));
     }
     // The transcoder allocates as much as a level claims to decompress to.
     for (index, level) in header.levels.iter().enumerate() {
@@ -45,9 +43,7 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
         let blocks = blocks(header.width) * blocks(header.height);
         let claimed = level.uncompressed_byte_length;
         if claimed > BYTES_A_BLOCK * blocks {
-            return Err(format!(
-                "claims {claimed} bytes for {blocks} blocks of 4 x 4 texels"
-            ));
+            return Err(format!("claims {claimed} bytes for {blocks} blocks of 4 x 4 texels"));
         }
     }
     Ok((header.width, header.height))
@@ -64,11 +60,7 @@ pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let (width, height, levels) = (header.width, header.height, header.levels.len() as u32);
     let transcode = || {
         let transcoder = Transcoder::new(bytes).map_err(failed)?;
-        let level = |level| {
-            transcoder
-                .transcode(level, TargetFormat::Rgba32, DecodeFlags::NONE)
-                .map_err(failed)
-        };
+        let level = |level| transcoder.transcode(level, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(failed);
         let mut texels = level(0)?;
         let all = width.max(height).max(1).ilog2() + 1;
         if levels == all {
@@ -79,6 +71,5 @@ pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
         Ok(texels)
     };
     // The transcoder is young: a panic in it should cost one image, not the process.
-    catch_unwind(transcode)
-        .unwrap_or_else(|_| Err("the KTX2 image is broken: its transcoder gave up".to_owned()))
+    catch_unwind(transcode).unwrap_or_else(|_| Err("the KTX2 image is broken: its transcoder gave up".to_owned()))
 }

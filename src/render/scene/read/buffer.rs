@@ -33,12 +33,7 @@ impl<'a> Buffers<'a> {
     pub fn new(model: &'a Model, binary: Option<&'a [u8]>, base: Option<&'a Path>) -> Self {
         Self {
             loaded: model.root.buffers.iter().map(|_| OnceLock::new()).collect(),
-            decoded: model
-                .root
-                .buffer_views
-                .iter()
-                .map(|_| OnceLock::new())
-                .collect(),
+            decoded: model.root.buffer_views.iter().map(|_| OnceLock::new()).collect(),
             model,
             binary,
             base,
@@ -59,10 +54,7 @@ impl<'a> Buffers<'a> {
     /// The view `index`, referred to at the place `from`.
     pub fn view(&self, index: Index<Description>, from: &str) -> Result<BufferView<'_>, Fault> {
         let (view, place) = self.model.get(index, from)?;
-        let others = view
-            .extensions
-            .as_ref()
-            .map(|extensions| &extensions.others);
+        let others = view.extensions.as_ref().map(|extensions| &extensions.others);
         let compressed = meshopt::find(others, &place)?;
         let bytes = match (compressed, self.decoded.get(index.value())) {
             (Some((compressed, place)), Some(decoded)) => decoded
@@ -79,20 +71,11 @@ impl<'a> Buffers<'a> {
             }
         };
         let stride = view.byte_stride.map(|stride| stride.0);
-        Ok(BufferView {
-            bytes,
-            stride: stride.filter(|&stride| stride > 0),
-        })
+        Ok(BufferView { bytes, stride: stride.filter(|&stride| stride > 0) })
     }
 
     /// `length` bytes at `offset` of a buffer. `place` is the place of the object that refers to the bytes.
-    fn range(
-        &self,
-        buffer: Index<Buffer>,
-        offset: USize64,
-        length: USize64,
-        place: &str,
-    ) -> Result<&[u8], Fault> {
+    fn range(&self, buffer: Index<Buffer>, offset: USize64, length: USize64, place: &str) -> Result<&[u8], Fault> {
         let (item, buffer_place) = self.model.get(buffer, &format!("{place}/buffer"))?;
         let bytes = match self.loaded.get(buffer.value()) {
             Some(slot) => slot
@@ -103,19 +86,11 @@ impl<'a> Buffers<'a> {
             None => &[],
         };
         let (offset, length) = (offset.0, length.0);
-        let end = offset
-            .checked_add(length)
-            .and_then(|end| usize::try_from(end).ok());
-        end.and_then(|end| bytes.get(offset as usize..end))
-            .ok_or_else(|| {
-                let all = bytes.len();
-                Fault::new(
-                    place,
-                    format!(
-                        "{length} bytes at {offset} reach beyond the {all} bytes of {buffer_place}"
-                    ),
-                )
-            })
+        let end = offset.checked_add(length).and_then(|end| usize::try_from(end).ok());
+        end.and_then(|end| bytes.get(offset as usize..end)).ok_or_else(|| {
+            let all = bytes.len();
+            Fault::new(place, format!("{length} bytes at {offset} reach beyond the {all} bytes of {buffer_place}"))
+        })
     }
 
     fn load(&self, item: &'a Buffer, place: &str, index: usize) -> Result<LoadedBuffer<'a>, Fault> {
@@ -128,10 +103,7 @@ impl<'a> Buffers<'a> {
             }
             (None, Some(binary)) if index == 0 => (Cow::Borrowed(binary), None),
             _ => {
-                return Err(Fault::new(
-                    place,
-                    "has neither a URI nor a GLB's binary chunk",
-                ));
+                return Err(Fault::new(place, "has neither a URI nor a GLB's binary chunk"));
             }
         };
         // The chunk may be longer than the buffer, because of padding.

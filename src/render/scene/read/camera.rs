@@ -17,8 +17,7 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Option<SceneProjection>> {
         let (item, place) = found?;
         read(item, &place, model).map(Some)
     });
-    read.map(|read| context.tolerate(read, "the camera is left out"))
-        .collect()
+    read.map(|read| context.tolerate(read, "the camera is left out")).collect()
 }
 
 /// Reads the camera at `place`.
@@ -38,15 +37,11 @@ pub fn read(item: &Camera, place: &str, model: &Model) -> Result<SceneProjection
 fn perspective(item: &Perspective) -> Result<SceneProjection, String> {
     let (yfov, near, far) = (wide(item.yfov), wide(item.znear), item.zfar.map(wide));
     if !(yfov > 0.0 && yfov < PI) {
-        return Err(format!(
-            "a vertical field of view of {yfov} is not between 0 and pi"
-        ));
+        return Err(format!("a vertical field of view of {yfov} is not between 0 and pi"));
     }
     if near <= 0.0 || far.is_some_and(|far| far <= near) {
         let far = far.unwrap_or(f64::INFINITY);
-        return Err(format!(
-            "the planes {near} and {far} are not positive and ascending"
-        ));
+        return Err(format!("the planes {near} and {far} are not positive and ascending"));
     }
     Ok(SceneProjection::Perspective {
         yfov,
@@ -65,16 +60,9 @@ fn orthographic(item: &Orthographic) -> Result<SceneProjection, String> {
         return Err("a magnification of 0 shows nothing".to_owned());
     }
     if near < 0.0 || far <= near {
-        return Err(format!(
-            "the planes {near} and {far} are not positive and ascending"
-        ));
+        return Err(format!("the planes {near} and {far} are not positive and ascending"));
     }
-    Ok(SceneProjection::Orthographic {
-        xmag,
-        ymag,
-        near,
-        far,
-    })
+    Ok(SceneProjection::Orthographic { xmag, ymag, near, far })
 }
 
 /// Double that the file most likely contains: the shortest decimal that rounds to the float.

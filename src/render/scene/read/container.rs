@@ -29,37 +29,26 @@ pub fn is_glb(bytes: &[u8]) -> bool {
 
 /// Distinguishes GLB from JSON by content, and splits it.
 pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError> {
-    let refuse = |reason: String| SceneError::NotGltf {
-        file: file.to_owned(),
-        reason,
-    };
+    let refuse = |reason: String| SceneError::NotGltf { file: file.to_owned(), reason };
     if bytes.is_empty() {
         return Err(refuse("the file is empty".to_owned()));
     }
     if is_lfs_pointer(bytes) {
-        return Err(refuse(
-            "this is a Git LFS pointer, not the file itself; fetch it with `git lfs pull`"
-                .to_owned(),
-        ));
+        return Err(refuse("this is a Git LFS pointer, not the file itself; fetch it with `git lfs pull`".to_owned()));
     }
-    let (json, binary) = if is_glb(bytes) {
-        split_glb(bytes, file)?
-    } else {
-        (bytes, None)
-    };
+    let (json, binary) = if is_glb(bytes) { split_glb(bytes, file)? } else { (bytes, None) };
     let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
     match json.iter().find(|byte| !byte.is_ascii_whitespace()) {
         Some(b'{') => {}
         Some(_) => {
             let hint = foreign::hint(bytes);
-            return Err(refuse(hint.unwrap_or_else(|| {
-                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned()
-            })));
+            return Err(refuse(
+                hint.unwrap_or_else(|| "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned()),
+            ));
         }
         None => return Err(refuse("the JSON document is empty".to_owned())),
     }
-    let json = serde_json::from_slice(json)
-        .map_err(|error| refuse(format!("the JSON document is broken: {error}")))?;
+    let json = serde_json::from_slice(json).map_err(|error| refuse(format!("the JSON document is broken: {error}")))?;
     Ok(Container { json, binary })
 }
 
@@ -70,16 +59,9 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
 
 /// JSON and binary chunk of a GLB; unknown chunks are skipped, as the specification asks.
 fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u8]>), SceneError> {
-    let refuse = |reason: String| SceneError::NotGltf {
-        file: file.to_owned(),
-        reason,
-    };
-    let truncated = |what: &str| {
-        refuse(format!(
-            "the GLB is truncated: {what}, the file ends after {} bytes",
-            bytes.len()
-        ))
-    };
+    let refuse = |reason: String| SceneError::NotGltf { file: file.to_owned(), reason };
+    let truncated =
+        |what: &str| refuse(format!("the GLB is truncated: {what}, the file ends after {} bytes", bytes.len()));
     let version = word(bytes, 4).ok_or_else(|| truncated("its header has 12 bytes"))?;
     if version != 2 {
         return Err(SceneError::Version {
@@ -89,9 +71,7 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u
         });
     }
     let length = word(bytes, 8).ok_or_else(|| truncated("its header has 12 bytes"))? as usize;
-    let body = bytes
-        .get(..length)
-        .ok_or_else(|| truncated(&format!("its header declares {length} bytes")))?;
+    let body = bytes.get(..length).ok_or_else(|| truncated(&format!("its header declares {length} bytes")))?;
 
     let (mut json, mut binary) = (None, None);
     let mut at = 12;

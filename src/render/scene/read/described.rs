@@ -49,9 +49,7 @@ impl Descriptions {
             textures: model.root.textures.clone(),
             ..Root::default()
         };
-        Self {
-            model: Model::of(root, value),
-        }
+        Self { model: Model::of(root, value) }
     }
 
     /// A material with changes. Its textures are those of the material `at_rest`; their coordinates may have changed.
@@ -63,9 +61,7 @@ impl Descriptions {
         warnings: &mut Warnings,
     ) -> Result<Material, Fault> {
         let (item, place) = self.changed::<json::Material>(index, changes)?;
-        let mut material = self.with_context(warnings, |context| {
-            material::read(&item, &place, true, context)
-        })?;
+        let mut material = self.with_context(warnings, |context| material::read(&item, &place, true, context))?;
         for (role, slot) in material.texture_slots() {
             let known = at_rest.textures().find(|(other, _)| *other == role);
             *slot = slot.zip(known).map(|(mut used, (_, known))| {
@@ -77,12 +73,7 @@ impl Descriptions {
     }
 
     /// A light with changes.
-    pub fn light(
-        &self,
-        index: usize,
-        changes: &[Change<'_>],
-        warnings: &mut Warnings,
-    ) -> Result<Light, Fault> {
+    pub fn light(&self, index: usize, changes: &[Change<'_>], warnings: &mut Warnings) -> Result<Light, Fault> {
         let (item, place) = self.changed::<khr_lights_punctual::Light>(index, changes)?;
         self.with_context(warnings, |context| light::read(&item, &place, context))
     }
@@ -94,11 +85,7 @@ impl Descriptions {
     }
 
     /// Calls `read` with a description, and collects its warnings.
-    fn with_context<T>(
-        &self,
-        warnings: &mut Warnings,
-        read: impl FnOnce(&mut Context<'_>) -> T,
-    ) -> T {
+    fn with_context<T>(&self, warnings: &mut Warnings, read: impl FnOnce(&mut Context<'_>) -> T) -> T {
         let mut context = Context {
             model: &self.model,
             variant: None,
@@ -112,11 +99,7 @@ impl Descriptions {
     }
 
     /// The description at `index` with changes, and its place.
-    pub fn changed<T: Element>(
-        &self,
-        index: usize,
-        changes: &[Change<'_>],
-    ) -> Result<(T, String), Fault> {
+    pub fn changed<T: Element>(&self, index: usize, changes: &[Change<'_>]) -> Result<(T, String), Fault> {
         let place = format!("{}/{index}", T::PLACE);
         let mut value = self.model.at(&place).cloned().unwrap_or_default();
         if value.is_null() {
@@ -124,8 +107,7 @@ impl Descriptions {
             return Err(Fault::new(place, reason));
         }
         for (pointer, numbers) in changes {
-            change(&mut value, pointer, numbers)
-                .ok_or_else(|| Fault::new(&place, format!("has no {pointer}")))?;
+            change(&mut value, pointer, numbers).ok_or_else(|| Fault::new(&place, format!("has no {pointer}")))?;
         }
         Ok((typed(&value, &place)?, place))
     }
@@ -152,11 +134,7 @@ fn weight(value: &Value) -> usize {
 /// Sets the value at a pointer. Objects that have defaults are created, but extensions are not: a material without the
 /// extension stays without its lobe.
 fn change(description: &mut Value, pointer: &str, numbers: &[f64]) -> Option<()> {
-    const HAVE_DEFAULTS: [&str; 3] = [
-        "extensions",
-        "KHR_texture_transform",
-        "pbrMetallicRoughness",
-    ];
+    const HAVE_DEFAULTS: [&str; 3] = ["extensions", "KHR_texture_transform", "pbrMetallicRoughness"];
     let (parents, last) = pointer.rsplit_once('/').unwrap_or(("", pointer));
     let mut parent = description;
     for name in parents.split('/').filter(|name| !name.is_empty()) {

@@ -41,17 +41,12 @@ struct DracoExtension {
 
 /// Decodes the primitive `item` at `place`; `None` if it is not compressed.
 pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Option<Packed>, Fault> {
-    let others = item
-        .extensions
-        .as_ref()
-        .map(|extensions| &extensions.others);
+    let others = item.extensions.as_ref().map(|extensions| &extensions.others);
     let Some((compressed, place)) = model::extension::<DracoExtension>(others, NAME, place)? else {
         return Ok(None);
     };
     let fault = |reason: String| Fault::new(place.clone(), reason);
-    let view = context
-        .buffers
-        .view(compressed.buffer_view, &format!("{place}/bufferView"))?;
+    let view = context.buffers.view(compressed.buffer_view, &format!("{place}/bufferView"))?;
 
     // The accessors declare the decoded size, so that it can be checked before decoding.
     let claimed = |index: Option<Index<json::Accessor>>| {
@@ -62,10 +57,7 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
     let faces = claimed(item.indices) / 3;
     let justified = ELEMENTS_PER_BYTE.saturating_mul(view.bytes.len() as u64);
     if points.max(faces) > justified {
-        return Err(fault(format!(
-            "{} bytes cannot hold {faces} triangles of {points} vertices",
-            view.bytes.len()
-        )));
+        return Err(fault(format!("{} bytes cannot hold {faces} triangles of {points} vertices", view.bytes.len())));
     }
     let (points, faces) = (2 * points + SLACK, 2 * faces + SLACK);
     let attributes = compressed.attributes.len() as u64;
@@ -82,12 +74,7 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
     let indices = mesh.faces().iter().flatten();
     let indices: Vec<u8> = indices.flat_map(|index| index.0.to_le_bytes()).collect();
     let mut packed = Packed {
-        indices: Stream {
-            bytes: indices,
-            count: 3 * mesh.num_faces(),
-            component: ComponentType::U32,
-            components: 1,
-        },
+        indices: Stream { bytes: indices, count: 3 * mesh.num_faces(), component: ComponentType::U32, components: 1 },
         attributes: BTreeMap::new(),
     };
     for (name, &id) in &compressed.attributes {
@@ -102,9 +89,8 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
 
 /// Values of an attribute, one for each point.
 fn stream(mesh: &Mesh, id: u32) -> Result<Stream, String> {
-    let attribute = mesh
-        .attribute_by_unique_id(id)
-        .ok_or_else(|| format!("the compressed data have no attribute {id}"))?;
+    let attribute =
+        mesh.attribute_by_unique_id(id).ok_or_else(|| format!("the compressed data have no attribute {id}"))?;
     let component = match attribute.data_type() {
         DataType::Int8 => ComponentType::I8,
         DataType::Uint8 => ComponentType::U8,
@@ -125,10 +111,5 @@ fn stream(mesh: &Mesh, id: u32) -> Result<Stream, String> {
         let value = start.and_then(|start| data.get(start..start + size));
         bytes.extend(value.ok_or_else(|| format!("vertex {point} has no value"))?);
     }
-    Ok(Stream {
-        bytes,
-        count,
-        component,
-        components,
-    })
+    Ok(Stream { bytes, count, component, components })
 }

@@ -8,21 +8,9 @@ const FORMATS: [(&[u8], &str, &str); 15] = [
     (b"PXR-USDC", "a USD file", FROM_BLENDER),
     (b"#usda", "a USD file", FROM_BLENDER),
     (b"MM\0*", "a TIFF image", "convert it to PNG"),
-    (
-        b"MM",
-        "a 3DS file",
-        "convert it to glTF with `assimp export IN OUT.glb`",
-    ),
-    (
-        b"ISO-10303-21",
-        "a STEP file",
-        "convert it to glTF with FreeCAD",
-    ),
-    (
-        b"PK\x03\x04",
-        "a ZIP archive",
-        "unpack it; a .usdz or .3mf file becomes glTF in Blender",
-    ),
+    (b"MM", "a 3DS file", "convert it to glTF with `assimp export IN OUT.glb`"),
+    (b"ISO-10303-21", "a STEP file", "convert it to glTF with FreeCAD"),
+    (b"PK\x03\x04", "a ZIP archive", "unpack it; a .usdz or .3mf file becomes glTF in Blender"),
     (b"\x1F\x8B", "a gzip archive", "unpack it with `gunzip`"),
     (
         b"\x28\xB5\x2F\xFD",
@@ -47,16 +35,9 @@ pub fn hint(bytes: &[u8]) -> Option<String> {
     }
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(512)]);
     if start.contains("<COLLADA") {
-        return Some(format!(
-            "this is a COLLADA file, not glTF, OBJ, STL or PLY; {FROM_BLENDER}"
-        ));
+        return Some(format!("this is a COLLADA file, not glTF, OBJ, STL or PLY; {FROM_BLENDER}"));
     }
-    if start
-        .trim_start()
-        .to_lowercase()
-        .starts_with("<!doctype html")
-        || start.contains("<html")
-    {
+    if start.trim_start().to_lowercase().starts_with("<!doctype html") || start.contains("<html") {
         return Some("this is a web page, not the file itself; download the file again".to_owned());
     }
     None
@@ -70,10 +51,7 @@ mod tests {
     fn other_formats_are_named_with_what_helps() {
         for (bytes, expected) in [
             (&b"Kaydara FBX Binary  \0"[..], ["FBX", "Blender"]),
-            (
-                b"<?xml version=\"1.0\"?>\n<COLLADA xmlns",
-                ["COLLADA", "Blender"],
-            ),
+            (b"<?xml version=\"1.0\"?>\n<COLLADA xmlns", ["COLLADA", "Blender"]),
             (b"PK\x03\x04rest", ["ZIP", "unpack"]),
             (b"<!DOCTYPE html>", ["web page", "download"]),
             (b"\x89PNG\r\n", ["PNG", "gpc zoom"]),

@@ -36,10 +36,7 @@ pub struct DecodedImages {
 impl DecodedImages {
     /// Decodes the images `wanted` that were not tried before; failures become warnings.
     pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
-        let wanted: BTreeSet<usize> = wanted
-            .into_iter()
-            .filter(|index| !self.places.contains_key(index))
-            .collect();
+        let wanted: BTreeSet<usize> = wanted.into_iter().filter(|index| !self.places.contains_key(index)).collect();
         let mut accepted = Vec::new();
         let mut faults = Vec::new();
         for index in wanted {
@@ -78,11 +75,7 @@ impl DecodedImages {
     }
 
     /// Checks an image's header against the limits.
-    fn admit<'b>(
-        &mut self,
-        bytes: Cow<'b, [u8]>,
-        format: ImageEncoding,
-    ) -> Result<Encoded<'b>, String> {
+    fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>, format: ImageEncoding) -> Result<Encoded<'b>, String> {
         let (width, height) = match format {
             ImageEncoding::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
                 .into_dimensions()
@@ -98,34 +91,18 @@ impl DecodedImages {
             return Err(format!("claims {size}, but has {} bytes", bytes.len()));
         }
         if self.texels + texels > MAX_TEXELS {
-            return Err(format!(
-                "{size} exceed the limit of {MAX_TEXELS} texels for all images together"
-            ));
+            return Err(format!("{size} exceed the limit of {MAX_TEXELS} texels for all images together"));
         }
         self.texels += texels;
-        Ok(Encoded {
-            bytes,
-            format,
-            size: (width, height),
-        })
+        Ok(Encoded { bytes, format, size: (width, height) })
     }
 
     /// Decodes an image of the file `name`, which is not part of a document.
-    pub fn decode_named(
-        &mut self,
-        bytes: Cow<'_, [u8]>,
-        name: &str,
-    ) -> Result<Image, TextureFault> {
-        let fault = |reason, is_supported| TextureFault {
-            file: name.to_owned(),
-            reason,
-            is_supported,
-        };
+    pub fn decode_named(&mut self, bytes: Cow<'_, [u8]>, name: &str) -> Result<Image, TextureFault> {
+        let fault = |reason, is_supported| TextureFault { file: name.to_owned(), reason, is_supported };
         let format = sniff_named(&bytes, name).map_err(|reason| fault(reason, false))?;
         let admitted = self.admit(bytes, format);
-        admitted
-            .and_then(|encoded| encoded.decode())
-            .map_err(|reason| fault(reason, true))
+        admitted.and_then(|encoded| encoded.decode()).map_err(|reason| fault(reason, true))
     }
 
     /// Adds a decoded image; returns its index among the decoded images.
@@ -158,30 +135,18 @@ struct EncodedImage<'b> {
 }
 
 /// Fetches the encoded bytes of an image.
-fn fetch<'b>(
-    index: usize,
-    model: &Model,
-    buffers: &'b Buffers<'_>,
-) -> Result<EncodedImage<'b>, Fault> {
+fn fetch<'b>(index: usize, model: &Model, buffers: &'b Buffers<'_>) -> Result<EncodedImage<'b>, Fault> {
     let (item, place) = model.get::<json::Image>(Index::new(index as u32), "/images")?;
     match (&item.uri, item.buffer_view) {
         (Some(uri), _) => {
             let fault = |reason| Fault::new(format!("{place}/uri"), reason);
             let fetched = uri::fetch(uri, buffers.base(), MAX_FILE).map_err(fault)?;
             let note = fetched.note.map(fault);
-            Ok(EncodedImage {
-                bytes: Cow::Owned(fetched.bytes),
-                place,
-                note,
-            })
+            Ok(EncodedImage { bytes: Cow::Owned(fetched.bytes), place, note })
         }
         (None, Some(view)) => {
             let view = buffers.view(view, &format!("{place}/bufferView"))?;
-            Ok(EncodedImage {
-                bytes: Cow::Borrowed(view.bytes),
-                place,
-                note: None,
-            })
+            Ok(EncodedImage { bytes: Cow::Borrowed(view.bytes), place, note: None })
         }
         _ => Err(Fault::new(place, "has neither a URI nor a buffer view")),
     }
@@ -199,9 +164,7 @@ enum ImageEncoding {
 /// Format of an image by its content; the declared type and the file's extension are often wrong.
 fn sniff(bytes: &[u8]) -> Result<ImageEncoding, String> {
     match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
-            Ok(ImageEncoding::Picture(format))
-        }
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(ImageEncoding::Picture(format)),
         _ if bytes.starts_with(KTX2) => Ok(ImageEncoding::Basis),
         _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
@@ -221,9 +184,7 @@ fn sniff_named(bytes: &[u8], name: &str) -> Result<ImageEncoding, String> {
             let format = format!("{other:?}").to_uppercase();
             Err(format!("{format} is not supported; convert it to PNG"))
         }
-        Err(_) => {
-            Err("is neither PNG, JPEG, WebP, KTX2, BMP nor TGA; convert it to PNG".to_owned())
-        }
+        Err(_) => Err("is neither PNG, JPEG, WebP, KTX2, BMP nor TGA; convert it to PNG".to_owned()),
     }
 }
 
@@ -247,18 +208,12 @@ impl Encoded<'_> {
             ImageEncoding::Basis => super::basis::decode(&self.bytes)?,
         };
         let (width, height) = self.size;
-        let image = Image {
-            width,
-            height,
-            pixels,
-        };
+        let image = Image { width, height, pixels };
         let levels = image.levels().count();
         let bytes: usize = image.levels().map(<[u8]>::len).sum();
         let complete = levels == 1 || levels == image.full_levels() as usize;
         if bytes != image.pixels.len() || !complete {
-            return Err(format!(
-                "is not of the {width} x {height} texels that its header states"
-            ));
+            return Err(format!("is not of the {width} x {height} texels that its header states"));
         }
         Ok(image)
     }

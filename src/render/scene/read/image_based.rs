@@ -36,19 +36,14 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Option<Arc<Environment>>> {
     let mut known = BTreeMap::new();
     let scenes = context.model.root.scenes.iter().enumerate();
     let lights = scenes.map(|(index, scene)| {
-        let others = scene
-            .extensions
-            .as_ref()
-            .map(|extensions| &extensions.others);
+        let others = scene.extensions.as_ref().map(|extensions| &extensions.others);
         let place = format!("/scenes/{index}");
         let chosen = model::extension::<LightReference>(others, NAME, &place);
         let chosen = context.tolerate(chosen, "the scene has the light of the studio");
         let (LightReference { light }, place) = chosen?;
         let read = known.entry(light).or_insert_with(|| {
             let read = read(light, &format!("{place}/light"), context).map(Some);
-            context
-                .tolerate(read, "the light is left out")
-                .map(Arc::new)
+            context.tolerate(read, "the light is left out").map(Arc::new)
         });
         read.clone()
     });
@@ -110,9 +105,7 @@ fn read(index: usize, from: &str, context: &mut Context<'_>) -> Result<Environme
         cubes.push((side, texels));
     }
     // The file's coefficients are those of the irradiance, which has to be divided by pi.
-    let irradiance = item
-        .irradiance_coefficients
-        .map(|color| color.map(|x| x * intensity / std::f32::consts::PI));
+    let irradiance = item.irradiance_coefficients.map(|color| color.map(|x| x * intensity / std::f32::consts::PI));
     Ok(Environment::from_levels(cubes, irradiance, rotation))
 }
 

@@ -16,11 +16,7 @@ struct Instancing {
 }
 
 /// Reads the transforms of instances, relative to the node at `place`; `None` if the node has no instances.
-pub fn read(
-    others: &Map<String, Value>,
-    place: &str,
-    context: &Context<'_>,
-) -> Result<Option<Arc<[DAffine3]>>, Fault> {
+pub fn read(others: &Map<String, Value>, place: &str, context: &Context<'_>) -> Result<Option<Arc<[DAffine3]>>, Fault> {
     let found = model::extension(Some(others), "EXT_mesh_gpu_instancing", place)?;
     let Some((Instancing { attributes }, place)) = found else {
         return Ok(None);
@@ -28,10 +24,7 @@ pub fn read(
     let place = format!("{place}/attributes");
     let attribute = |name: &str, components: usize, types: &[ComponentType]| {
         let accessor = attributes.get(name).map(|&index| {
-            context
-                .accessor(index, &format!("{place}/{name}"))?
-                .expect_components(&[components])?
-                .expect_type(types)
+            context.accessor(index, &format!("{place}/{name}"))?.expect_components(&[components])?.expect_type(types)
         });
         accessor.transpose()
     };
@@ -44,13 +37,9 @@ pub fn read(
     let all = [&translation, &rotation, &scale];
     let mut counts = all.into_iter().flatten().map(|a| a.count);
     let fault = |reason: String| Fault::new(place.clone(), reason);
-    let count = counts
-        .next()
-        .ok_or_else(|| fault("has none of TRANSLATION, ROTATION and SCALE".to_owned()))?;
+    let count = counts.next().ok_or_else(|| fault("has none of TRANSLATION, ROTATION and SCALE".to_owned()))?;
     if counts.any(|other| other != count) {
-        return Err(fault(
-            "the attributes differ in their number of elements".to_owned(),
-        ));
+        return Err(fault("the attributes differ in their number of elements".to_owned()));
     }
     if !all.into_iter().flatten().any(|a| !a.is_void()) && count > 1 {
         return Err(fault(format!("claims {count} instances without any data")));

@@ -34,10 +34,7 @@ pub fn read(item: &Description, place: &str, context: &mut Context<'_>) -> Resul
             None => {
                 let reason = "the spot light has no \"spot\" and takes the defaults";
                 context.warn(&Fault::new(place, reason));
-                LightKind::Spot {
-                    inner_angle: 0.0,
-                    outer_angle: FRAC_PI_4,
-                }
+                LightKind::Spot { inner_angle: 0.0, outer_angle: FRAC_PI_4 }
             }
         },
     };
@@ -51,13 +48,7 @@ pub fn read(item: &Description, place: &str, context: &mut Context<'_>) -> Resul
         let reason = "a range of 0 or less is taken for an infinite one";
         context.warn(&Fault::new(place, reason));
     }
-    Ok(Light {
-        kind,
-        position: DVec3::ZERO,
-        direction: DVec3::NEG_Z,
-        color,
-        range: range.filter(|&range| range > 0.0),
-    })
+    Ok(Light { kind, position: DVec3::ZERO, direction: DVec3::NEG_Z, color, range: range.filter(|&range| range > 0.0) })
 }
 
 fn read_spot(spot: &Spot, place: &str, context: &mut Context<'_>) -> Result<LightKind, Fault> {
@@ -76,8 +67,5 @@ fn read_spot(spot: &Spot, place: &str, context: &mut Context<'_>) -> Result<Ligh
         );
         context.warn(&Fault::new(place, reason));
     }
-    Ok(LightKind::Spot {
-        inner_angle,
-        outer_angle,
-    })
+    Ok(LightKind::Spot { inner_angle, outer_angle })
 }

@@ -24,13 +24,7 @@ impl Budget {
 
     /// Counts instances that are about to be read.
     pub fn add_instances(&self, count: usize, place: &str) -> Result<(), Fault> {
-        add(
-            &self.instances,
-            count as u64,
-            MAX_INSTANCES,
-            "instances",
-            place,
-        )
+        add(&self.instances, count as u64, MAX_INSTANCES, "instances", place)
     }
 }
 
@@ -39,9 +33,6 @@ fn add(so_far: &AtomicU64, count: u64, limit: u64, what: &str, place: &str) -> R
     if total <= limit {
         Ok(())
     } else {
-        Err(Fault::new(
-            place,
-            format!("the file's {what} exceed the limit of {limit}; split the scene"),
-        ))
+        Err(Fault::new(place, format!("the file's {what} exceed the limit of {limit}; split the scene")))
     }
 }

@@ -11,8 +11,8 @@ use super::{
 use crate::scene::{
     error::Fault,
     lobes::{
-        Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular,
-        SpecularGlossiness, Transmission,
+        Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular, SpecularGlossiness,
+        Transmission,
     },
     material::TextureUse,
 };
@@ -95,18 +95,8 @@ impl Default for DiffuseTransmissionObject {
 
 /// Reads the lobes of the material at `place`; a broken one is left out with a warning. Lobes without an effect are
 /// kept if the material is `animated`.
-pub fn read(
-    item: &material::Material,
-    place: &str,
-    animated: bool,
-    context: &mut Context<'_>,
-) -> Lobes {
-    let mut reader = LobeReader {
-        item,
-        place,
-        animated,
-        context,
-    };
+pub fn read(item: &material::Material, place: &str, animated: bool, context: &mut Context<'_>) -> Lobes {
+    let mut reader = LobeReader { item, place, animated, context };
     Lobes {
         specular: reader.specular(),
         clearcoat: reader.clearcoat(),
@@ -142,8 +132,7 @@ impl LobeReader<'_, '_, '_> {
     fn texture(&mut self, info: Option<Info>, name: &str, member: &str) -> Option<TextureUse> {
         let place = format!("{}/extensions/{name}/{member}", self.place);
         let used = read_texture_use(&info?, &place, self.context);
-        self.context
-            .tolerate(used.map(Some), "the texture is left out")
+        self.context.tolerate(used.map(Some), "the texture is left out")
     }
 
     fn specular(&mut self) -> Option<Specular> {
@@ -180,16 +169,8 @@ impl LobeReader<'_, '_, '_> {
             roughness: unit(lobe.clearcoat_roughness_factor),
             normal_scale: normal.as_ref().map_or(1.0, |normal| normal.scale),
             texture: self.texture(lobe.clearcoat_texture, NAME, "clearcoatTexture"),
-            roughness_texture: self.texture(
-                lobe.clearcoat_roughness_texture,
-                NAME,
-                "clearcoatRoughnessTexture",
-            ),
-            normal_texture: self.texture(
-                normal.as_ref().map(normal_info),
-                NAME,
-                "clearcoatNormalTexture",
-            ),
+            roughness_texture: self.texture(lobe.clearcoat_roughness_texture, NAME, "clearcoatRoughnessTexture"),
+            normal_texture: self.texture(normal.as_ref().map(normal_info), NAME, "clearcoatNormalTexture"),
         })
     }
 
@@ -201,11 +182,7 @@ impl LobeReader<'_, '_, '_> {
             color,
             roughness: unit(lobe.sheen_roughness_factor),
             color_texture: self.texture(lobe.sheen_color_texture, NAME, "sheenColorTexture"),
-            roughness_texture: self.texture(
-                lobe.sheen_roughness_texture,
-                NAME,
-                "sheenRoughnessTexture",
-            ),
+            roughness_texture: self.texture(lobe.sheen_roughness_texture, NAME, "sheenRoughnessTexture"),
         })
     }
 
@@ -224,20 +201,13 @@ impl LobeReader<'_, '_, '_> {
         const NAME: &str = "KHR_materials_iridescence";
         let lobe: IridescenceObject = self.other(NAME)?;
         let factor = unit(lobe.iridescence_factor);
-        let thickness = [
-            lobe.iridescence_thickness_minimum,
-            lobe.iridescence_thickness_maximum,
-        ];
+        let thickness = [lobe.iridescence_thickness_minimum, lobe.iridescence_thickness_maximum];
         (self.animated || factor > 0.0).then(|| Iridescence {
             factor,
             ior: lobe.iridescence_ior.max(1.0),
             thickness: thickness.map(|x| x.max(0.0)),
             texture: self.texture(lobe.iridescence_texture, NAME, "iridescenceTexture"),
-            thickness_texture: self.texture(
-                lobe.iridescence_thickness_texture,
-                NAME,
-                "iridescenceThicknessTexture",
-            ),
+            thickness_texture: self.texture(lobe.iridescence_thickness_texture, NAME, "iridescenceThicknessTexture"),
         })
     }
 
@@ -248,11 +218,7 @@ impl LobeReader<'_, '_, '_> {
         (self.animated || factor > 0.0).then(|| DiffuseTransmission {
             factor,
             color: lobe.diffuse_transmission_color_factor.map(unit),
-            texture: self.texture(
-                lobe.diffuse_transmission_texture,
-                NAME,
-                "diffuseTransmissionTexture",
-            ),
+            texture: self.texture(lobe.diffuse_transmission_texture, NAME, "diffuseTransmissionTexture"),
             color_texture: self.texture(
                 lobe.diffuse_transmission_color_texture,
                 NAME,
@@ -271,11 +237,7 @@ impl LobeReader<'_, '_, '_> {
         let absorption = |color: f32| {
             // Black would have an infinite absorption, and that times a thickness of 0 is NaN.
             const DARKEST: f32 = 1e-6;
-            if distance > 0.0 {
-                -unit(color).max(DARKEST).ln() / distance
-            } else {
-                0.0
-            }
+            if distance > 0.0 { -unit(color).max(DARKEST).ln() / distance } else { 0.0 }
         };
         (self.animated || factor > 0.0).then(|| Transmission {
             factor,
@@ -292,11 +254,7 @@ impl LobeReader<'_, '_, '_> {
         Some(SpecularGlossiness {
             specular: base.specular_factor.0.map(unit),
             glossiness: unit(base.glossiness_factor.0),
-            texture: self.texture(
-                base.specular_glossiness_texture,
-                NAME,
-                "specularGlossinessTexture",
-            ),
+            texture: self.texture(base.specular_glossiness_texture, NAME, "specularGlossinessTexture"),
         })
     }
 }

@@ -30,12 +30,7 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Material> {
 }
 
 /// Reads the material at `place`; one that is `animated` keeps lobes that have no effect at present.
-pub fn read(
-    item: &json::Material,
-    place: &str,
-    animated: bool,
-    context: &mut Context<'_>,
-) -> Result<Material, Fault> {
+pub fn read(item: &json::Material, place: &str, animated: bool, context: &mut Context<'_>) -> Result<Material, Fault> {
     let pbr = &item.pbr_metallic_roughness;
     let unit = |x: f32| x.clamp(0.0, 1.0);
     let mut texture = |info: Option<Info>, name: &str| {
@@ -49,10 +44,7 @@ pub fn read(
         base_color: pbr.base_color_factor.0.map(unit),
         metallic: unit(pbr.metallic_factor.0),
         roughness: unit(pbr.roughness_factor.0),
-        base_color_texture: texture(
-            pbr.base_color_texture.clone(),
-            "pbrMetallicRoughness/baseColorTexture",
-        ),
+        base_color_texture: texture(pbr.base_color_texture.clone(), "pbrMetallicRoughness/baseColorTexture"),
         metallic_roughness_texture: texture(
             pbr.metallic_roughness_texture.clone(),
             "pbrMetallicRoughness/metallicRoughnessTexture",
@@ -88,14 +80,10 @@ pub fn read(
     }
     // The product is finite, because the factor is at most 1.
     material.emissive = item.emissive_factor.0.map(|x| unit(x) * strength);
-    let mode = context
-        .model
-        .valid(&item.alpha_mode, &format!("{place}/alphaMode"))?;
+    let mode = context.model.valid(&item.alpha_mode, &format!("{place}/alphaMode"))?;
     material.alpha_mode = match mode {
         Mode::Opaque => AlphaMode::Opaque,
-        Mode::Mask => AlphaMode::Mask {
-            cutoff: item.alpha_cutoff.unwrap_or(AlphaCutoff(0.5)).0.max(0.0),
-        },
+        Mode::Mask => AlphaMode::Mask { cutoff: item.alpha_cutoff.unwrap_or(AlphaCutoff(0.5)).0.max(0.0) },
         Mode::Blend => AlphaMode::Blend,
     };
     Ok(material)
@@ -106,10 +94,7 @@ pub fn normal_info(texture: &NormalTexture) -> Info {
     Info {
         index: texture.index,
         tex_coord: texture.tex_coord,
-        extensions: texture
-            .extensions
-            .as_ref()
-            .map(|e| with_transform(&e.others)),
+        extensions: texture.extensions.as_ref().map(|e| with_transform(&e.others)),
         extras: None,
     }
 }
@@ -119,31 +104,19 @@ fn occlusion_info(texture: &OcclusionTexture) -> Info {
     Info {
         index: texture.index,
         tex_coord: texture.tex_coord,
-        extensions: texture
-            .extensions
-            .as_ref()
-            .map(|e| with_transform(&e.others)),
+        extensions: texture.extensions.as_ref().map(|e| with_transform(&e.others)),
         extras: None,
     }
 }
 
 /// Texture extensions from their JSON, for textures whose extensions `gltf` does not parse.
 fn with_transform(others: &Map<String, Value>) -> extensions::texture::Info {
-    extensions::texture::Info {
-        texture_transform: None,
-        others: others.clone(),
-    }
+    extensions::texture::Info { texture_transform: None, others: others.clone() }
 }
 
 /// Reads a material's reference to a texture; `place` is the material's.
-pub fn read_texture_use(
-    item: &Info,
-    place: &str,
-    context: &Context<'_>,
-) -> Result<TextureUse, Fault> {
-    context
-        .model
-        .check(&item.index, &format!("{place}/index"))?;
+pub fn read_texture_use(item: &Info, place: &str, context: &Context<'_>) -> Result<TextureUse, Fault> {
+    context.model.check(&item.index, &format!("{place}/index"))?;
     let mut used = TextureUse {
         texture: item.index.value() as u32,
         uv_set: item.tex_coord,
@@ -161,10 +134,7 @@ pub fn read_texture_use(
         }
     }
     if used.uv_set > 1 {
-        let reason = format!(
-            "uses TEXCOORD_{}, but only the UV sets 0 and 1 are supported",
-            used.uv_set
-        );
+        let reason = format!("uses TEXCOORD_{}, but only the UV sets 0 and 1 are supported", used.uv_set);
         return Err(Fault::new(place, reason));
     }
     Ok(used)

@@ -30,10 +30,8 @@ pub fn read_all(
     }
 
     let shared = &*context;
-    let triangles = primitives
-        .iter()
-        .map(|(_, item, _)| primitive::claimed_triangles(item, shared))
-        .fold(0, u64::saturating_add);
+    let triangles =
+        primitives.iter().map(|(_, item, _)| primitive::claimed_triangles(item, shared)).fold(0, u64::saturating_add);
     if triangles > MAX_ELEMENTS {
         return Err(Fault::new(
             "/meshes",
@@ -69,10 +67,7 @@ pub fn unlit_materials<'p>(
         let Some(material) = materials.get(primitive.material).filter(|m| !m.unlit) else {
             continue;
         };
-        let unlit = Material {
-            unlit: true,
-            ..material.clone()
-        };
+        let unlit = Material { unlit: true, ..material.clone() };
         primitive.material = *copies.entry(primitive.material).or_insert_with(|| {
             materials.push(unlit);
             materials.len() - 1

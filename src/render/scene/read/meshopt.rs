@@ -2,8 +2,8 @@
 //! `EXT_meshopt_compression`.
 
 use meshopt::{
-    decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat,
-    decode_index_buffer, decode_index_sequence, decode_vertex_buffer,
+    decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
+    decode_index_sequence, decode_vertex_buffer,
 };
 
 use gltf::json::{Buffer, Index, validation::USize64};
@@ -28,10 +28,7 @@ pub struct MeshoptExtension {
 }
 
 /// The extension object among the extensions of a buffer view at `place`, and its own place.
-pub fn find(
-    others: Option<&Map<String, Value>>,
-    place: &str,
-) -> Result<Option<(MeshoptExtension, String)>, Fault> {
+pub fn find(others: Option<&Map<String, Value>>, place: &str) -> Result<Option<(MeshoptExtension, String)>, Fault> {
     // The extension has two names; the KHR name is the ratified one.
     let old = model::extension(others, "EXT_meshopt_compression", place)?;
     match old {
@@ -48,11 +45,7 @@ const TRIANGLE_RATIO: u64 = 12;
 const INDEX_RATIO: u64 = 4;
 
 /// Decodes `encoded` by the extension object `compressed` at `place`.
-pub fn decode(
-    compressed: &MeshoptExtension,
-    encoded: &[u8],
-    place: &str,
-) -> Result<Vec<u8>, Fault> {
+pub fn decode(compressed: &MeshoptExtension, encoded: &[u8], place: &str) -> Result<Vec<u8>, Fault> {
     let (stride, count) = (compressed.byte_stride as usize, compressed.count);
     let ratio = match compressed.mode.as_str() {
         "ATTRIBUTES" => ATTRIBUTE_RATIO,
@@ -67,10 +60,7 @@ pub fn decode(
     if count == 0 || count.saturating_mul(stride as u64) > justified {
         return Err(Fault::new(
             place,
-            format!(
-                "{} bytes cannot hold {count} elements of {stride} bytes",
-                encoded.len()
-            ),
+            format!("{} bytes cannot hold {count} elements of {stride} bytes", encoded.len()),
         ));
     }
     let count = count as usize;
@@ -78,43 +68,25 @@ pub fn decode(
         ATTRIBUTE_RATIO => decode_attributes(encoded, count, stride),
         TRIANGLE_RATIO if !count.is_multiple_of(3) => None,
         TRIANGLE_RATIO => match stride {
-            2 => decode_index_buffer::<u16>(encoded, count)
-                .ok()
-                .map(to_bytes),
-            4 => decode_index_buffer::<u32>(encoded, count)
-                .ok()
-                .map(to_bytes),
+            2 => decode_index_buffer::<u16>(encoded, count).ok().map(to_bytes),
+            4 => decode_index_buffer::<u32>(encoded, count).ok().map(to_bytes),
             _ => None,
         },
         _ => match stride {
-            2 => decode_index_sequence::<u16>(encoded, count)
-                .ok()
-                .map(to_bytes),
-            4 => decode_index_sequence::<u32>(encoded, count)
-                .ok()
-                .map(to_bytes),
+            2 => decode_index_sequence::<u16>(encoded, count).ok().map(to_bytes),
+            4 => decode_index_sequence::<u32>(encoded, count).ok().map(to_bytes),
             _ => None,
         },
     };
     let bytes = bytes.ok_or_else(|| Fault::new(place, "the compressed data are broken"))?;
-    apply_filter(
-        compressed.filter.as_deref().unwrap_or("NONE"),
-        bytes,
-        stride,
-        place,
-    )
+    apply_filter(compressed.filter.as_deref().unwrap_or("NONE"), bytes, stride, place)
 }
 
 fn to_bytes<T: bytemuck::NoUninit>(values: Vec<T>) -> Vec<u8> {
     bytemuck::cast_slice(&values).to_vec()
 }
 
-fn apply_filter(
-    filter: &str,
-    bytes: Vec<u8>,
-    stride: usize,
-    place: &str,
-) -> Result<Vec<u8>, Fault> {
+fn apply_filter(filter: &str, bytes: Vec<u8>, stride: usize, place: &str) -> Result<Vec<u8>, Fault> {
     match (filter, stride) {
         ("NONE", _) => Ok(bytes),
         ("OCTAHEDRAL", 4) => {
@@ -148,10 +120,7 @@ fn apply_filter(
             decode_filter_exp(&mut values);
             Ok(to_bytes(values))
         }
-        (filter, _) => Err(Fault::new(
-            place,
-            format!("no filter \"{filter}\" for elements of {stride} bytes"),
-        )),
+        (filter, _) => Err(Fault::new(place, format!("no filter \"{filter}\" for elements of {stride} bytes"))),
     }
 }
 

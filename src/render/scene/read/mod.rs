@@ -100,12 +100,7 @@ impl Context<'_> {
 
 /// Reads a scene from the bytes of a file; the content tells the format. `file` is its name in messages, relative URIs
 /// start from `base`, and `variant` names a variant of the materials.
-pub fn read(
-    bytes: &[u8],
-    file: &str,
-    base: Option<&Path>,
-    variant: Option<&str>,
-) -> Result<Loaded, SceneError> {
+pub fn read(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>) -> Result<Loaded, SceneError> {
     if container::is_glb(bytes) {
         return read_gltf(bytes, file, base, variant);
     }
@@ -125,11 +120,7 @@ pub fn read(
 }
 
 /// Index of the variant with this name.
-fn find_variant(
-    root: &json::Root,
-    variant: Option<&str>,
-    file: &str,
-) -> Result<Option<u32>, SceneError> {
+fn find_variant(root: &json::Root, variant: Option<&str>, file: &str) -> Result<Option<u32>, SceneError> {
     let Some(asked) = variant else {
         return Ok(None);
     };
@@ -148,12 +139,7 @@ fn find_variant(
     Ok(Some(index as u32))
 }
 
-fn read_gltf(
-    bytes: &[u8],
-    file: &str,
-    base: Option<&Path>,
-    variant: Option<&str>,
-) -> Result<Loaded, SceneError> {
+fn read_gltf(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>) -> Result<Loaded, SceneError> {
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
     let mut value = container.json;

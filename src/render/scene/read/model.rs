@@ -7,8 +7,7 @@
 use std::collections::HashMap;
 
 use gltf::json::{
-    Accessor, Animation, Asset, Buffer, Camera, Image, Index, Material, Mesh, Node, Path, Root,
-    Scene, Skin, Texture,
+    Accessor, Animation, Asset, Buffer, Camera, Image, Index, Material, Mesh, Node, Path, Root, Scene, Skin, Texture,
     buffer::View,
     extensions::scene::{khr_lights_punctual::Light, khr_materials_variants::Variant},
     root::Get,
@@ -84,11 +83,7 @@ impl Model {
     /// Reads a `value` that was [settled](settle). Broken members that an element can do without are left out with a
     /// warning.
     pub fn new(value: Value, asset: Asset, warnings: &mut Warnings) -> Result<Self, Fault> {
-        let mut lists = Lists {
-            value: &value,
-            broken: HashMap::new(),
-            warnings,
-        };
+        let mut lists = Lists { value: &value, broken: HashMap::new(), warnings };
         let lights: Vec<Light> = lists.read()?;
         let variants: Vec<Variant> = lists.read()?;
         let mut root = Root {
@@ -112,10 +107,7 @@ impl Model {
             skins: lists.read()?,
             textures: lists.read()?,
         };
-        let scene = value
-            .get("scene")
-            .map(|scene| typed(scene, "/scene"))
-            .transpose();
+        let scene = value.get("scene").map(|scene| typed(scene, "/scene")).transpose();
         root.scene = scene.unwrap_or_else(|fault| {
             lists.warnings.push(&fault.but("the first is the default"));
             None
@@ -123,20 +115,12 @@ impl Model {
         *root.as_mut() = lights;
         *root.as_mut() = variants;
         let broken = lists.broken;
-        Ok(Self {
-            root,
-            value,
-            broken,
-        })
+        Ok(Self { root, value, broken })
     }
 
     /// Makes a model of a document without broken parts. Some parts may have been removed from the document.
     pub fn of(root: Root, value: Value) -> Self {
-        Self {
-            root,
-            value,
-            broken: HashMap::new(),
-        }
+        Self { root, value, broken: HashMap::new() }
     }
 
     /// The element at `index`, and its place; `from` is the place of the reference.
@@ -151,10 +135,7 @@ impl Model {
             return Err(fault.clone());
         }
         let element = self.root.get(index);
-        Ok((
-            element.ok_or_else(|| Fault::new(from, "refers to nothing"))?,
-            place,
-        ))
+        Ok((element.ok_or_else(|| Fault::new(from, "refers to nothing"))?, place))
     }
 
     /// All elements of a kind; a broken one is an error.
@@ -189,10 +170,7 @@ impl Model {
     fn explain(&self, path: &Path, error: Error) -> Fault {
         let place = path.as_str().replace("[\"", "/").replace("\"]", "");
         let place = place.replace(['[', '.'], "/").replace(']', "");
-        let found = self
-            .value
-            .pointer(&place)
-            .map_or("nothing".to_owned(), found);
+        let found = self.value.pointer(&place).map_or("nothing".to_owned(), found);
         let (array, last) = place.rsplit_once('/').unwrap_or_default();
         let reason = match error {
             Error::IndexOutOfBounds => {
@@ -225,12 +203,7 @@ impl Model {
             let numbers: Option<Vec<f64>> = array.iter().map(Value::as_f64).collect();
             numbers?.try_into().ok()
         });
-        numbers.map(Some).ok_or_else(|| {
-            Fault::new(
-                place,
-                format!("expected {N} numbers, found {}", found(value)),
-            )
-        })
+        numbers.map(Some).ok_or_else(|| Fault::new(place, format!("expected {N} numbers, found {}", found(value))))
     }
 }
 
@@ -267,9 +240,7 @@ pub fn typed<T: DeserializeOwned>(value: &Value, place: &str) -> Result<T, Fault
         });
         let place = inner.fold(place.to_owned(), |place, segment| place + &segment);
         let reason = error.inner().to_string();
-        let missing = reason
-            .strip_prefix("missing field `")
-            .and_then(|r| r.strip_suffix('`'));
+        let missing = reason.strip_prefix("missing field `").and_then(|r| r.strip_suffix('`'));
         match missing {
             Some(name) => Fault::new(place, format!("lacks the required \"{name}\"")),
             None => Fault::new(place, reason),
@@ -319,12 +290,7 @@ impl Lists<'_, '_> {
     }
 
     /// Removes broken members from an element, as far as the element can do without them.
-    fn mend<T: Element>(
-        &mut self,
-        mut value: Value,
-        place: &str,
-        fault: Fault,
-    ) -> Result<T, Fault> {
+    fn mend<T: Element>(&mut self, mut value: Value, place: &str, fault: Fault) -> Result<T, Fault> {
         const MOST: usize = 100;
         let mut fault = fault;
         for _ in 0..MOST {
@@ -359,10 +325,7 @@ fn typed_object<T: DeserializeOwned>(value: &Value, place: &str) -> Result<T, Fa
     if value.is_object() {
         typed(value, place)
     } else {
-        Err(Fault::new(
-            place,
-            format!("expected an object, found {}", found(value)),
-        ))
+        Err(Fault::new(place, format!("expected an object, found {}", found(value))))
     }
 }
 
@@ -407,15 +370,7 @@ fn stand_in_of_animation() -> Value {
 }
 
 /// Members that are read in double precision, or as 64-bit numbers.
-const WIDE: [&str; 7] = [
-    "byteLength",
-    "byteOffset",
-    "count",
-    "matrix",
-    "rotation",
-    "scale",
-    "translation",
-];
+const WIDE: [&str; 7] = ["byteLength", "byteOffset", "count", "matrix", "rotation", "scale", "translation"];
 
 /// Texts that are never worth an error.
 const TEXT: [&str; 3] = ["copyright", "generator", "name"];
@@ -444,9 +399,7 @@ pub fn settle(value: &mut Value, key: &str) {
                 object.entry("node").or_insert(json!(NOTHING));
             }
             object.retain(|key, value| !TEXT.contains(&key.as_str()) || value.is_string());
-            object
-                .iter_mut()
-                .for_each(|(key, value)| settle(value, key));
+            object.iter_mut().for_each(|(key, value)| settle(value, key));
         }
         Value::Null | Value::Bool(_) | Value::String(_) => {}
     }

@@ -65,11 +65,7 @@ pub fn parse(mtl: &[u8], folder: &str, warnings: &mut Warnings) -> Vec<Descripti
             continue;
         }
         if word.eq_ignore_ascii_case(b"newmtl") {
-            materials.push(Description {
-                name: text(rest),
-                folder: folder.to_owned(),
-                ..Description::default()
-            });
+            materials.push(Description { name: text(rest), folder: folder.to_owned(), ..Description::default() });
         } else if let Some(material) = materials.last_mut() {
             material.add(word, rest, warnings);
         } else {
@@ -148,20 +144,13 @@ impl Description {
         }
         let (scale, offset) = placement;
         // In the format v points up.
-        let rows = [
-            [scale[0], 0.0, offset[0]],
-            [0.0, scale[1], 1.0 - scale[1] - offset[1]],
-        ];
+        let rows = [[scale[0], 0.0, offset[0]], [0.0, scale[1], 1.0 - scale[1] - offset[1]]];
         let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
         let file = text(rest);
         let file = file.trim_matches('"').to_owned();
         (!file.is_empty()).then(|| Map {
             file,
-            transform: if is_finite {
-                TextureTransform(rows)
-            } else {
-                TextureTransform::default()
-            },
+            transform: if is_finite { TextureTransform(rows) } else { TextureTransform::default() },
         })
     }
 
@@ -195,8 +184,7 @@ impl Description {
                 b"-s" => &mut *scale,
                 b"-o" => &mut *offset,
                 _ => {
-                    self.unused
-                        .insert(format!("{} of {statement}", text(option)));
+                    self.unused.insert(format!("{} of {statement}", text(option)));
                     continue;
                 }
             };
@@ -228,18 +216,16 @@ impl Description {
         let alpha = match (self.opacity, self.transparency) {
             (Some(opacity), _) => unit(opacity, "d"),
             (None, Some(1.0)) => {
-                let reason = "1 would make the material invisible. Some programs mean its opacity, so that it is opaque";
+                let reason =
+                    "1 would make the material invisible. Some programs mean its opacity, so that it is opaque";
                 warnings.push(&Fault::new(place("Tr"), reason));
                 1.0
             }
             (None, Some(transparency)) => 1.0 - unit(transparency, "Tr"),
             (None, None) => 1.0,
         };
-        let mut material = Material {
-            name: Some(self.name.clone()),
-            base_color: [color[0], color[1], color[2], alpha],
-            ..plain()
-        };
+        let mut material =
+            Material { name: Some(self.name.clone()), base_color: [color[0], color[1], color[2], alpha], ..plain() };
         self.add_textures(&mut material, textures, warnings);
         if alpha < 1.0 {
             material.alpha_mode = AlphaMode::Blend;
@@ -247,22 +233,13 @@ impl Description {
         material
     }
 
-    fn add_textures(
-        &self,
-        material: &mut Material,
-        textures: &mut NamedTextures<'_>,
-        warnings: &mut Warnings,
-    ) {
+    fn add_textures(&self, material: &mut Material, textures: &mut NamedTextures<'_>, warnings: &mut Warnings) {
         let mut color = self.color_map.as_ref();
         let mut opacity = self.opacity_map.as_ref();
         if let (Some(a), Some(b)) = (color, opacity)
             && a.transform != b.transform
         {
-            warnings.leave_out(
-                "placements of map_d that differ from that of map_Kd",
-                1,
-                &b.file,
-            );
+            warnings.leave_out("placements of map_d that differ from that of map_Kd", 1, &b.file);
         }
         // If one of the images is missing, the other is used alone.
         while let Some(map) = color.or(opacity) {
@@ -273,11 +250,7 @@ impl Description {
             };
             let fault = match textures.get(files) {
                 Ok(texture) => {
-                    material.base_color_texture = Some(TextureUse {
-                        texture,
-                        uv_set: 0,
-                        transform: map.transform,
-                    });
+                    material.base_color_texture = Some(TextureUse { texture, uv_set: 0, transform: map.transform });
                     if opacity.is_some() {
                         material.alpha_mode = match textures.is_cutout(texture) {
                             true => AlphaMode::Mask { cutoff: 0.5 },

@@ -46,13 +46,7 @@ fn order(nodes: &[Node], items: &[json::Node]) -> Result<Vec<usize>, Fault> {
     let mut order: Vec<usize> = roots.collect();
     let mut at = 0;
     while let Some(&node) = order.get(at) {
-        order.extend(
-            items[node]
-                .children
-                .iter()
-                .flatten()
-                .map(json::Index::value),
-        );
+        order.extend(items[node].children.iter().flatten().map(json::Index::value));
         at += 1;
     }
     if order.len() == nodes.len() {
@@ -63,10 +57,7 @@ fn order(nodes: &[Node], items: &[json::Node]) -> Result<Vec<usize>, Fault> {
         reached[node] = true;
     }
     let lost = reached.iter().position(|r| !r).unwrap_or_default();
-    Err(Fault::new(
-        format!("/nodes/{lost}"),
-        "is its own ancestor, or below a node that is",
-    ))
+    Err(Fault::new(format!("/nodes/{lost}"), "is its own ancestor, or below a node that is"))
 }
 
 fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Result<Node, Fault> {
@@ -78,51 +69,29 @@ fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Resul
     context.tolerate(camera.map(Some), "the node has no camera");
     let (mut instances, mut visible) = (None, true);
     if let Some(extensions) = &item.extensions {
-        let light = extensions
-            .khr_lights_punctual
-            .as_ref()
-            .map(|light| light.light);
-        let light = model.check(
-            &light,
-            &format!("{place}/extensions/KHR_lights_punctual/light"),
-        );
+        let light = extensions.khr_lights_punctual.as_ref().map(|light| light.light);
+        let light = model.check(&light, &format!("{place}/extensions/KHR_lights_punctual/light"));
         context.tolerate(light.map(Some), "the node has no light");
         let visibility = model::extension(Some(&extensions.others), "KHR_node_visibility", place);
         let visibility = context.tolerate(visibility, "the node is visible");
-        visible =
-            visibility.is_none_or(|(VisibilityExtension { visible }, _)| visible.unwrap_or(true));
+        visible = visibility.is_none_or(|(VisibilityExtension { visible }, _)| visible.unwrap_or(true));
         if item.mesh.is_some() {
             instances = instance::read(&extensions.others, place, context)?;
         }
     }
     if item.skin.is_some() && instances.is_some() {
-        context.warn(&Fault::new(
-            place,
-            "a skin takes the place of the node's instances",
-        ));
+        context.warn(&Fault::new(place, "a skin takes the place of the node's instances"));
     }
-    Ok(Node {
-        parent: None,
-        transform: read_transform(item, place, context)?,
-        instances,
-        visible,
-    })
+    Ok(Node { parent: None, transform: read_transform(item, place, context)?, instances, visible })
 }
 
-fn read_transform(
-    item: &json::Node,
-    place: &str,
-    context: &mut Context<'_>,
-) -> Result<Transform, Fault> {
+fn read_transform(item: &json::Node, place: &str, context: &mut Context<'_>) -> Result<Transform, Fault> {
     let parts = read_parts(place, context)?;
     let Some(m) = context.model.numbers::<16>(&format!("{place}/matrix"))? else {
         return Ok(Transform::Parts(parts));
     };
     if item.translation.is_some() || item.rotation.is_some() || item.scale.is_some() {
-        context.warn(&Fault::new(
-            place,
-            "has both a matrix and its parts; the matrix counts",
-        ));
+        context.warn(&Fault::new(place, "has both a matrix and its parts; the matrix counts"));
     }
     let column = |c: usize| DVec3::new(m[4 * c], m[4 * c + 1], m[4 * c + 2]);
     Ok(Transform::Matrix(DAffine3 {
@@ -133,10 +102,7 @@ fn read_transform(
 
 fn read_parts(place: &str, context: &mut Context<'_>) -> Result<Parts, Fault> {
     let mut parts = Parts::default();
-    if let Some(translation) = context
-        .model
-        .numbers::<3>(&format!("{place}/translation"))?
-    {
+    if let Some(translation) = context.model.numbers::<3>(&format!("{place}/translation"))? {
         parts.translation = translation.into();
     }
     if let Some(rotation) = context.model.numbers::<4>(&format!("{place}/rotation"))? {
@@ -176,9 +142,7 @@ pub fn check_scenes(context: &mut Context<'_>, nodes: &[Node]) -> Result<Option<
         }
         return Ok(None);
     }
-    let default = model
-        .check(&model.root.scene, "/scene")
-        .map(|()| model.root.scene);
+    let default = model.check(&model.root.scene, "/scene").map(|()| model.root.scene);
     let default = context.tolerate(default, "the first is the default");
     Ok(Some(default.map_or(0, |scene| scene.value())))
 }

@@ -21,15 +21,12 @@ use crate::scene::{
 };
 
 /// Statements with which OBJ files start, apart from comments.
-const STATEMENTS: [&[u8]; 12] = [
-    b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl",
-];
+const STATEMENTS: [&[u8]; 12] = [b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl"];
 
 /// Whether `bytes` look like an OBJ file: it begins with a statement of the format, and has a vertex.
 pub fn is_obj(bytes: &[u8]) -> bool {
-    let mut words = statements(bytes)
-        .map(|(_, statement)| keyword(&statement).0.to_vec())
-        .filter(|word| !word.is_empty());
+    let mut words =
+        statements(bytes).map(|(_, statement)| keyword(&statement).0.to_vec()).filter(|word| !word.is_empty());
     let first = words.find(|word| !word.starts_with(b"#"));
     let Some(first) = first.filter(|word| STATEMENTS.contains(&word.as_slice())) else {
         return false;
@@ -42,9 +39,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     let mut warnings = Warnings::new(file);
     let mut reader = Reader::default();
     for (line, statement) in statements(bytes) {
-        reader
-            .add(&statement, line, &mut warnings)
-            .map_err(|reason| broken(line, &reason).into_error(file))?;
+        reader.add(&statement, line, &mut warnings).map_err(|reason| broken(line, &reason).into_error(file))?;
     }
     reader.check().map_err(|fault| fault.into_error(file))?;
     let drawing = reader.into_drawing(base, &mut warnings);
@@ -84,12 +79,7 @@ struct Reader {
 
 impl Reader {
     /// Adds a statement. The error is a reason without the place.
-    fn add(
-        &mut self,
-        statement: &[u8],
-        line: usize,
-        warnings: &mut Warnings,
-    ) -> Result<(), String> {
+    fn add(&mut self, statement: &[u8], line: usize, warnings: &mut Warnings) -> Result<(), String> {
         let (word, rest) = keyword(statement);
         match word {
             b"v" => self.add_vertex(rest, warnings)?,
@@ -113,9 +103,7 @@ impl Reader {
                 let mut before = None;
                 for word in operands(rest) {
                     let corner = self.corner(word, line)?;
-                    self.part
-                        .lines
-                        .extend(before.map(|before| [before, corner]));
+                    self.part.lines.extend(before.map(|before| [before, corner]));
                     before = Some(corner);
                 }
             }
@@ -199,12 +187,7 @@ impl Reader {
     fn corner(&mut self, word: &[u8], line: usize) -> Result<Corner, String> {
         let mut named = [Corner::NONE; 3];
         let mut parts = word.split(|&byte| byte == b'/');
-        let no_corner = || {
-            format!(
-                "\"{}\" names no corner",
-                text::text(&word[..word.len().min(40)])
-            )
-        };
+        let no_corner = || format!("\"{}\" names no corner", text::text(&word[..word.len().min(40)]));
         for (kind, place) in named.iter_mut().enumerate() {
             let Some(part) = parts.next() else { break };
             if part.is_empty() {
@@ -258,11 +241,7 @@ impl Reader {
         self.begin_part();
         let lacking = (1..3).filter(|kind| self.pool.counts()[*kind] == 0);
         for kind in lacking.filter(|kind| self.largest[*kind].0 > 0) {
-            warnings.leave_out(
-                "elements that corners name and the file lacks",
-                1,
-                NAMED[kind],
-            );
+            warnings.leave_out("elements that corners name and the file lacks", 1, NAMED[kind]);
         }
         let mut pool = std::mem::take(&mut self.pool);
         pool.finish(self.largest_code);
@@ -273,10 +252,7 @@ impl Reader {
         let (described, is_complete) = self.read_libraries(base, warnings);
         let by_name = described.iter().enumerate();
         let by_name: HashMap<&str, usize> = by_name.map(|(i, it)| (it.name.as_str(), i)).collect();
-        let mut materials: Vec<_> = described
-            .iter()
-            .map(|it| it.read(&mut textures, warnings))
-            .collect();
+        let mut materials: Vec<_> = described.iter().map(|it| it.read(&mut textures, warnings)).collect();
         // Materials of parts without one: grey, or white if the vertices have colours.
         let mut grey = plain();
         if !pool.colors.is_empty() {
@@ -301,21 +277,13 @@ impl Reader {
             }
         }
         let (textures, images) = textures.into_parts();
-        let mut drawing = Drawing {
-            origin,
-            materials,
-            textures,
-            images,
-            ..Drawing::default()
-        };
+        let mut drawing = Drawing { origin, materials, textures, images, ..Drawing::default() };
         if self.parts.is_empty() {
             drawing.shapes.push(pool.cloud(drawing.origin, unnamed));
         }
         let mut welder = Welder::new(&pool, drawing.origin);
         for part in &self.parts {
-            let material = part
-                .material
-                .map_or(unnamed, |index| places[index as usize]);
+            let material = part.material.map_or(unnamed, |index| places[index as usize]);
             let shapes: Vec<FileObject> = welder.shapes(part, material, warnings);
             drawing.shapes.extend(shapes);
         }
@@ -323,11 +291,7 @@ impl Reader {
     }
 
     /// The materials of all MTL files, and whether no file is missing.
-    fn read_libraries(
-        &self,
-        base: Option<&Path>,
-        warnings: &mut Warnings,
-    ) -> (Vec<Description>, bool) {
+    fn read_libraries(&self, base: Option<&Path>, warnings: &mut Warnings) -> (Vec<Description>, bool) {
         let mut described = Vec::new();
         let mut is_complete = true;
         let mut known = BTreeSet::new();
@@ -376,13 +340,8 @@ fn several(list: &str) -> Vec<String> {
 /// A name without the quotes around it.
 fn unquoted(name: &[u8]) -> String {
     let name = text::text(name);
-    let inner = name
-        .strip_prefix('"')
-        .and_then(|name| name.strip_suffix('"'));
-    inner
-        .filter(|inner| !inner.contains('"'))
-        .unwrap_or(&name)
-        .to_owned()
+    let inner = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
+    inner.filter(|inner| !inner.contains('"')).unwrap_or(&name).to_owned()
 }
 
 /// Operands of a statement, without a comment behind them.

@@ -58,10 +58,7 @@ impl Pool {
                 continue;
             };
             let spokes = || places().map(|place| place - start);
-            let area: DVec3 = spokes()
-                .zip(spokes().skip(1))
-                .map(|(a, b)| a.cross(b))
-                .sum();
+            let area: DVec3 = spokes().zip(spokes().skip(1)).map(|(a, b)| a.cross(b)).sum();
             for corner in face {
                 let index = *known.entry((corner.0[0], group)).or_insert_with(|| {
                     sums.push(DVec3::ZERO);
@@ -82,11 +79,7 @@ impl Pool {
 
     /// Positions that parts use, or all if there are no parts.
     pub fn used<'p>(&'p self, parts: &'p [Part]) -> impl Iterator<Item = DVec3> + 'p {
-        let all = if parts.is_empty() {
-            &self.positions[..]
-        } else {
-            &[]
-        };
+        let all = if parts.is_empty() { &self.positions[..] } else { &[] };
         let corners = parts.iter().flat_map(Part::corners);
         let used = corners.filter_map(|corner| self.positions.get(corner.0[0] as usize));
         used.chain(all).copied()
@@ -99,11 +92,7 @@ impl Pool {
             material,
             points: (0..count as u32).collect(),
             positions: self.positions.iter().map(|p| local(*p, origin)).collect(),
-            normals: if self.normals.len() == count {
-                self.normals.clone()
-            } else {
-                Vec::new()
-            },
+            normals: if self.normals.len() == count { self.normals.clone() } else { Vec::new() },
             colors: self.colors.iter().map(|color| opaque(*color)).collect(),
             ..FileObject::default()
         }
@@ -183,9 +172,7 @@ impl Part {
 
     fn faces(&self) -> impl Iterator<Item = &[Corner]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts
-            .zip(&self.ends)
-            .map(|(start, end)| &self.corners[start..*end])
+        starts.zip(&self.ends).map(|(start, end)| &self.corners[start..*end])
     }
 }
 
@@ -206,28 +193,16 @@ impl<'p> Welder<'p> {
     const COMPARED: usize = 16;
 
     pub fn new(pool: &'p Pool, origin: DVec3) -> Self {
-        Self {
-            pool,
-            origin,
-            last: vec![[0; 2]; pool.positions.len()],
-            shape: 0,
-            vertices: Vec::new(),
-        }
+        Self { pool, origin, last: vec![[0; 2]; pool.positions.len()], shape: 0, vertices: Vec::new() }
     }
 
     /// Shapes of a part: its faces with normals, its faces without, and its lines and points.
-    pub fn shapes(
-        &mut self,
-        part: &Part,
-        material: usize,
-        warnings: &mut Warnings,
-    ) -> Vec<FileObject> {
+    pub fn shapes(&mut self, part: &Part, material: usize, warnings: &mut Warnings) -> Vec<FileObject> {
         let mut shapes = Vec::new();
         let mut triangulator = Triangulator::default();
         for has_normals in [true, false] {
             self.begin();
-            let is_smooth =
-                |face: &[Corner]| face.iter().all(|corner| self.pool.has_normal(corner));
+            let is_smooth = |face: &[Corner]| face.iter().all(|corner| self.pool.has_normal(corner));
             let of_kind = |face: &&[Corner]| is_smooth(face) == has_normals;
             let faces: Vec<&[Corner]> = part.faces().filter(of_kind).collect();
             if faces.is_empty() {
@@ -252,20 +227,10 @@ impl<'p> Welder<'p> {
         if !part.lines.is_empty() || !part.points.is_empty() {
             self.begin();
             let lines = part.lines.iter();
-            let lines = lines
-                .map(|ends| ends.map(|end| self.vertex(end, false)))
-                .collect();
-            let points = part
-                .points
-                .iter()
-                .map(|point| self.vertex(*point, false))
-                .collect();
+            let lines = lines.map(|ends| ends.map(|end| self.vertex(end, false))).collect();
+            let points = part.points.iter().map(|point| self.vertex(*point, false)).collect();
             let shape = self.finish(part, material, false);
-            shapes.push(FileObject {
-                lines,
-                points,
-                ..shape
-            });
+            shapes.push(FileObject { lines, points, ..shape });
         }
         triangulator.report(part.name.as_deref().unwrap_or("unnamed object"), warnings);
         shapes
@@ -279,17 +244,9 @@ impl<'p> Welder<'p> {
     /// Index of the vertex of a corner.
     fn vertex(&mut self, corner: Corner, has_normals: bool) -> u32 {
         let [position, uv, normal] = corner.0;
-        let corner = Corner([
-            position,
-            uv,
-            if has_normals { normal } else { Corner::NONE },
-        ]);
+        let corner = Corner([position, uv, if has_normals { normal } else { Corner::NONE }]);
         let [shape, newest] = self.last[position as usize];
-        let mut before = if shape == self.shape {
-            newest
-        } else {
-            Corner::NONE
-        };
+        let mut before = if shape == self.shape { newest } else { Corner::NONE };
         let previous = before;
         for _ in 0..Self::COMPARED {
             let Some((other, next)) = self.vertices.get(before as usize) else {
@@ -308,11 +265,7 @@ impl<'p> Welder<'p> {
 
     /// A shape of the vertices, without its elements.
     fn finish(&self, part: &Part, material: usize, has_normals: bool) -> FileObject {
-        let corners = || {
-            self.vertices
-                .iter()
-                .map(|(corner, _)| corner.0.map(|i| i as usize))
-        };
+        let corners = || self.vertices.iter().map(|(corner, _)| corner.0.map(|i| i as usize));
         let pool = self.pool;
         let has_uvs = corners().any(|[_, uv, _]| uv < pool.uvs.len());
         let uv = |[_, uv, _]: [usize; 3]| pool.uvs.get(uv).copied().unwrap_or_default();
@@ -321,9 +274,7 @@ impl<'p> Welder<'p> {
         FileObject {
             name: part.name.clone(),
             material,
-            positions: corners()
-                .map(|[vertex, ..]| local(pool.positions[vertex], self.origin))
-                .collect(),
+            positions: corners().map(|[vertex, ..]| local(pool.positions[vertex], self.origin)).collect(),
             normals: match has_normals {
                 true => corners().map(normal).collect(),
                 false => Vec::new(),

@@ -65,29 +65,17 @@ const NONE: u32 = u32::MAX;
 
 /// Names of properties that hold a position, a normal, a colour and texture coordinates.
 const POSITION: [&[&str]; 3] = [&["x"], &["y"], &["z"]];
-const NORMAL: [&[&str]; 3] = [
-    &["nx", "normal_x"],
-    &["ny", "normal_y"],
-    &["nz", "normal_z"],
-];
-const COLOR: [&[&str]; 3] = [
-    &["red", "diffuse_red", "r"],
-    &["green", "diffuse_green", "g"],
-    &["blue", "diffuse_blue", "b"],
-];
+const NORMAL: [&[&str]; 3] = [&["nx", "normal_x"], &["ny", "normal_y"], &["nz", "normal_z"]];
+const COLOR: [&[&str]; 3] =
+    [&["red", "diffuse_red", "r"], &["green", "diffuse_green", "g"], &["blue", "diffuse_blue", "b"]];
 const ALPHA: &[&str] = &["alpha", "diffuse_alpha", "a"];
-const UV: [&[&str]; 2] = [
-    &["s", "u", "texture_u", "texture_s", "tex_u"],
-    &["t", "v", "texture_v", "texture_t", "tex_v"],
-];
+const UV: [&[&str]; 2] =
+    [&["s", "u", "texture_u", "texture_s", "tex_u"], &["t", "v", "texture_v", "texture_t", "tex_v"]];
 const INDICES: &[&str] = &["vertex_indices", "vertex_index"];
 
 fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
     let mut data = Data::new(bytes, warnings)?;
-    let mut decoded = Decoded {
-        textures: std::mem::take(&mut data.textures),
-        ..Decoded::default()
-    };
+    let mut decoded = Decoded { textures: std::mem::take(&mut data.textures), ..Decoded::default() };
     for index in 0..data.elements.len() {
         match data.elements[index].name.as_str() {
             "vertex" => decoded.read_vertices(&mut data, index, warnings)?,
@@ -98,9 +86,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
                 name_unused(element, [indices], warnings);
                 data.read(index, |row| {
                     let vertices: Vec<u32> = row.list(indices).iter().map(vertex).collect();
-                    decoded
-                        .strips
-                        .extend(vertices.split(|v| *v == NONE).map(<[u32]>::to_vec));
+                    decoded.strips.extend(vertices.split(|v| *v == NONE).map(<[u32]>::to_vec));
                 })?;
             }
             "edge" => {
@@ -108,8 +94,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
                 let ends = [element.number(&["vertex1"]), element.number(&["vertex2"])];
                 name_unused(element, ends, warnings);
                 data.read(index, |row| {
-                    let end =
-                        |property: Option<usize>| row.list(property).first().map_or(NONE, vertex);
+                    let end = |property: Option<usize>| row.list(property).first().map_or(NONE, vertex);
                     decoded.edges.push(ends.map(end));
                 })?;
             }
@@ -124,11 +109,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Decoded, Fault> {
 }
 
 /// Counts the properties of an element that are not among those that are used.
-fn name_unused(
-    element: &Element,
-    used: impl IntoIterator<Item = Option<usize>>,
-    warnings: &mut Warnings,
-) {
+fn name_unused(element: &Element, used: impl IntoIterator<Item = Option<usize>>, warnings: &mut Warnings) {
     if element.count == 0 {
         return;
     }
@@ -143,20 +124,13 @@ fn name_unused(
 fn vertex(value: &f64) -> u32 {
     // The conversion gives the nearest index for a value that is none.
     let index = *value as u32;
-    if f64::from(index) == *value {
-        index
-    } else {
-        NONE
-    }
+    if f64::from(index) == *value { index } else { NONE }
 }
 
 /// Properties that hold the parts of a vector, if all are there.
 fn numbers<const N: usize>(element: &Element, names: [&[&str]; N]) -> Option<[usize; N]> {
     let found = names.map(|names| element.number(names));
-    found
-        .iter()
-        .all(Option::is_some)
-        .then(|| found.map(Option::unwrap_or_default))
+    found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
 }
 
 /// Codes of colours and alpha in properties.
@@ -170,15 +144,9 @@ struct Codes {
 impl Codes {
     fn new(element: &Element) -> Self {
         let (color, alpha) = (numbers(element, COLOR), element.number(ALPHA));
-        let full = |property: Option<usize>| {
-            property.map_or(1.0, |property| element.properties[property].kind.full())
-        };
+        let full = |property: Option<usize>| property.map_or(1.0, |property| element.properties[property].kind.full());
         let [r, g, b] = color.map_or([None; 3], |color| color.map(Some));
-        Self {
-            color,
-            alpha,
-            full: [r, g, b, alpha].map(full),
-        }
+        Self { color, alpha, full: [r, g, b, alpha].map(full) }
     }
 
     fn is_there(&self) -> bool {
@@ -203,30 +171,18 @@ impl Codes {
 
 /// Linear colours and alpha.
 fn colors(codes: &[[f32; 4]]) -> Vec<[f32; 4]> {
-    let largest = codes
-        .as_flattened()
-        .iter()
-        .fold(0.0, |a, &b| f32::max(a, b));
+    let largest = codes.as_flattened().iter().fold(0.0, |a, &b| f32::max(a, b));
     let scale = scale_of_codes(largest);
     let color = |[r, g, b, a]: &[f32; 4]| {
         let [r, g, b] = [r, g, b].map(|code| linear(f64::from(code / scale)));
-        let alpha = if a.is_nan() {
-            1.0
-        } else {
-            a.clamp(0.0, scale) / scale
-        };
+        let alpha = if a.is_nan() { 1.0 } else { a.clamp(0.0, scale) / scale };
         [r, g, b, alpha]
     };
     codes.iter().map(color).collect()
 }
 
 impl Decoded {
-    fn read_vertices(
-        &mut self,
-        data: &mut Data<'_>,
-        index: usize,
-        warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    fn read_vertices(&mut self, data: &mut Data<'_>, index: usize, warnings: &mut Warnings) -> Result<(), Fault> {
         let element = &data.elements[index];
         let axes = POSITION.map(|names| element.number(names));
         let normal = numbers(element, NORMAL);
@@ -234,11 +190,7 @@ impl Decoded {
         let codes = Codes::new(element);
         let used = axes.into_iter().chain(codes.used());
         let used = used.chain(normal.into_iter().flatten().map(Some));
-        name_unused(
-            element,
-            used.chain(uv.into_iter().flatten().map(Some)),
-            warnings,
-        );
+        name_unused(element, used.chain(uv.into_iter().flatten().map(Some)), warnings);
         self.is_colored = codes.color.is_some();
         data.read(index, |row| {
             let at = axes.map(|axis| axis.map_or(0.0, |axis| row.number(axis)));
@@ -253,34 +205,21 @@ impl Decoded {
     }
 
     fn draw(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
-        let used = self
-            .faces
-            .corners
-            .iter()
-            .chain(self.strips.iter().flatten());
+        let used = self.faces.corners.iter().chain(self.strips.iter().flatten());
         let used = used.chain(self.edges.as_flattened());
         // Vertices that are not connected are drawn as points.
-        let is_cloud =
-            self.faces.ends.is_empty() && self.strips.is_empty() && self.edges.is_empty();
+        let is_cloud = self.faces.ends.is_empty() && self.strips.is_empty() && self.edges.is_empty();
         let all = if is_cloud { &self.positions[..] } else { &[] };
         let position = |vertex: &u32| self.positions.get(*vertex as usize);
         let origin = origin_of(used.filter_map(position).chain(all).copied());
         let mut textures = NamedTextures::new(base);
         let mut looks = Looks::new(&self.textures, &mut textures, warnings);
 
-        let points = if is_cloud {
-            self.positions.len() as u32
-        } else {
-            0
-        };
+        let points = if is_cloud { self.positions.len() as u32 } else { 0 };
         let vertices = FileObject {
             points: (0..points).collect(),
             lines: self.edges.clone(),
-            positions: self
-                .positions
-                .iter()
-                .map(|p| (*p - origin).as_vec3().to_array())
-                .collect(),
+            positions: self.positions.iter().map(|p| (*p - origin).as_vec3().to_array()).collect(),
             normals: std::mem::take(&mut self.normals),
             uvs: std::mem::take(&mut self.uvs),
             colors: colors(&self.codes),
@@ -299,11 +238,7 @@ impl Decoded {
         }
         if faces.is_apart() {
             if !faces.codes.is_empty() && self.is_colored {
-                warnings.leave_out(
-                    "colours of vertices beside colours of faces",
-                    whole.colors.len(),
-                    "",
-                );
+                warnings.leave_out("colours of vertices beside colours of faces", whole.colors.len(), "");
             }
             let apart = faces.apart(&whole, self.textures.len());
             shapes.extend(apart.into_iter().map(|(texture, mut shape, ends)| {
@@ -312,12 +247,7 @@ impl Decoded {
                 (texture, is_colored, shape)
             }));
         } else {
-            triangulate(
-                &faces.ends,
-                Some(&faces.corners),
-                &mut whole,
-                &mut triangulator,
-            );
+            triangulate(&faces.ends, Some(&faces.corners), &mut whole, &mut triangulator);
         }
         if shapes.is_empty() || !whole.triangles.is_empty() || !whole.lines.is_empty() {
             shapes.insert(0, (0, self.is_colored, whole));
@@ -329,24 +259,13 @@ impl Decoded {
             .collect();
         let materials = looks.materials;
         let (textures, images) = textures.into_parts();
-        Drawing {
-            shapes,
-            origin,
-            materials,
-            textures,
-            images,
-        }
+        Drawing { shapes, origin, materials, textures, images }
     }
 }
 
 /// Adds the triangles of polygons to a shape. Their corners are the shape's vertices in order, unless `corners` lists
 /// them.
-fn triangulate(
-    ends: &[usize],
-    corners: Option<&[u32]>,
-    shape: &mut FileObject,
-    triangulator: &mut Triangulator,
-) {
+fn triangulate(ends: &[usize], corners: Option<&[u32]>, shape: &mut FileObject, triangulator: &mut Triangulator) {
     let mut polygon = Vec::new();
     let mut start = 0;
     for &end in ends {
@@ -361,12 +280,7 @@ fn triangulate(
 }
 
 impl Faces {
-    fn read(
-        &mut self,
-        data: &mut Data<'_>,
-        index: usize,
-        warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    fn read(&mut self, data: &mut Data<'_>, index: usize, warnings: &mut Warnings) -> Result<(), Fault> {
         let element = &data.elements[index];
         let indices = element.list(INDICES);
         let uvs = element.list(&["texcoord", "t"]);
@@ -390,12 +304,10 @@ impl Faces {
                 let found = found.chain(std::iter::repeat([0.0; 2]));
                 self.uvs.extend(found.take(corners.len()));
             }
-            self.textures
-                .extend(texture.map(|texture| row.number(texture)));
+            self.textures.extend(texture.map(|texture| row.number(texture)));
         })?;
         if unfit > 0 {
-            let reason =
-                format!("{unfit} faces have other numbers of texture coordinates than of corners");
+            let reason = format!("{unfit} faces have other numbers of texture coordinates than of corners");
             warnings.push(&Fault::new("element face", reason));
         }
         Ok(())
@@ -408,11 +320,7 @@ impl Faces {
 
     /// Shapes with vertices of their own for each corner, by texture, and the ends of their polygons. `vertices` has the
     /// vertices of the file, and `textures` is the number of textures.
-    fn apart(
-        &self,
-        vertices: &FileObject,
-        textures: usize,
-    ) -> Vec<(usize, FileObject, Vec<usize>)> {
+    fn apart(&self, vertices: &FileObject, textures: usize) -> Vec<(usize, FileObject, Vec<usize>)> {
         let colors = colors(&self.codes);
         let mut shapes: BTreeMap<usize, (FileObject, Vec<usize>)> = BTreeMap::new();
         let mut start = 0;
@@ -420,18 +328,12 @@ impl Faces {
             let number = self.textures.get(face).copied().unwrap_or_default();
             let is_texture = number >= 0.0 && number < textures as f64;
             // A number of no texture stands for no texture.
-            let number = if is_texture {
-                number as usize
-            } else {
-                textures
-            };
+            let number = if is_texture { number as usize } else { textures };
             let (shape, ends) = shapes.entry(number).or_default();
             for corner in start..end {
                 let vertex = self.corners[corner] as usize;
                 let position = vertices.positions.get(vertex);
-                shape
-                    .positions
-                    .push(position.copied().unwrap_or([f32::NAN; 3]));
+                shape.positions.push(position.copied().unwrap_or([f32::NAN; 3]));
                 let normal = vertices.normals.get(vertex);
                 if !vertices.normals.is_empty() {
                     shape.normals.push(normal.copied().unwrap_or_default());
@@ -445,9 +347,7 @@ impl Faces {
             start = end;
         }
         let shapes = shapes.into_iter();
-        shapes
-            .map(|(number, (shape, ends))| (number, shape, ends))
-            .collect()
+        shapes.map(|(number, (shape, ends))| (number, shape, ends)).collect()
     }
 }
 
@@ -461,19 +361,12 @@ struct Looks {
 impl Looks {
     fn new(files: &[String], textures: &mut NamedTextures<'_>, warnings: &mut Warnings) -> Self {
         let mut read = |file: &String| {
-            let files = TextureFiles {
-                folder: String::new(),
-                color: Some(file.clone()),
-                alpha: None,
-            };
+            let files = TextureFiles { folder: String::new(), color: Some(file.clone()), alpha: None };
             let texture = textures.get(files);
             let texture = texture.map_err(|fault| fault.report("comment TextureFile", warnings));
             texture.ok()
         };
-        Self {
-            textures: files.iter().map(&mut read).collect(),
-            materials: Vec::new(),
-        }
+        Self { textures: files.iter().map(&mut read).collect(), materials: Vec::new() }
     }
 
     /// Gives a shape its material. A texture replaces colours, which programs write besides as an approximation of it.
@@ -491,10 +384,7 @@ impl Looks {
         }
         if texture.is_some() && is_colored {
             warnings.leave_out("colours beneath a texture", shape.colors.len(), "");
-            shape
-                .colors
-                .iter_mut()
-                .for_each(|color| *color = [1.0, 1.0, 1.0, color[3]]);
+            shape.colors.iter_mut().for_each(|color| *color = [1.0, 1.0, 1.0, color[3]]);
         }
         let mut material = plain();
         if is_colored || texture.is_some() {
@@ -503,11 +393,8 @@ impl Looks {
         if shape.colors.iter().any(|color| color[3] < 1.0) {
             material.alpha_mode = AlphaMode::Blend;
         }
-        material.base_color_texture = texture.map(|texture| TextureUse {
-            texture,
-            uv_set: 0,
-            transform: TextureTransform::default(),
-        });
+        material.base_color_texture =
+            texture.map(|texture| TextureUse { texture, uv_set: 0, transform: TextureTransform::default() });
         let known = self.materials.iter().position(|other| *other == material);
         shape.material = known.unwrap_or_else(|| {
             self.materials.push(material);

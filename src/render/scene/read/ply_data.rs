@@ -95,10 +95,7 @@ impl Row {
 
     /// Value of a property.
     pub fn number(&self, property: usize) -> f64 {
-        self.list(Some(property))
-            .first()
-            .copied()
-            .unwrap_or(f64::NAN)
+        self.list(Some(property)).first().copied().unwrap_or(f64::NAN)
     }
 }
 
@@ -133,13 +130,7 @@ impl<'b> Data<'b> {
         let is_cr = bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n');
         let end = if is_cr { b'\r' } else { b'\n' };
         let mut encoding = None;
-        let mut data = Self {
-            elements: Vec::new(),
-            textures: Vec::new(),
-            encoding: Encoding::Text,
-            bytes,
-            at: 0,
-        };
+        let mut data = Self { elements: Vec::new(), textures: Vec::new(), encoding: Encoding::Text, bytes, at: 0 };
         for line in 1.. {
             let rest = &bytes[data.at..];
             let Some(length) = rest.iter().position(|byte| *byte == end) else {
@@ -168,11 +159,7 @@ impl<'b> Data<'b> {
                     let (Some(name), Some(count)) = (name, count) else {
                         return Err(fault("an element needs a name and a count"));
                     };
-                    data.elements.push(Element {
-                        name: text(name),
-                        count,
-                        properties: Vec::new(),
-                    });
+                    data.elements.push(Element { name: text(name), count, properties: Vec::new() });
                 }
                 Some(b"property") => {
                     let Some(element) = data.elements.last_mut() else {
@@ -193,20 +180,14 @@ impl<'b> Data<'b> {
                 Some(other) => warnings.leave_out("header lines", 1, &text(other)),
             }
         }
-        data.encoding =
-            encoding.ok_or_else(|| broken("header".to_owned(), "it names no format"))?;
+        data.encoding = encoding.ok_or_else(|| broken("header".to_owned(), "it names no format"))?;
         data.check()?;
         Ok(data)
     }
 
     /// Fails if an element claims more entries than the file can hold, with at least a byte for each.
     fn check(&self) -> Result<(), Fault> {
-        for Element {
-            name,
-            count,
-            properties,
-        } in &self.elements
-        {
+        for Element { name, count, properties } in &self.elements {
             let place = format!("element {name}");
             if *count > 0 && properties.is_empty() {
                 return Err(Fault::new(place, "has no properties"));
@@ -223,17 +204,11 @@ impl<'b> Data<'b> {
     /// Reads the elements with this index, which have to be the next ones.
     pub fn read(&mut self, index: usize, each: impl FnMut(&Row)) -> Result<(), Fault> {
         let elements = std::mem::take(&mut self.elements);
-        let result = elements
-            .get(index)
-            .map_or(Ok(()), |element| match self.encoding {
-                Encoding::Text => self.read_rows(element, each, |data, _| data.read_word()),
-                Encoding::LittleEndian => {
-                    self.read_rows(element, each, |data, kind| data.read_binary::<false>(kind))
-                }
-                Encoding::BigEndian => {
-                    self.read_rows(element, each, |data, kind| data.read_binary::<true>(kind))
-                }
-            });
+        let result = elements.get(index).map_or(Ok(()), |element| match self.encoding {
+            Encoding::Text => self.read_rows(element, each, |data, _| data.read_word()),
+            Encoding::LittleEndian => self.read_rows(element, each, |data, kind| data.read_binary::<false>(kind)),
+            Encoding::BigEndian => self.read_rows(element, each, |data, kind| data.read_binary::<true>(kind)),
+        });
         self.elements = elements;
         result.map_err(|reason: String| broken(self.place(), &reason))
     }
@@ -321,10 +296,7 @@ impl<'b> Data<'b> {
 
     /// The next `N` bytes as a number, which `convert` makes of them in little-endian order.
     #[inline]
-    fn take<const BIG: bool, const N: usize>(
-        &mut self,
-        convert: impl Fn([u8; N]) -> f64,
-    ) -> Result<f64, String> {
+    fn take<const BIG: bool, const N: usize>(&mut self, convert: impl Fn([u8; N]) -> f64) -> Result<f64, String> {
         let bytes = self.bytes[self.at..].first_chunk::<N>();
         let mut bytes = *bytes.ok_or(ENDS)?;
         self.at += N;
@@ -340,8 +312,7 @@ const ENDS: &str = "it ends within its elements";
 
 fn property<'w>(words: &mut impl Iterator<Item = &'w [u8]>) -> Result<Property, String> {
     let mut next = || words.next().unwrap_or_default();
-    let kind_of =
-        |word: &[u8]| Type::named(word).ok_or_else(|| format!("\"{}\" is no type", text(word)));
+    let kind_of = |word: &[u8]| Type::named(word).ok_or_else(|| format!("\"{}\" is no type", text(word)));
     let first = next();
     let (length, kind) = match first {
         b"list" => (Some(kind_of(next())?), kind_of(next())?),

@@ -75,21 +75,13 @@ pub fn targets(model: &Model, pointer: &str, place: &str) -> Result<Vec<Animated
 }
 
 /// Fails unless a mesh has a morph target with this index.
-fn check_weight(
-    model: &Model,
-    mesh: Option<Index<Mesh>>,
-    weight: usize,
-    place: &str,
-) -> Result<(), Fault> {
+fn check_weight(model: &Model, mesh: Option<Index<Mesh>>, weight: usize, place: &str) -> Result<(), Fault> {
     let mesh = mesh.and_then(|mesh| model.root.get(mesh));
     let primitives = mesh.into_iter().flat_map(|mesh| &mesh.primitives);
     let targets = primitives.filter_map(|primitive| primitive.targets.as_ref().map(Vec::len));
     match targets.max().unwrap_or(0) {
         count if weight < count => Ok(()),
-        count => Err(Fault::new(
-            place,
-            format!("there is no weight {weight}: the mesh has {count} morph targets"),
-        )),
+        count => Err(Fault::new(place, format!("there is no weight {weight}: the mesh has {count} morph targets"))),
     }
 }
 
@@ -108,14 +100,7 @@ fn parse(pointer: &str) -> Option<Pointed> {
     };
     let parts: Vec<&str> = pointer.split('/').collect();
     let target = match parts[..] {
-        [
-            "",
-            "nodes",
-            node,
-            "extensions",
-            "KHR_node_visibility",
-            "visible",
-        ] => Animated::Visibility(index(node)?),
+        ["", "nodes", node, "extensions", "KHR_node_visibility", "visible"] => Animated::Visibility(index(node)?),
         ["", "nodes", node, property] => {
             let property = match property {
                 "translation" => Property::Translation,
@@ -133,14 +118,9 @@ fn parse(pointer: &str) -> Option<Pointed> {
         }
         ["", "materials", at, ref rest @ ..] => description(Described::Material, at, rest)?,
         ["", "cameras", at, ref rest @ ..] => description(Described::Camera, at, rest)?,
-        [
-            "",
-            "extensions",
-            "KHR_lights_punctual",
-            "lights",
-            at,
-            ref rest @ ..,
-        ] => description(Described::Light, at, rest)?,
+        ["", "extensions", "KHR_lights_punctual", "lights", at, ref rest @ ..] => {
+            description(Described::Light, at, rest)?
+        }
         _ => return None,
     };
     Some(Pointed::Target(target))

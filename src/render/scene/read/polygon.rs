@@ -46,14 +46,8 @@ impl Triangulator {
                 warnings.push(&Fault::new(place, format!("{count} {what}")));
             }
         };
-        warn(
-            self.short,
-            "faces have fewer than 3 corners and are left out",
-        );
-        warn(
-            self.unplaced,
-            "corners of polygons have no position, or an infinite or undefined one, and are left out",
-        );
+        warn(self.short, "faces have fewer than 3 corners and are left out");
+        warn(self.unplaced, "corners of polygons have no position, or an infinite or undefined one, and are left out");
         warn(
             self.crossing,
             "polygons cross themselves or have too many corners, and their triangles don't cover them exactly",
@@ -93,11 +87,7 @@ impl Triangulator {
         let is_turned = normal[largest] < 0.0;
         self.ring.clear();
         let flat = |p: &DVec3| {
-            if is_turned {
-                [p[j], p[i]]
-            } else {
-                [p[i], p[j]]
-            }
+            if is_turned { [p[j], p[i]] } else { [p[i], p[j]] }
         };
         self.ring.extend(self.spokes.iter().map(flat));
         self.indices.clear();
@@ -121,11 +111,7 @@ impl Triangulator {
             self.crossing += 1;
         }
         let whole = with_dropped(found, &self.ring);
-        triangles.extend(
-            whole
-                .iter()
-                .map(|t| t.map(|corner| self.corners[corner as usize])),
-        );
+        triangles.extend(whole.iter().map(|t| t.map(|corner| self.corners[corner as usize])));
     }
 }
 

@@ -51,22 +51,13 @@ pub fn read(
         }
         (packed, _) => packed?,
     };
-    let reader = vertex::Reader {
-        primitive: item,
-        place,
-        packed: packed.as_ref(),
-        context,
-        count: 1,
-    };
+    let reader = vertex::Reader { primitive: item, place, packed: packed.as_ref(), context, count: 1 };
     let positions = match reader.packed(Semantic::Positions) {
         Some(positions) => positions?,
         None => positions?,
     };
     let positions = positions.expect_components(&[3])?;
-    let reader = vertex::Reader {
-        count: positions.count,
-        ..reader
-    };
+    let reader = vertex::Reader { count: positions.count, ..reader };
     // The last material is glTF's default; no index of the file refers to it.
     let default_material = materials.len().saturating_sub(1);
     let (chosen, material_place) = choose_material(item, place, context);
@@ -98,13 +89,10 @@ pub fn read(
         true => sources.len(),
         false => sources.len().max(triangles.len() * 3),
     } as u64;
-    context
-        .budget
-        .add_vertices(most * (1 + targets.len() as u64), place)?;
+    context.budget.add_vertices(most * (1 + targets.len() as u64), place)?;
 
     let normals = reader.attribute(Semantic::Normals, &[3], &vertex::SIGNED, notes);
-    let mut normals: Vec<[f32; 3]> =
-        normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
+    let mut normals: Vec<[f32; 3]> = normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
     let shape = gather(&positions, &sources);
     if is_strokes && !normals.iter().all(is_usable) {
         let reason = "some normals are unusable; none is used, and what is drawn is unlit";
@@ -119,14 +107,8 @@ pub fn read(
         )),
     }
     let shape = if normals.is_empty() && !is_strokes {
-        sources = triangles
-            .as_flattened()
-            .iter()
-            .filter_map(|&v| sources.get(v as usize).copied())
-            .collect();
-        triangles = (0..triangles.len() as u32)
-            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
-            .collect();
+        sources = triangles.as_flattened().iter().filter_map(|&v| sources.get(v as usize).copied()).collect();
+        triangles = (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         gather(&positions, &sources)
     } else {
         shape
@@ -180,9 +162,7 @@ fn choose_material(
 
 /// Largest number of triangles to which `item` can expand, without reading its data; 0 if reading will fail.
 pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
-    let defining = item
-        .indices
-        .or_else(|| attribute_of(item, Semantic::Positions));
+    let defining = item.indices.or_else(|| attribute_of(item, Semantic::Positions));
     if is_compressed(item) {
         // The accessors declare the count, without any data.
         let accessor = defining.and_then(|index| context.model.root.get(index));
@@ -200,11 +180,7 @@ pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
 
 /// Elements of `accessor` with the indices `sources`.
 pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[f32; N]> {
-    sources
-        .par_iter()
-        .with_min_len(16_384)
-        .map(|&source| accessor.floats(source as usize))
-        .collect()
+    sources.par_iter().with_min_len(16_384).map(|&source| accessor.floats(source as usize)).collect()
 }
 
 /// Reads the indices of a primitive, if it has any, and the number of vertices that it passes through.
@@ -220,9 +196,9 @@ fn read_indices<'a>(
             accessor?.expect_components(&[1])
         }),
     };
-    let indices = indices.transpose()?.map(|indices| {
-        indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
-    });
+    let indices = indices
+        .transpose()?
+        .map(|indices| indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32]));
     let indices = indices.transpose()?;
     let defining = indices.as_ref().unwrap_or(positions);
     defining.check_justified()?;
@@ -248,10 +224,7 @@ fn read_strokes(
     let position = |v: u32| positions.floats::<3>(v as usize);
     let bound = positions.count as u32;
     let usable = |v: u32| v < bound && position(v).iter().all(|x| x.is_finite());
-    let path: Vec<Option<u32>> = (0..count)
-        .map(index)
-        .map(|v| Some(v).filter(|v| usable(*v)))
-        .collect();
+    let path: Vec<Option<u32>> = (0..count).map(index).map(|v| Some(v).filter(|v| usable(*v))).collect();
     let lost = path.iter().filter(|vertex| vertex.is_none()).count();
     if lost > 0 {
         let reason = format!(
@@ -265,9 +238,7 @@ fn read_strokes(
     }
     // Vertices in the same place may separate if a morph target moves them.
     let is_rigid = reader.primitive.targets.is_none();
-    let mut strokes = strokes::assemble(mode, &path, |a, b| {
-        a == b || (is_rigid && position(a) == position(b))
-    });
+    let mut strokes = strokes::assemble(mode, &path, |a, b| a == b || (is_rigid && position(a) == position(b)));
     let sources = strokes.compact(positions.count);
     Ok((!strokes.corners.is_empty()).then_some((strokes, sources)))
 }
@@ -304,8 +275,7 @@ fn read_triangles(
             Some(_) => format!("{place}/indices"),
             None => place.to_owned(),
         };
-        let reason =
-            format!("{beyond} of {all} triangles refer to vertices beyond the {bound} of POSITION");
+        let reason = format!("{beyond} of {all} triangles refer to vertices beyond the {bound} of POSITION");
         if triangles.is_empty() {
             return Err(Fault::new(place, reason));
         }
@@ -316,12 +286,7 @@ fn read_triangles(
     let usable: Vec<bool> = sources
         .par_iter()
         .with_min_len(16_384)
-        .map(|&v| {
-            positions
-                .floats::<3>(v as usize)
-                .iter()
-                .all(|x| x.is_finite())
-        })
+        .map(|&v| positions.floats::<3>(v as usize).iter().all(|x| x.is_finite()))
         .collect();
     if usable.contains(&false) {
         let all = triangles.len();
@@ -331,10 +296,7 @@ fn read_triangles(
             all - triangles.len()
         )));
         let kept = triangles::compact(&mut triangles, sources.len());
-        sources = kept
-            .iter()
-            .filter_map(|&v| sources.get(v as usize).copied())
-            .collect();
+        sources = kept.iter().filter_map(|&v| sources.get(v as usize).copied()).collect();
     }
     Ok((!triangles.is_empty()).then_some((triangles, sources)))
 }

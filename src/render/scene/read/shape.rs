@@ -47,12 +47,7 @@ pub struct Drawing {
 /// Material for files that name none: grey, matt and double-sided, because not every program writes consistent
 /// windings.
 pub fn plain() -> Material {
-    Material {
-        base_color: [0.8, 0.8, 0.8, 1.0],
-        metallic: 0.0,
-        double_sided: true,
-        ..Material::default()
-    }
+    Material { base_color: [0.8, 0.8, 0.8, 1.0], metallic: 0.0, double_sided: true, ..Material::default() }
 }
 
 /// What the numbers of colours are divided by, by the largest of them: some programs write bytes as numbers with a
@@ -63,16 +58,8 @@ pub fn scale_of_codes(largest: f32) -> f32 {
 
 /// Linear value of an sRGB code of 0 to 1; 1 for NaN.
 pub fn linear(code: f64) -> f32 {
-    let code = if code.is_nan() {
-        1.0
-    } else {
-        code.clamp(0.0, 1.0)
-    };
-    let linear = if code <= 0.040_45 {
-        code / 12.92
-    } else {
-        ((code + 0.055) / 1.055).powf(2.4)
-    };
+    let code = if code.is_nan() { 1.0 } else { code.clamp(0.0, 1.0) };
+    let linear = if code <= 0.040_45 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) };
     linear as f32
 }
 
@@ -99,12 +86,7 @@ impl Drawing {
         file: &str,
         mut warnings: Warnings,
     ) -> Result<Loaded, SceneError> {
-        let mut document = Document {
-            file: file.to_owned(),
-            format,
-            default_scene: Some(0),
-            ..Document::default()
-        };
+        let mut document = Document { file: file.to_owned(), format, default_scene: Some(0), ..Document::default() };
         let root = &mut document.root;
         let mut roots = Vec::new();
         let budget = Budget::default();
@@ -112,23 +94,16 @@ impl Drawing {
         self.materials.push(Material::default());
         for (index, shape) in self.shapes.into_iter().enumerate() {
             let place = format!("object {index}");
-            let strokes = strokes::number(Mode::Lines, 2 * shape.lines.len())
-                + strokes::number(Mode::Points, shape.points.len());
+            let strokes =
+                strokes::number(Mode::Lines, 2 * shape.lines.len()) + strokes::number(Mode::Points, shape.points.len());
             let surfaces = shape.positions.len().max(3 * shape.triangles.len());
             let vertices = (surfaces + 4 * strokes) as u64;
-            budget
-                .add_vertices(vertices, &place)
-                .map_err(|fault| fault.into_error(file))?;
+            budget.add_vertices(vertices, &place).map_err(|fault| fault.into_error(file))?;
             let material = shape.material.min(self.materials.len() - 1);
             let name = shape.name.clone();
             let uses_uvs = self.materials[material].textures().next().is_some();
-            let strokes = [
-                (Mode::Lines, shape.lines.as_flattened()),
-                (Mode::Points, shape.points.as_slice()),
-            ]
-            .map(|(mode, path)| {
-                shape.strokes(mode, path, (material, uses_uvs), &place, &mut warnings)
-            });
+            let strokes = [(Mode::Lines, shape.lines.as_flattened()), (Mode::Points, shape.points.as_slice())]
+                .map(|(mode, path)| shape.strokes(mode, path, (material, uses_uvs), &place, &mut warnings));
             let surface = shape.into_primitive(material, uses_uvs, &place, &mut warnings);
             let primitives = surface.into_iter().chain(strokes.into_iter().flatten());
             document.meshes.push(primitives.collect());
@@ -142,27 +117,15 @@ impl Drawing {
             document.order.push(index);
             document.nodes.push(Node {
                 parent: None,
-                transform: Transform::Parts(Parts {
-                    translation: self.origin,
-                    ..Parts::default()
-                }),
+                transform: Transform::Parts(Parts { translation: self.origin, ..Parts::default() }),
                 instances: None,
                 visible: true,
             });
-            roots.push(root.push(json::Node {
-                mesh: Some(mesh),
-                name,
-                ..json::Node::default()
-            }));
+            roots.push(root.push(json::Node { mesh: Some(mesh), name, ..json::Node::default() }));
         }
         unlit_materials(&mut self.materials, document.meshes.iter_mut().flatten());
         let root = &mut document.root;
-        let _: Index<json::Scene> = root.push(json::Scene {
-            extensions: None,
-            extras: None,
-            name: None,
-            nodes: roots,
-        });
+        let _: Index<json::Scene> = root.push(json::Scene { extensions: None, extras: None, name: None, nodes: roots });
         root.asset.version = String::new();
         Ok(Loaded {
             scene: Scene {
@@ -192,8 +155,7 @@ impl FileObject {
             let position = self.positions.get(v as usize);
             position.is_some_and(|p| p.iter().all(|x| x.is_finite()))
         };
-        self.triangles
-            .retain(|triangle| triangle.iter().all(|&v| usable(v)));
+        self.triangles.retain(|triangle| triangle.iter().all(|&v| usable(v)));
         if self.triangles.len() < all {
             let lost = all - self.triangles.len();
             let reason = format!(
@@ -215,8 +177,7 @@ impl FileObject {
         turn_to_normals(&mut self.triangles, &positions, &normals);
         let mended = mend_normals(&self.triangles, &positions, &mut normals);
         if mended > 0 {
-            let reason =
-                format!("{mended} of the normals are unusable and replaced by those of the faces");
+            let reason = format!("{mended} of the normals are unusable and replaced by those of the faces");
             warnings.push(&Fault::new(place, reason));
         }
         if normals.is_empty() {
@@ -280,13 +241,7 @@ impl FileObject {
         })
     }
 
-    fn uvs_of(
-        &self,
-        uses_uvs: bool,
-        sources: &[u32],
-        place: &str,
-        warnings: &mut Warnings,
-    ) -> Vec<[f32; 4]> {
+    fn uvs_of(&self, uses_uvs: bool, sources: &[u32], place: &str, warnings: &mut Warnings) -> Vec<[f32; 4]> {
         if !uses_uvs {
             return Vec::new();
         }
@@ -295,18 +250,13 @@ impl FileObject {
             return vec![[0.0; 4]; sources.len()];
         }
         let uvs = pick(&self.uvs, sources);
-        let lost = uvs
-            .iter()
-            .filter(|uv| !uv.iter().all(|x| x.is_finite()))
-            .count();
+        let lost = uvs.iter().filter(|uv| !uv.iter().all(|x| x.is_finite())).count();
         if lost > 0 {
-            let reason =
-                format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
+            let reason = format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
             warnings.push(&Fault::new(place, reason));
         }
         let uvs = uvs.into_iter().map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
-        uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 }))
-            .collect()
+        uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 })).collect()
     }
 
     fn colors_of(&self, sources: &[u32]) -> Vec<[f32; 4]> {

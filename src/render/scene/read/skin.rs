@@ -30,10 +30,7 @@ fn read(item: &json::Skin, place: &str, context: &Context<'_>) -> Result<Skin, F
     model.check(&item.joints, &format!("{place}/joints"))?;
     let joints: Vec<usize> = item.joints.iter().map(Index::value).collect();
     let Some(matrices) = item.inverse_bind_matrices else {
-        return Ok(Skin {
-            inverse_bind: vec![DAffine3::IDENTITY; joints.len()],
-            joints,
-        });
+        return Ok(Skin { inverse_bind: vec![DAffine3::IDENTITY; joints.len()], joints });
     };
     let matrices = context
         .accessor(matrices, &format!("{place}/inverseBindMatrices"))?
@@ -44,32 +41,20 @@ fn read(item: &json::Skin, place: &str, context: &Context<'_>) -> Result<Skin, F
         .map(|i| {
             let m = matrices.floats::<16>(i).map(f64::from);
             let column = |c: usize| DVec3::new(m[4 * c], m[4 * c + 1], m[4 * c + 2]);
-            DAffine3 {
-                matrix3: DMat3::from_cols(column(0), column(1), column(2)),
-                translation: column(3),
-            }
+            DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
         })
         .collect();
     if let Some(broken) = inverse_bind.iter().position(|m| !m.is_finite()) {
         return Err(matrices.fault(format!("matrix {broken} is not finite")));
     }
-    Ok(Skin {
-        joints,
-        inverse_bind,
-    })
+    Ok(Skin { joints, inverse_bind })
 }
 
 /// Checks that every node's skin has the joints to which its mesh's vertices refer.
-pub fn check_joints(
-    nodes: &[json::Node],
-    meshes: &[Vec<Primitive>],
-    skins: &[Skin],
-) -> Result<(), Fault> {
+pub fn check_joints(nodes: &[json::Node], meshes: &[Vec<Primitive>], skins: &[Skin]) -> Result<(), Fault> {
     let asked = |primitives: &Vec<Primitive>| {
         let sets = primitives.iter().flat_map(|p| &p.influences);
-        sets.flat_map(|set| set.joints.as_flattened())
-            .max()
-            .copied()
+        sets.flat_map(|set| set.joints.as_flattened()).max().copied()
     };
     let asked: Vec<Option<u16>> = meshes.iter().map(asked).collect();
     for (index, node) in nodes.iter().enumerate() {
@@ -80,9 +65,7 @@ pub fn check_joints(
         if let Some(asked) = asked.filter(|&asked| usize::from(asked) >= joints) {
             return Err(Fault::new(
                 format!("/nodes/{index}/skin"),
-                format!(
-                    "the mesh's vertices refer to joint {asked}, but the skin has {joints} joints"
-                ),
+                format!("the mesh's vertices refer to joint {asked}, but the skin has {joints} joints"),
             ));
         }
     }

@@ -49,11 +49,7 @@ fn is_plausible(bytes: &[u8]) -> bool {
         return false;
     };
     let room = bytes.len() - HEADER - COUNT;
-    let is_whole = if count == 0 {
-        room.is_multiple_of(TRIANGLE)
-    } else {
-        count <= room / TRIANGLE
-    };
+    let is_whole = if count == 0 { room.is_multiple_of(TRIANGLE) } else { count <= room / TRIANGLE };
     let tested = records(bytes).take(TESTED);
     let is_normal = |record: &[u8; TRIANGLE]| {
         let [normal, corners @ ..] = vectors(record);
@@ -61,8 +57,7 @@ fn is_plausible(bytes: &[u8]) -> bool {
         let is_corner = |corner: &Vec3| corner.is_finite() && corner.abs().max_element() < 1e15;
         (length == 0.0 || (length - 1.0).abs() < 0.01) && corners.iter().all(is_corner)
     };
-    let has_corners =
-        |record: &[u8; TRIANGLE]| vectors(record)[1..].iter().any(|p| *p != Vec3::ZERO);
+    let has_corners = |record: &[u8; TRIANGLE]| vectors(record)[1..].iter().any(|p| *p != Vec3::ZERO);
     is_whole && tested.clone().all(is_normal) && tested.clone().any(has_corners)
 }
 
@@ -71,9 +66,7 @@ fn is_text(bytes: &[u8]) -> bool {
     let is = |word: &[u8], expected: &[u8]| word.eq_ignore_ascii_case(expected);
     let mut words = words(bytes.strip_prefix(BOM).unwrap_or(bytes));
     words.next().is_some_and(|word| is(word, b"solid"))
-        && words
-            .take(1000)
-            .any(|word| is(word, b"facet") || is(word, b"vertex"))
+        && words.take(1000).any(|word| is(word, b"facet") || is(word, b"vertex"))
         && !is_exact(bytes)
 }
 
@@ -104,11 +97,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
 fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let whole = (bytes.len() - HEADER - COUNT) / TRIANGLE;
     let stated = stated(bytes).unwrap_or_default();
-    let count = if stated == 0 {
-        whole
-    } else {
-        stated.min(whole)
-    };
+    let count = if stated == 0 { whole } else { stated.min(whole) };
     if stated > 0 && whole == 0 {
         let reason = format!(
             "the STL file is broken: it has no text of the format, and as a binary file it states {stated} triangles \
@@ -118,8 +107,7 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
         return Err(Fault::new("triangles", reason));
     }
     if count != stated {
-        let reason =
-            format!("the file states {stated} triangles, and the {count} that it has are read");
+        let reason = format!("the file states {stated} triangles, and the {count} that it has are read");
         warnings.push(&Fault::new("triangles", reason));
     }
     let rest = bytes.len() - HEADER - COUNT - count * TRIANGLE;
@@ -133,16 +121,12 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     let mut contrary = 0;
     let (mut unused, mut colored) = (0, false);
     let attributes = |record: &[u8; TRIANGLE]| u16::from_le_bytes([record[48], record[49]]);
-    let has_colors = records(bytes)
-        .take(count)
-        .any(|r| colors.of(attributes(r)).is_some());
+    let has_colors = records(bytes).take(count).any(|r| colors.of(attributes(r)).is_some());
     shape.positions.reserve(3 * count);
     for record in records(bytes).take(count) {
         let [normal, a, b, c] = vectors(record);
         contrary += usize::from((b - a).cross(c - a).dot(normal) < 0.0);
-        shape
-            .positions
-            .extend([a, b, c].map(|corner| corner.to_array()));
+        shape.positions.extend([a, b, c].map(|corner| corner.to_array()));
         let attributes = attributes(record);
         let color = colors.of(attributes);
         unused += usize::from(color.is_none() && attributes != 0);
@@ -159,11 +143,7 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     if colored {
         material.base_color = [1.0; 4];
     }
-    Ok(Drawing {
-        shapes: vec![shape],
-        materials: vec![material],
-        ..Drawing::default()
-    })
+    Ok(Drawing { shapes: vec![shape], materials: vec![material], ..Drawing::default() })
 }
 
 /// What [`Warnings::leave_out`] calls normals that tell another side of a triangle than its corners.
@@ -171,9 +151,7 @@ pub const CONTRARY: &str = "normals that contradict the order of the corners";
 
 /// Triangles with vertices of their own.
 fn separate(count: usize) -> Vec<[u32; 3]> {
-    (0..count as u32)
-        .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
-        .collect()
+    (0..count as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()
 }
 
 /// Colours in the attributes of triangles, of which there are two conventions.
@@ -186,9 +164,7 @@ impl FacetColors {
     fn new(header: &[u8]) -> Self {
         let color = find(header, b"COLOR=").and_then(|at| header.get(at..at + 3));
         let linear = |code: &u8| linear(f64::from(*code) / 255.0);
-        Self {
-            header: color.map(|codes| [linear(&codes[0]), linear(&codes[1]), linear(&codes[2])]),
-        }
+        Self { header: color.map(|codes| [linear(&codes[0]), linear(&codes[1]), linear(&codes[2])]) }
     }
 
     /// Linear colour of a triangle. In files of Magics, the highest bit stands for the header's colour, and red has the

@@ -37,21 +37,12 @@ pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let mut reader = Reader::default();
     let bytes = bytes.strip_prefix(BOM).unwrap_or(bytes);
     for (index, line) in Lines(bytes).enumerate() {
-        reader
-            .add(line, warnings)
-            .map_err(|reason| broken(index + 1, &reason))?;
+        reader.add(line, warnings).map_err(|reason| broken(index + 1, &reason))?;
     }
     let open = reader.open();
     if open > 0 {
-        reader
-            .solid
-            .corners
-            .truncate(reader.solid.corners.len() - open);
-        let has_facets = reader
-            .solids
-            .iter()
-            .chain([&reader.solid])
-            .any(|s| !s.ends.is_empty());
+        reader.solid.corners.truncate(reader.solid.corners.len() - open);
+        let has_facets = reader.solids.iter().chain([&reader.solid]).any(|s| !s.ends.is_empty());
         let end = Lines(bytes).count();
         if !has_facets {
             return Err(broken(end, "it ends within its first facet"));
@@ -176,10 +167,7 @@ fn vector(line: &[u8]) -> Result<(DVec3, &[u8]), String> {
 fn before<'l>(line: &'l [u8], keywords: &[&[u8]]) -> &'l [u8] {
     let mut rest = line;
     while let Some((word, after)) = next(rest) {
-        if keywords
-            .iter()
-            .any(|keyword| word.eq_ignore_ascii_case(keyword))
-        {
+        if keywords.iter().any(|keyword| word.eq_ignore_ascii_case(keyword)) {
             return rest;
         }
         rest = after;
@@ -196,11 +184,7 @@ fn draw(solids: &[Solid], warnings: &mut Warnings) -> Drawing {
     if has_colors {
         material.base_color = [1.0; 4];
     }
-    let mut drawing = Drawing {
-        origin,
-        materials: vec![material],
-        ..Drawing::default()
-    };
+    let mut drawing = Drawing { origin, materials: vec![material], ..Drawing::default() };
     let mut triangulator = Triangulator::default();
     for solid in solids {
         let local = |corner: &DVec3| (*corner - origin).as_vec3().to_array();

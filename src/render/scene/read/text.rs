@@ -45,9 +45,7 @@ impl<'t> Iterator for Lines<'t> {
 
 /// Words of a statement.
 pub fn words(statement: &[u8]) -> impl Iterator<Item = &[u8]> {
-    statement
-        .split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty())
+    statement.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// The first word of a statement, and the rest without blanks around it.
@@ -75,16 +73,7 @@ fn is_none(word: &[u8]) -> bool {
     let unsigned = unsigned.unwrap_or(word).to_ascii_lowercase();
     let end = unsigned.iter().position(|byte| !byte.is_ascii_alphabetic());
     let name = &unsigned[..end.unwrap_or(unsigned.len())];
-    let names: [&[u8]; 8] = [
-        b"nan",
-        b"nanq",
-        b"nans",
-        b"qnan",
-        b"snan",
-        b"inf",
-        b"infinity",
-        b"ind",
-    ];
+    let names: [&[u8]; 8] = [b"nan", b"nanq", b"nans", b"qnan", b"snan", b"inf", b"infinity", b"ind"];
     names.contains(&name) || unsigned.starts_with(b"1.#")
 }
 
@@ -104,18 +93,9 @@ mod tests {
 
     #[test]
     fn numbers_that_are_none_in_any_spelling() {
-        for word in [
-            "nan",
-            "NaN",
-            "-nan",
-            "-nan(ind)",
-            "nan(snan)",
-            "1.#QNAN",
-            "-1.#IND00",
-            "1.#INF",
-            "+NAN",
-            "-1.#IND",
-        ] {
+        for word in
+            ["nan", "NaN", "-nan", "-nan(ind)", "nan(snan)", "1.#QNAN", "-1.#IND00", "1.#INF", "+NAN", "-1.#IND"]
+        {
             assert!(!number(word.as_bytes()).unwrap().is_finite(), "{word}");
         }
         assert_eq!(number(b"-1.5e2"), Some(-150.0));
@@ -123,27 +103,15 @@ mod tests {
         for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}", "nancy", "-"] {
             assert_eq!(number(word.as_bytes()), None, "{word}");
         }
-        assert_eq!(
-            no_number(b"1,5"),
-            "\"1,5\" has a decimal comma; write \"1.5\""
-        );
+        assert_eq!(no_number(b"1,5"), "\"1,5\" has a decimal comma; write \"1.5\"");
         assert_eq!(no_number(b"one"), "\"one\" is not a number");
     }
 
     #[test]
     fn statements_with_all_line_ends() {
         let text = b"\xEF\xBB\xBFa\r\nb \\\nc\r\rd\\\r\ne\n\nf\\";
-        let found: Vec<_> = statements(text)
-            .map(|(line, s)| (line, super::text(&s)))
-            .collect();
-        let expected = [
-            (1, "a"),
-            (2, "b  c"),
-            (4, ""),
-            (5, "d e"),
-            (7, ""),
-            (8, "f\\"),
-        ];
+        let found: Vec<_> = statements(text).map(|(line, s)| (line, super::text(&s))).collect();
+        let expected = [(1, "a"), (2, "b  c"), (4, ""), (5, "d e"), (7, ""), (8, "f\\")];
         assert_eq!(found, expected.map(|(line, s)| (line, s.to_owned())));
     }
 }

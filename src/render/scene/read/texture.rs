@@ -29,10 +29,7 @@ struct TextureSource {
 
 /// Replaces the file's texture indices in `materials` by indices into the returned textures. Only images that
 /// materials use are decoded; a texture without a readable image is removed from the materials.
-pub fn resolve(
-    context: &mut Context<'_>,
-    materials: &mut [Material],
-) -> (Vec<Texture>, Vec<Image>) {
+pub fn resolve(context: &mut Context<'_>, materials: &mut [Material]) -> (Vec<Texture>, Vec<Image>) {
     let mut images = DecodedImages::default();
     let uses = materials.iter().flat_map(Material::textures);
     let used: BTreeSet<u32> = uses.map(|(_, used)| used.texture).collect();
@@ -42,11 +39,7 @@ pub fn resolve(
         if let Some((item, place)) = context.tolerate(found, "the texture is left out") {
             let sampler = read_sampler(item, &place, context.model).map(Some);
             let sampler = context.tolerate(sampler, "the sampler takes the defaults");
-            wanted.push((
-                index,
-                sources(item, &place, context),
-                sampler.unwrap_or_default(),
-            ));
+            wanted.push((index, sources(item, &place, context), sampler.unwrap_or_default()));
         }
     }
     // First the preferred images of all textures are decoded together, then the alternatives for those that failed.
@@ -79,10 +72,7 @@ pub fn resolve(
 
 /// Indices of the images that a texture offers, in order of preference.
 fn sources(item: &json::Texture, place: &str, context: &mut Context<'_>) -> Vec<usize> {
-    let others = item
-        .extensions
-        .as_ref()
-        .map(|extensions| &extensions.others);
+    let others = item.extensions.as_ref().map(|extensions| &extensions.others);
     let mut sources = Vec::new();
     for name in SOURCES {
         let source = model::extension::<TextureSource>(others, name, place).and_then(|found| {
@@ -95,9 +85,7 @@ fn sources(item: &json::Texture, place: &str, context: &mut Context<'_>) -> Vec<
         sources.extend(context.tolerate(source, "the fallback is used"));
     }
     if !model::is_nothing(item.source) {
-        let source = context
-            .model
-            .check(&item.source, &format!("{place}/source"));
+        let source = context.model.check(&item.source, &format!("{place}/source"));
         let source = source.map(|()| Some(item.source.value()));
         sources.extend(context.tolerate(source, "the image is left out"));
     }

@@ -34,11 +34,7 @@ pub struct TextureFault {
 
 impl TextureFault {
     fn broken(file: &str, reason: String) -> Self {
-        Self {
-            file: file.to_owned(),
-            reason,
-            is_supported: true,
-        }
+        Self { file: file.to_owned(), reason, is_supported: true }
     }
 
     /// Says that the texture is left out.
@@ -63,12 +59,7 @@ pub struct NamedTextures<'b> {
 impl<'b> NamedTextures<'b> {
     /// No textures yet; names are relative to the folder `base`.
     pub fn new(base: Option<&'b Path>) -> Self {
-        Self {
-            base,
-            images: DecodedImages::default(),
-            textures: Vec::new(),
-            known: HashMap::new(),
-        }
+        Self { base, images: DecodedImages::default(), textures: Vec::new(), known: HashMap::new() }
     }
 
     /// Index of a texture.
@@ -90,9 +81,7 @@ impl<'b> NamedTextures<'b> {
     pub fn is_cutout(&self, texture: u32) -> bool {
         let texture = self.textures.get(texture as usize);
         let image = texture.and_then(|texture| self.images.decoded(texture.image));
-        let texels = image
-            .and_then(|image| image.levels().next())
-            .unwrap_or_default();
+        let texels = image.and_then(|image| image.levels().next()).unwrap_or_default();
         let texels = texels.chunks_exact(4);
         let count = texels.len();
         let between = texels.filter(|texel| (16..240).contains(&texel[3])).count();
@@ -109,15 +98,13 @@ impl<'b> NamedTextures<'b> {
             let Some(name) = name else {
                 return Ok(None);
             };
-            let bytes = fetch(name, &files.folder, self.base)
-                .map_err(|reason| TextureFault::broken(name, reason))?;
+            let bytes = fetch(name, &files.folder, self.base).map_err(|reason| TextureFault::broken(name, reason))?;
             self.images.decode_named(bytes, name).map(Some)
         };
         match (decode(&files.color)?, decode(&files.alpha)?) {
             (Some(color), None) => Ok(color),
-            (color, Some(alpha)) => with_alpha(color, &alpha).map_err(|reason| {
-                TextureFault::broken(files.alpha.as_deref().unwrap_or_default(), reason)
-            }),
+            (color, Some(alpha)) => with_alpha(color, &alpha)
+                .map_err(|reason| TextureFault::broken(files.alpha.as_deref().unwrap_or_default(), reason)),
             (None, None) => Err(TextureFault::broken("", "no file is named".to_owned())),
         }
     }
@@ -160,19 +147,12 @@ fn with_alpha(color: Option<Image>, alpha: &Image) -> Result<Image, String> {
     }
     let channel = alpha_of(alpha);
     let mask = scaled(channel, of_alpha, (width, height));
-    let texels = color.map_or_else(
-        || vec![255; 4],
-        |image| image.levels().next().unwrap_or_default().to_vec(),
-    );
+    let texels = color.map_or_else(|| vec![255; 4], |image| image.levels().next().unwrap_or_default().to_vec());
     let mut pixels = scaled(texels, of_color, (width, height));
     for (texel, mask) in pixels.chunks_exact_mut(4).zip(mask.chunks_exact(4)) {
         texel[3] = mask[3];
     }
-    Ok(Image {
-        width,
-        height,
-        pixels,
-    })
+    Ok(Image { width, height, pixels })
 }
 
 /// Texels whose alpha is that of a mask.

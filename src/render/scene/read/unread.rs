@@ -6,14 +6,7 @@ use super::asset;
 use crate::scene::error::Warnings;
 
 /// Vertex attributes that are read, apart from the numbered sets of joints and weights.
-const ATTRIBUTES: [&str; 6] = [
-    "POSITION",
-    "NORMAL",
-    "TANGENT",
-    "TEXCOORD_0",
-    "TEXCOORD_1",
-    "COLOR_0",
-];
+const ATTRIBUTES: [&str; 6] = ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"];
 
 /// Attributes of morph targets that are read.
 const DISPLACED: [&str; 3] = ["POSITION", "NORMAL", "TANGENT"];
@@ -52,9 +45,7 @@ fn names(object: Option<&Value>) -> impl Iterator<Item = &str> {
 
 fn name_extensions(value: &Value, warnings: &mut Warnings) {
     match value {
-        Value::Array(values) => values
-            .iter()
-            .for_each(|value| name_extensions(value, warnings)),
+        Value::Array(values) => values.iter().for_each(|value| name_extensions(value, warnings)),
         Value::Object(members) => {
             for (key, value) in members {
                 if key == "extras" {

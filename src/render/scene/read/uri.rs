@@ -47,14 +47,11 @@ pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Fetched, Stri
         if letters.next().is_some_and(|c| c.is_ascii_alphabetic())
             && letters.all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
         {
-            return Err(format!(
-                "URIs of scheme \"{scheme}\" are not fetched; put the file beside the scene"
-            ));
+            return Err(format!("URIs of scheme \"{scheme}\" are not fetched; put the file beside the scene"));
         }
     }
-    let base = base.ok_or_else(|| {
-        format!("\"{uri}\" is a file beside the scene, but the scene was not read from a folder")
-    })?;
+    let base =
+        base.ok_or_else(|| format!("\"{uri}\" is a file beside the scene, but the scene was not read from a folder"))?;
     let (path, note) = locate(uri, base)?;
     let bytes = read_file(&path, limit)?;
     Ok(Fetched { bytes, note })
@@ -64,33 +61,21 @@ pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Fetched, Stri
 /// word `base64` in any case, white space in base64, and a fragment.
 fn decode_data(rest: &str) -> Result<Fetched, String> {
     let (rest, _fragment) = rest.split_once('#').unwrap_or((rest, ""));
-    let (kind, data) = rest
-        .split_once(',')
-        .ok_or("the data URI has no comma before its data")?;
+    let (kind, data) = rest.split_once(',').ok_or("the data URI has no comma before its data")?;
     let data = Cow::from(percent_decode_str(data));
-    let is_base64 = kind
-        .trim_end()
-        .rsplit_once(';')
-        .is_some_and(|(_, last)| last.trim_start().eq_ignore_ascii_case("base64"));
+    let is_base64 =
+        kind.trim_end().rsplit_once(';').is_some_and(|(_, last)| last.trim_start().eq_ignore_ascii_case("base64"));
     if !is_base64 {
         let (bytes, note) = (data.into_owned(), None);
         return Ok(Fetched { bytes, note });
     }
     let has_space = data.iter().any(u8::is_ascii_whitespace);
     let data = match has_space {
-        true => Cow::Owned(
-            data.iter()
-                .copied()
-                .filter(|b| !b.is_ascii_whitespace())
-                .collect(),
-        ),
+        true => Cow::Owned(data.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect()),
         false => data,
     };
-    let bytes = BASE64
-        .decode(&*data)
-        .map_err(|error| format!("the data URI's base64 is broken: {error}"))?;
-    let note =
-        has_space.then(|| "the data URI's base64 has white space, which is ignored".to_owned());
+    let bytes = BASE64.decode(&*data).map_err(|error| format!("the data URI's base64 is broken: {error}"))?;
+    let note = has_space.then(|| "the data URI's base64 has white space, which is ignored".to_owned());
     Ok(Fetched { bytes, note })
 }
 
@@ -102,8 +87,8 @@ fn locate(uri: &str, base: &Path) -> Result<(PathBuf, Option<String>), String> {
     let mut candidates = Vec::new();
     for written in [uri, bare] {
         let decoded = Cow::from(percent_decode_str(written));
-        let decoded = String::from_utf8(decoded.into_owned())
-            .map_err(|_| format!("\"{uri}\" is not UTF-8 when unescaped"))?;
+        let decoded =
+            String::from_utf8(decoded.into_owned()).map_err(|_| format!("\"{uri}\" is not UTF-8 when unescaped"))?;
         candidates.extend([decoded, written.to_owned()]);
     }
     let with_slashes: Vec<String> = candidates.iter().map(|c| c.replace('\\', "/")).collect();
@@ -118,9 +103,8 @@ fn locate(uri: &str, base: &Path) -> Result<(PathBuf, Option<String>), String> {
     }
     let exists = |path: &String| is_relative(path) && base.join(path).exists();
     let found = candidates.iter().position(exists).unwrap_or(0);
-    let note = (found >= backslashes).then(|| {
-        format!("\"{uri}\" has backslashes, which are read as slashes; other programs may not find the file")
-    });
+    let note = (found >= backslashes)
+        .then(|| format!("\"{uri}\" has backslashes, which are read as slashes; other programs may not find the file"));
     Ok((base.join(&candidates[found]), note))
 }
 
@@ -132,9 +116,7 @@ fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
         return Err(format!("{} is not a regular file", path.display()));
     }
     let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
-        .map_err(failed)?;
+    File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)).map_err(failed)?;
     if is_lfs_pointer(&bytes) {
         return Err(format!(
             "{} is a Git LFS pointer, not the file itself; fetch it with `git lfs pull`",

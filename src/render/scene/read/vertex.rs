@@ -20,13 +20,8 @@ use crate::scene::{
 /// Component types of normals, tangents and displacements, `KHR_mesh_quantization` included.
 pub const SIGNED: [ComponentType; 3] = [ComponentType::F32, ComponentType::I8, ComponentType::I16];
 /// Component types of texture coordinates, `KHR_mesh_quantization` included.
-const ANY: [ComponentType; 5] = [
-    ComponentType::F32,
-    ComponentType::I8,
-    ComponentType::U8,
-    ComponentType::I16,
-    ComponentType::U16,
-];
+const ANY: [ComponentType; 5] =
+    [ComponentType::F32, ComponentType::I8, ComponentType::U8, ComponentType::I16, ComponentType::U16];
 /// Component types of colours and weights.
 const FRACTION: [ComponentType; 3] = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
 
@@ -58,15 +53,9 @@ impl<'r> Reader<'r, '_> {
         types: &[ComponentType],
         notes: &mut Vec<Fault>,
     ) -> Option<Accessor<'r>> {
-        let accessor = accessor.and_then(|accessor| {
-            accessor
-                .expect_components(components)?
-                .expect_type(types)?
-                .expect_count(self.count)
-        });
-        accessor
-            .map_err(|fault| notes.push(Fault::new(place, format!("is left out, for {fault}"))))
-            .ok()
+        let accessor = accessor
+            .and_then(|accessor| accessor.expect_components(components)?.expect_type(types)?.expect_count(self.count));
+        accessor.map_err(|fault| notes.push(Fault::new(place, format!("is left out, for {fault}")))).ok()
     }
 
     /// Decoded attribute of a compressed primitive, if it has it.
@@ -90,9 +79,7 @@ impl<'r> Reader<'r, '_> {
     ) -> Option<Accessor<'r>> {
         let place = format!("{}/attributes/{}", self.place, semantic.to_string());
         let index = attribute_of(self.primitive, semantic.clone())?;
-        let accessor = self
-            .packed(semantic)
-            .unwrap_or_else(|| self.context.accessor(index, &place));
+        let accessor = self.packed(semantic).unwrap_or_else(|| self.context.accessor(index, &place));
         self.read(accessor, place, components, types, notes)
     }
 
@@ -125,9 +112,7 @@ impl<'r> Reader<'r, '_> {
         let first = used[0].then(|| set(0)).flatten();
         let second = used[1].then(|| set(1)).flatten();
         let read = |accessor: &Option<Accessor<'_>>, source: u32| {
-            let uv = accessor
-                .as_ref()
-                .map_or([0.0; 2], |a| a.floats(source as usize));
+            let uv = accessor.as_ref().map_or([0.0; 2], |a| a.floats(source as usize));
             uv.map(|x| if x.is_finite() { x } else { 0.0 })
         };
         sources
@@ -163,19 +148,13 @@ impl<'r> Reader<'r, '_> {
 
     /// Tangents of the file; `None` if they have to be generated. Without normals they are ignored, as the
     /// specification requires.
-    pub fn tangents(
-        &self,
-        normals: &[[f32; 3]],
-        sources: &[u32],
-        notes: &mut Vec<Fault>,
-    ) -> Option<Vec<[f32; 4]>> {
+    pub fn tangents(&self, normals: &[[f32; 3]], sources: &[u32], notes: &mut Vec<Fault>) -> Option<Vec<[f32; 4]>> {
         if normals.is_empty() {
             return None;
         }
         let accessor = self.attribute(Semantic::Tangents, &[4], &SIGNED, notes)?;
         let mut tangents: Vec<[f32; 4]> = gather(&accessor, sources);
-        let usable =
-            |t: &[f32; 4]| t.iter().all(|x| x.is_finite()) && t[..3].iter().any(|&x| x != 0.0);
+        let usable = |t: &[f32; 4]| t.iter().all(|x| x.is_finite()) && t[..3].iter().any(|&x| x != 0.0);
         if !tangents.iter().all(usable) {
             notes.push(accessor.fault("has unusable tangents; all are generated instead"));
             return None;
@@ -187,12 +166,7 @@ impl<'r> Reader<'r, '_> {
     }
 
     /// Displacements of the morph targets `items`.
-    pub fn targets(
-        &self,
-        items: &[MorphTarget],
-        sources: &[u32],
-        notes: &mut Vec<Fault>,
-    ) -> Vec<Displacements> {
+    pub fn targets(&self, items: &[MorphTarget], sources: &[u32], notes: &mut Vec<Fault>) -> Vec<Displacements> {
         let targets = items.iter().enumerate();
         targets
             .map(|(i, item)| {
@@ -230,10 +204,7 @@ impl<'r> Reader<'r, '_> {
             };
             let weights = weights.normalized();
             sets.push(Influences {
-                joints: sources
-                    .iter()
-                    .map(|&v| joints.integers(v as usize).map(|j| j as u16))
-                    .collect(),
+                joints: sources.iter().map(|&v| joints.integers(v as usize).map(|j| j as u16)).collect(),
                 weights: gather(&weights, sources),
             });
         }

@@ -16,28 +16,19 @@ pub fn turn_to_normals(triangles: &mut [[u32; 3]], positions: &[[f32; 3]], norma
     }
     let vector = |stream: &[[f32; 3]], v: u32| Vec3::from_array(stream[v as usize]).as_dvec3();
     let usable = |v: &u32| is_usable(&normals[*v as usize]);
-    triangles
-        .par_iter_mut()
-        .with_min_len(16_384)
-        .for_each(|triangle| {
-            let [a, b, c] = triangle.map(|v| vector(positions, v));
-            let corners = triangle.iter().filter(|v| usable(v));
-            let normal: DVec3 = corners
-                .map(|&v| vector(normals, v).normalize_or_zero())
-                .sum();
-            if normal.dot((b - a).cross(c - a)) < 0.0 {
-                triangle.swap(1, 2);
-            }
-        });
+    triangles.par_iter_mut().with_min_len(16_384).for_each(|triangle| {
+        let [a, b, c] = triangle.map(|v| vector(positions, v));
+        let corners = triangle.iter().filter(|v| usable(v));
+        let normal: DVec3 = corners.map(|&v| vector(normals, v).normalize_or_zero()).sum();
+        if normal.dot((b - a).cross(c - a)) < 0.0 {
+            triangle.swap(1, 2);
+        }
+    });
 }
 
 /// Replaces normals without a direction by the mean of the normals of adjacent faces, weighted by area. Returns the
 /// number of such normals; if no normal is usable, `normals` is emptied.
-pub fn mend_normals(
-    triangles: &[[u32; 3]],
-    positions: &[[f32; 3]],
-    normals: &mut Vec<[f32; 3]>,
-) -> usize {
+pub fn mend_normals(triangles: &[[u32; 3]], positions: &[[f32; 3]], normals: &mut Vec<[f32; 3]>) -> usize {
     let unusable = normals.iter().filter(|n| !is_usable(n)).count();
     if unusable == normals.len() {
         normals.clear();

@@ -26,10 +26,7 @@ pub struct Strokes {
 
 /// Whether a topology consists of points or lines (glTF 2.0, section 3.7.2.1).
 pub fn are_made_of(mode: Mode) -> bool {
-    matches!(
-        mode,
-        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
-    )
+    matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip)
 }
 
 /// Largest number of triangles that `count` indices make; 0 for topologies of triangles.
@@ -77,12 +74,7 @@ pub fn assemble(mode: Mode, path: &[Option<u32>], same: impl Fn(u32, u32) -> boo
                 let mut part: Vec<u32> = part.iter().copied().flatten().collect();
                 part.dedup_by(|a, b| same(*a, *b));
                 if closed {
-                    while part.len() > 1
-                        && part
-                            .first()
-                            .zip(part.last())
-                            .is_some_and(|(a, b)| same(*a, *b))
-                    {
+                    while part.len() > 1 && part.first().zip(part.last()).is_some_and(|(a, b)| same(*a, *b)) {
                         part.pop();
                     }
                 }
@@ -99,14 +91,12 @@ impl Strokes {
         let mut strokes = Self::default();
         for &at in points {
             let first = strokes.corners.len() as u32;
-            strokes
-                .corners
-                .extend((0..StrokePart::DISC_CORNERS).map(|index| Corner {
-                    part: StrokePart::Disc(index),
-                    at,
-                    other: at,
-                    beyond: at,
-                }));
+            strokes.corners.extend((0..StrokePart::DISC_CORNERS).map(|index| Corner {
+                part: StrokePart::Disc(index),
+                at,
+                other: at,
+                beyond: at,
+            }));
             let fan = (1..StrokePart::DISC_CORNERS - 1).map(|k| [first, first + k, first + k + 1]);
             strokes.triangles.extend(fan);
         }
@@ -132,11 +122,7 @@ impl Strokes {
         let vertex = |index: usize| path.get(index).copied();
         let wrapped = |index: usize| if closed { vertex(index % count) } else { None };
         for s in 0..if closed { count } else { count - 1 } {
-            let before = if s > 0 {
-                vertex(s - 1)
-            } else {
-                wrapped(count - 1)
-            };
+            let before = if s > 0 { vertex(s - 1) } else { wrapped(count - 1) };
             let after = vertex(s + 2).or_else(|| wrapped(s + 2));
             if let (Some(from), Some(to)) = (vertex(s), vertex(s + 1).or_else(|| wrapped(s + 1))) {
                 self.add_segment(before, from, to, after);
@@ -147,26 +133,13 @@ impl Strokes {
     /// Adds a segment of a line, and the joint to the one after it.
     fn add_segment(&mut self, before: Option<u32>, from: u32, to: u32, after: Option<u32>) {
         let first = self.corners.len() as u32;
-        let start = |part| Corner {
-            part,
-            at: from,
-            other: to,
-            beyond: before.unwrap_or(from),
-        };
-        let end = |part| Corner {
-            part,
-            at: to,
-            other: from,
-            beyond: after.unwrap_or(to),
-        };
+        let start = |part| Corner { part, at: from, other: to, beyond: before.unwrap_or(from) };
+        let end = |part| Corner { part, at: to, other: from, beyond: after.unwrap_or(to) };
         use StrokePart::{JointCentre, JointFirst, JointSecond, Left, Right};
-        self.corners
-            .extend([start(Left), end(Right), end(Left), start(Right)]);
-        self.triangles
-            .extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|v| first + v)));
+        self.corners.extend([start(Left), end(Right), end(Left), start(Right)]);
+        self.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|v| first + v)));
         if after.is_some() {
-            self.corners
-                .extend([JointCentre, JointFirst, JointSecond].map(end));
+            self.corners.extend([JointCentre, JointFirst, JointSecond].map(end));
             self.triangles.push([4, 5, 6].map(|v| first + v));
         }
     }
@@ -178,21 +151,13 @@ impl Strokes {
         let mut named: Vec<[u32; 3]> = self.corners.iter().map(named).collect();
         let used = triangles::compact(&mut named, vertex_count);
         for (corner, [at, other, beyond]) in self.corners.iter_mut().zip(named) {
-            *corner = Corner {
-                at,
-                other,
-                beyond,
-                ..*corner
-            };
+            *corner = Corner { at, other, beyond, ..*corner };
         }
         for vertex in self.triangles.as_flattened_mut() {
             *vertex += used.len() as u32;
         }
-        let of_corners: Vec<u32> = self
-            .corners
-            .iter()
-            .filter_map(|corner| used.get(corner.at as usize).copied())
-            .collect();
+        let of_corners: Vec<u32> =
+            self.corners.iter().filter_map(|corner| used.get(corner.at as usize).copied()).collect();
         used.into_iter().chain(of_corners).collect()
     }
 }

@@ -64,14 +64,10 @@ impl SortedFaces {
         of_places.retain(|_, corners| *corners > MOST_CORNERS);
         let is_crowded = |v: &u32| !of_places.is_empty() && of_places.contains_key(&place(*v));
         let faces = (0..).zip(&primitive.triangles);
-        let (crowded, averaged): (Vec<_>, Vec<_>) = faces
-            .filter(|(_, triangle)| has_area(triangle))
-            .partition(|(_, triangle)| triangle.iter().any(is_crowded));
+        let (crowded, averaged): (Vec<_>, Vec<_>) =
+            faces.filter(|(_, triangle)| has_area(triangle)).partition(|(_, triangle)| triangle.iter().any(is_crowded));
         let indices = |faces: Vec<(u32, &[u32; 3])>| faces.into_iter().map(|(i, _)| i).collect();
-        Self {
-            averaged: indices(averaged),
-            crowded: indices(crowded),
-        }
+        Self { averaged: indices(averaged), crowded: indices(crowded) }
     }
 }
 
@@ -98,8 +94,7 @@ impl MikktspacePrimitive<'_> {
     /// Sets the tangent of a triangle by itself: the direction in which its u grows.
     fn set_own_tangent(&mut self, face: usize) {
         let [a, b, c] = [0, 1, 2].map(|i| Vec3::from_array(self.position(face, i)).as_dvec3());
-        let [uv, uv_b, uv_c] =
-            [0, 1, 2].map(|i| Vec2::from_array(self.tex_coord(face, i)).as_dvec2());
+        let [uv, uv_b, uv_c] = [0, 1, 2].map(|i| Vec2::from_array(self.tex_coord(face, i)).as_dvec2());
         let (to_b, to_c) = (uv_b - uv, uv_c - uv);
         let area = to_b.perp_dot(to_c);
         let along = ((b - a) * to_c.y - (c - a) * to_b.y) * area.signum();
@@ -201,12 +196,7 @@ fn split(primitive: &mut Primitive, corners: &[Option<[f32; 4]>]) {
     select(&mut primitive.normals, &origins);
     select(&mut primitive.uvs, &origins);
     select(&mut primitive.colors, &origins);
-    for Displacements {
-        positions,
-        normals,
-        tangents,
-    } in &mut primitive.targets
-    {
+    for Displacements { positions, normals, tangents } in &mut primitive.targets {
         select(positions, &origins);
         select(normals, &origins);
         select(tangents, &origins);
@@ -225,10 +215,7 @@ fn select<T: Copy>(stream: &mut Vec<T>, origins: &[u32]) {
 
 /// A tangent for texture coordinates that determine none: any vector perpendicular to the normal.
 fn any_tangent(primitive: &Primitive, vertex: usize) -> [f32; 4] {
-    let normal = primitive
-        .normals
-        .get(vertex)
-        .map_or(Vec3::Z, |&n| Vec3::from_array(n).normalize_or(Vec3::Z));
+    let normal = primitive.normals.get(vertex).map_or(Vec3::Z, |&n| Vec3::from_array(n).normalize_or(Vec3::Z));
     let [x, y, z] = normal.any_orthonormal_vector().to_array();
     [x, y, z, 1.0]
 }

@@ -13,11 +13,7 @@ pub fn number(mode: Mode, count: usize) -> usize {
 }
 
 /// Triangles of `count` indices, and the number of indices that are left over.
-pub fn assemble(
-    mode: Mode,
-    count: usize,
-    index: impl Fn(usize) -> u32 + Sync,
-) -> (Vec<[u32; 3]>, usize) {
+pub fn assemble(mode: Mode, count: usize, index: impl Fn(usize) -> u32 + Sync) -> (Vec<[u32; 3]>, usize) {
     let triangle = |t: usize| match mode {
         Mode::Triangles => [index(3 * t), index(3 * t + 1), index(3 * t + 2)],
         // Every other triangle is reversed, so that all have the same winding.
@@ -29,11 +25,7 @@ pub fn assemble(
         _ if count < 3 => count,
         _ => 0,
     };
-    let triangles = (0..number(mode, count))
-        .into_par_iter()
-        .with_min_len(16_384)
-        .map(triangle)
-        .collect();
+    let triangles = (0..number(mode, count)).into_par_iter().with_min_len(16_384).map(triangle).collect();
     (triangles, left_over)
 }
 
@@ -76,18 +68,9 @@ mod tests {
     #[test]
     fn topologies_keep_the_winding() {
         let assemble = |mode, count| assemble(mode, count, |i| i as u32);
-        assert_eq!(
-            assemble(Mode::Triangles, 7),
-            (vec![[0, 1, 2], [3, 4, 5]], 1)
-        );
-        assert_eq!(
-            assemble(Mode::TriangleStrip, 5),
-            (vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]], 0)
-        );
-        assert_eq!(
-            assemble(Mode::TriangleFan, 4),
-            (vec![[1, 2, 0], [2, 3, 0]], 0)
-        );
+        assert_eq!(assemble(Mode::Triangles, 7), (vec![[0, 1, 2], [3, 4, 5]], 1));
+        assert_eq!(assemble(Mode::TriangleStrip, 5), (vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]], 0));
+        assert_eq!(assemble(Mode::TriangleFan, 4), (vec![[1, 2, 0], [2, 3, 0]], 0));
         assert_eq!(assemble(Mode::TriangleFan, 2), (vec![], 2));
     }
 

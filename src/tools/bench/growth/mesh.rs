@@ -36,8 +36,7 @@ impl Mesh {
         for row in 0..rows {
             for corner in (0..columns).map(|column| first + row * side + column) {
                 self.triangles.push([corner, corner + side, corner + 1]);
-                self.triangles
-                    .push([corner + 1, corner + side, corner + side + 1]);
+                self.triangles.push([corner + 1, corner + side, corner + side + 1]);
             }
         }
     }
@@ -53,11 +52,7 @@ impl Mesh {
         let geometry = Geometry {
             origin: DVec3::ZERO,
             positions: self.positions,
-            streams: VertexStreams {
-                normals: self.normals,
-                colors: self.colors,
-                ..VertexStreams::default()
-            },
+            streams: VertexStreams { normals: self.normals, colors: self.colors, ..VertexStreams::default() },
             triangles: self.triangles,
             draws,
             instances: Vec::new(),

@@ -38,12 +38,7 @@ pub struct GrowthStep {
 
 impl Growth {
     /// All quantities, each with a series of its own.
-    pub const ALL: [Self; 4] = [
-        Self::Triangles,
-        Self::Pixels,
-        Self::Superpixels,
-        Self::Depth,
-    ];
+    pub const ALL: [Self; 4] = [Self::Triangles, Self::Pixels, Self::Superpixels, Self::Depth];
 
     /// Number of scenes in the series.
     #[must_use]

@@ -9,14 +9,7 @@ use glam::{DMat3, DVec2, DVec3, Vec3};
 /// Numbers of triangles of the series [`super::Growth::Triangles`].
 pub(super) const TRIANGLES: [u32; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 /// Image sizes of the series [`super::Growth::Pixels`].
-pub(super) const SIZES: [[u32; 2]; 6] = [
-    [427, 240],
-    [854, 480],
-    [1280, 720],
-    [1920, 1080],
-    [3840, 2160],
-    [7680, 4320],
-];
+pub(super) const SIZES: [[u32; 2]; 6] = [[427, 240], [854, 480], [1280, 720], [1920, 1080], [3840, 2160], [7680, 4320]];
 /// Percentages of superpixels of the series [`super::Growth::Superpixels`].
 pub(super) const PERCENTAGES: [u32; 8] = [0, 1, 5, 10, 25, 50, 75, 100];
 /// Numbers of layers of the series [`super::Growth::Depth`].
@@ -26,8 +19,7 @@ pub(super) const LAYERS: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthStep {
     const SIDE: f32 = 24.0;
     let cells = (f64::from(triangles) / 2.0).sqrt().round() as u32;
-    let height =
-        |x: f32, z: f32| 0.9 * (1.3 * x).sin() * (1.1 * z).cos() + 0.25 * (3.1 * x + 1.7 * z).sin();
+    let height = |x: f32, z: f32| 0.9 * (1.3 * x).sin() * (1.1 * z).cos() + 0.25 * (3.1 * x + 1.7 * z).sin();
     let slope = |x: f32, z: f32| {
         let shared = 0.25 * (3.1 * x + 1.7 * z).cos();
         [
@@ -51,20 +43,10 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthSte
     let (sin, cos) = std::f64::consts::FRAC_PI_8.sin_cos();
     let camera = Camera {
         eye: DVec3::new(0.0, 3.0, 1.0),
-        axes: DMat3::from_cols(
-            DVec3::X,
-            DVec3::new(0.0, cos, -sin),
-            DVec3::new(0.0, sin, cos),
-        ),
+        axes: DMat3::from_cols(DVec3::X, DVec3::new(0.0, cos, -sin), DVec3::new(0.0, sin, cos)),
         ..straight_ahead()
     };
-    GrowthStep {
-        value,
-        size,
-        scene,
-        pose,
-        camera,
-    }
+    GrowthStep { value, size, scene, pose, camera }
 }
 
 /// Upright strips two pixels wide, slightly tilted; `percentage` of them alternate between light and dark.
@@ -91,13 +73,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
         });
     }
     let (scene, pose) = mesh.build(double_sided(true));
-    GrowthStep {
-        value: f64::from(percentage),
-        size,
-        scene,
-        pose,
-        camera: straight_ahead(),
-    }
+    GrowthStep { value: f64::from(percentage), size, scene, pose, camera: straight_ahead() }
 }
 
 /// Layers behind each other with a pattern of two-coloured squares, the farthest drawn first.
@@ -124,13 +100,7 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
         }
     }
     let (scene, pose) = mesh.build(double_sided(true));
-    GrowthStep {
-        value: f64::from(count),
-        size,
-        scene,
-        pose,
-        camera: straight_ahead(),
-    }
+    GrowthStep { value: f64::from(count), size, scene, pose, camera: straight_ahead() }
 }
 
 /// Vertex at a place of the image in pixels, at `distance` along the direction of view of [`straight_ahead`].
@@ -138,23 +108,14 @@ fn at([x, y]: [f32; 2], distance: f32, color: Vec3, size: [u32; 2]) -> Vertex {
     let [width, height] = size.map(|side| side as f32);
     let scale = 2.0 * distance / height;
     Vertex {
-        position: Vec3::new(
-            (x - 0.5 * width) * scale,
-            (0.5 * height - y) * scale,
-            -distance,
-        ),
+        position: Vec3::new((x - 0.5 * width) * scale, (0.5 * height - y) * scale, -distance),
         normal: Vec3::Z,
         color,
     }
 }
 
 fn double_sided(unlit: bool) -> Material {
-    Material {
-        double_sided: true,
-        metallic: 0.0,
-        unlit,
-        ..Material::default()
-    }
+    Material { double_sided: true, metallic: 0.0, unlit, ..Material::default() }
 }
 
 /// Camera at the world's origin that looks along -z, with a vertical field of view of 90 degrees.
@@ -162,11 +123,7 @@ fn straight_ahead() -> Camera {
     Camera {
         eye: DVec3::ZERO,
         axes: DMat3::IDENTITY,
-        projection: Projection::Perspective {
-            fov: std::f64::consts::FRAC_PI_2,
-            near: 0.01,
-            far: None,
-        },
+        projection: Projection::Perspective { fov: std::f64::consts::FRAC_PI_2, near: 0.01, far: None },
         shift: DVec2::ZERO,
     }
 }

@@ -9,12 +9,7 @@ use crate::scene::AlphaMode;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
     let size = [length.choose(64, 512); 2];
-    let mesh = delaunay(
-        6,
-        f64::from(size[0]) / 2.0,
-        length.choose(12, 60),
-        Depths::Random,
-    );
+    let mesh = delaunay(6, f64::from(size[0]) / 2.0, length.choose(12, 60), Depths::Random);
     let mut plain = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
     plain.add_mesh(0, &mesh, size[1], |triangle| triangle);
     let mut findings = Vec::new();
@@ -28,18 +23,9 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         let duplicates = |winners: &[bool]| share(winners.iter().filter(|first| !**first).count());
         let disagree = raster.iter().zip(&sampled).filter(|(a, b)| a != b).count();
         for (unit, measured) in [
-            (
-                "share of pixels that show the later one, first pass",
-                duplicates(&raster),
-            ),
-            (
-                "share of pixels that show the later one, samples",
-                duplicates(&sampled),
-            ),
-            (
-                "share of pixels in which the passes disagree",
-                share(disagree),
-            ),
+            ("share of pixels that show the later one, first pass", duplicates(&raster)),
+            ("share of pixels that show the later one, samples", duplicates(&sampled)),
+            ("share of pixels in which the passes disagree", share(disagree)),
         ] {
             findings.push(Finding {
                 case: what.to_owned(),

@@ -38,10 +38,7 @@ pub(super) fn count(
 ) -> Result<Hits, RenderError> {
     let settings = settings.clone().attributes(true);
     let mut alphas = |opacity: f32, mode: AlphaMode| {
-        let stage = Stage {
-            materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)],
-            ..stage.clone()
-        };
+        let stage = Stage { materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)], ..stage.clone() };
         stage.seen_by(headless, &settings, camera)
     };
     let opaque = alphas(1.0, AlphaMode::Opaque)?;

@@ -10,10 +10,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     let size = length.choose([40, 30], [320, 200]);
     let stage = soup(9, size, length.choose(60, 2000), 0);
     let with = |method: MethodKind, samples| {
-        once(size)
-            .attributes(false)
-            .method(method.with_samples(samples))
-            .map_superpixels(|options| options.thin(false))
+        once(size).attributes(false).method(method.with_samples(samples)).map_superpixels(|options| options.thin(false))
     };
     let methods = [
         ("none", with(MethodKind::None, 1)),
@@ -41,29 +38,14 @@ fn hostile() -> [(&'static str, [[f32; 3]; 3]); 9] {
     let (right, up) = ([1.0, 0.0, -1.0], [0.0, 1.0, -1.0]);
     [
         ("a vertex that is NaN", [[f32::NAN; 3], right, up]),
-        (
-            "a coordinate that is NaN",
-            [[0.0, f32::NAN, -1.0], right, up],
-        ),
+        ("a coordinate that is NaN", [[0.0, f32::NAN, -1.0], right, up]),
         ("an infinite vertex", [[f32::INFINITY; 3], right, up]),
-        (
-            "an infinite depth",
-            [[0.0, 0.0, f32::NEG_INFINITY], right, up],
-        ),
-        (
-            "the largest numbers",
-            [[f32::MAX; 3], [-f32::MAX; 3], [f32::MAX; 3]],
-        ),
-        (
-            "denormals",
-            [[1e-40, 0.0, -1e-40], [0.0, 1e-40, -1e-40], [1e-41; 3]],
-        ),
+        ("an infinite depth", [[0.0, 0.0, f32::NEG_INFINITY], right, up]),
+        ("the largest numbers", [[f32::MAX; 3], [-f32::MAX; 3], [f32::MAX; 3]]),
+        ("denormals", [[1e-40, 0.0, -1e-40], [0.0, 1e-40, -1e-40], [1e-41; 3]]),
         ("one vertex thrice", [up; 3]),
         ("one vertex twice", [right, up, up]),
-        (
-            "three in a line",
-            [[-0.5, 0.25, -1.0], [0.0, 0.25, -1.0], [0.5, 0.25, -1.0]],
-        ),
+        ("three in a line", [[-0.5, 0.25, -1.0], [0.0, 0.25, -1.0], [0.5, 0.25, -1.0]]),
     ]
 }
 

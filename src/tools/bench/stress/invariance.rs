@@ -24,11 +24,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         random.shuffle(opaque);
         random.shuffle(blended);
         let image = shuffled.render(headless, &settings)?;
-        findings.push(same(
-            format!("another order of triangles, {seed}"),
-            &first,
-            &image,
-        ));
+        findings.push(same(format!("another order of triangles, {seed}"), &first, &image));
     }
     for turns in [1, 2] {
         let image = turned(&stage, turns).render(headless, &settings)?;
@@ -50,9 +46,7 @@ fn less_memory(
     loop {
         let less = settings.clone().max_memory(Some(used / 4 * 3));
         let image = match stage.render(headless, &less) {
-            Err(RenderError::Engine(
-                EngineError::Memory { .. } | EngineError::Unfinished { .. },
-            )) => return Ok(()),
+            Err(RenderError::Engine(EngineError::Memory { .. } | EngineError::Unfinished { .. })) => return Ok(()),
             done => done?,
         };
         used = image.statistics.memory_bytes;

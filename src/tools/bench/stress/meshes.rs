@@ -23,14 +23,7 @@ impl Mesh {
     /// If there is no triangle with this index.
     #[must_use]
     pub fn corners(&self, triangle: usize, permutation: usize) -> [[f32; 4]; 3] {
-        const PERMUTATIONS: [[usize; 3]; 6] = [
-            [0, 1, 2],
-            [1, 2, 0],
-            [2, 0, 1],
-            [0, 2, 1],
-            [2, 1, 0],
-            [1, 0, 2],
-        ];
+        const PERMUTATIONS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         PERMUTATIONS[permutation % 6].map(|corner| self.vertices[self.triangles[triangle][corner]])
     }
 }
@@ -85,15 +78,10 @@ pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
         _ => random.range(-1.0, 1.0) * (0.24 * step - 1.0 / 16.0).max(0.0),
     };
     let positions: Vec<[f64; 2]> = (0..side * side)
-        .map(|index| {
-            [index % side, index / side].map(|i| -half - 1.0 + i as f64 * step + jitter(i))
-        })
+        .map(|index| [index % side, index / side].map(|i| -half - 1.0 + i as f64 * step + jitter(i)))
         .collect();
     let mut random = Random::new(!seed);
-    let vertices = positions
-        .iter()
-        .map(|&position| depths.vertex(&mut random, position))
-        .collect();
+    let vertices = positions.iter().map(|&position| depths.vertex(&mut random, position)).collect();
     let mut triangles = Vec::with_capacity(2 * cells * cells);
     for corner in (0..cells).flat_map(|row| (0..cells).map(move |column| row * side + column)) {
         let [a, b, c, d] = [corner, corner + 1, corner + 1 + side, corner + side];
@@ -104,11 +92,7 @@ pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Mesh {
-        name: format!("{cells} x {cells} Delaunay cells, {depths:?}"),
-        vertices,
-        triangles,
-    }
+    Mesh { name: format!("{cells} x {cells} Delaunay cells, {depths:?}"), vertices, triangles }
 }
 
 /// Positive if the last point lies in the circumcircle of the others, which are counter-clockwise in the axes' sense.
@@ -127,9 +111,7 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let hub = [random.range(-half, half), random.range(-half, half)];
     let mut angles: Vec<f64> = (0..spokes)
-        .map(|spoke| {
-            (spoke as f64 + random.range(0.1, 0.9)) / spokes as f64 * std::f64::consts::TAU
-        })
+        .map(|spoke| (spoke as f64 + random.range(0.1, 0.9)) / spokes as f64 * std::f64::consts::TAU)
         .collect();
     angles.sort_unstable_by(f64::total_cmp);
     // The chord between neighbouring spokes stays outside of the square from every hub in it.
@@ -142,9 +124,7 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     Mesh {
         name: format!("fan of {spokes}, {depths:?}"),
         vertices,
-        triangles: (0..spokes)
-            .map(|spoke| [0, 1 + spoke, 1 + (spoke + 1) % spokes])
-            .collect(),
+        triangles: (0..spokes).map(|spoke| [0, 1 + spoke, 1 + (spoke + 1) % spokes]).collect(),
     }
 }
 
@@ -161,24 +141,12 @@ pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
         }
         heights.extend([-half - 2.0, half + 2.0]);
         heights.sort_unstable_by(f64::total_cmp);
-        heights
-            .into_iter()
-            .map(|y| depths.vertex(random, [x, y]))
-            .collect::<Vec<_>>()
+        heights.into_iter().map(|y| depths.vertex(random, [x, y])).collect::<Vec<_>>()
     };
     let mut vertices = side(&mut random, -3.0 * half - 0.3);
     vertices.extend(side(&mut random, 3.0 * half + 0.7));
-    let strip = |row: usize| {
-        [
-            [row, row + 1, count + row],
-            [row + 1, count + row + 1, count + row],
-        ]
-    };
-    Mesh {
-        name: format!("slivers, {depths:?}"),
-        vertices,
-        triangles: (0..count - 1).flat_map(strip).collect(),
-    }
+    let strip = |row: usize| [[row, row + 1, count + row], [row + 1, count + row + 1, count + row]];
+    Mesh { name: format!("slivers, {depths:?}"), vertices, triangles: (0..count - 1).flat_map(strip).collect() }
 }
 
 /// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind the camera. The near plane
@@ -212,9 +180,7 @@ pub fn ground(seed: u64, half: f64, horizon: f64, cells: usize) -> Mesh {
     Mesh {
         name: "ground plane through the eye".to_owned(),
         vertices,
-        triangles: corners
-            .flat_map(|a| [[a, a + 1, a + 1 + side], [a, a + 1 + side, a + side]])
-            .collect(),
+        triangles: corners.flat_map(|a| [[a, a + 1, a + 1 + side], [a, a + 1 + side, a + side]]).collect(),
     }
 }
 

@@ -77,49 +77,21 @@ pub struct Check {
 impl Check {
     /// All checks.
     pub const ALL: [Self; 8] = [
-        Self {
-            name: "partition of unity",
-            run: partition::check,
-        },
-        Self {
-            name: "near plane and fields of view",
-            run: near::check,
-        },
-        Self {
-            name: "scale, origin and depth",
-            run: scale::check,
-        },
-        Self {
-            name: "coincident surfaces",
-            run: coincident::check,
-        },
-        Self {
-            name: "hostile vertices",
-            run: hostile::check,
-        },
-        Self {
-            name: "attributes of slivers",
-            run: slivers::check,
-        },
-        Self {
-            name: "invariance",
-            run: invariance::check,
-        },
-        Self {
-            name: "motion",
-            run: motion::check,
-        },
+        Self { name: "partition of unity", run: partition::check },
+        Self { name: "near plane and fields of view", run: near::check },
+        Self { name: "scale, origin and depth", run: scale::check },
+        Self { name: "coincident surfaces", run: coincident::check },
+        Self { name: "hostile vertices", run: hostile::check },
+        Self { name: "attributes of slivers", run: slivers::check },
+        Self { name: "invariance", run: invariance::check },
+        Self { name: "motion", run: motion::check },
     ];
 
     /// Runs the check.
     ///
     /// # Errors
     /// As [`Headless::render`].
-    pub fn run(
-        &self,
-        headless: &mut Headless,
-        length: Length,
-    ) -> Result<Vec<Finding>, RenderError> {
+    pub fn run(&self, headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
         (self.run)(headless, length)
     }
 }

@@ -74,32 +74,15 @@ impl Wires {
             let end = f64::from(size[1]);
             let place = |x: f64, y: f64| seen_at([middle + x + slope * y, y], 2.0, size[1]);
             let half = 0.5 * across;
-            stage.add_quad(
-                0,
-                [
-                    place(-half, -end),
-                    place(half, -end),
-                    place(half, end),
-                    place(-half, end),
-                ],
-            );
+            stage.add_quad(0, [place(-half, -end), place(half, -end), place(half, end), place(-half, end)]);
             energy += across;
         }
-        Self {
-            size,
-            stage,
-            energy,
-        }
+        Self { size, stage, energy }
     }
 
     /// Pans right by one pixel, and down by less, in `frames` steps. Returns the largest relative error of an image's
     /// brightness, and the root mean squared relative error of a row's brightness.
-    fn pan(
-        &self,
-        headless: &mut Headless,
-        settings: &Settings,
-        frames: u32,
-    ) -> Result<[f64; 2], RenderError> {
+    fn pan(&self, headless: &mut Headless, settings: &Settings, frames: u32) -> Result<[f64; 2], RenderError> {
         let (scene, pose) = self.stage.build();
         let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, settings)?;
@@ -109,10 +92,7 @@ impl Wires {
         for step in 0..frames {
             let way = f64::from(step) / f64::from(frames);
             let pixels = DVec2::new(way, 0.37 * way);
-            let camera = Camera {
-                shift: pixels / DVec2::new(columns as f64, rows as f64),
-                ..camera()
-            };
+            let camera = Camera { shift: pixels / DVec2::new(columns as f64, rows as f64), ..camera() };
             let image = headless.render(&mut frame, &camera)?;
             let mut whole = 0.0;
             for row in image.colors.chunks_exact(columns) {

@@ -26,11 +26,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
             let camera = Camera {
                 eye: DVec3::from([0; 3].map(|_| random.range(-0.4, 0.4))),
                 axes: orientation(&mut random),
-                projection: Projection::Perspective {
-                    fov: field.to_radians(),
-                    near: NEAR,
-                    far: None,
-                },
+                projection: Projection::Perspective { fov: field.to_radians(), near: NEAR, far: None },
                 shift: DVec2::ZERO,
             };
             let settings = everywhere([length.choose(48, 96); 2], Pattern::Sobol, 16);
@@ -46,9 +42,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
 /// and latitudes that rows and columns share, so that its quadrilaterals are plane.
 fn closed_surface(random: &mut Random, rings: usize) -> Stage {
     let mut steps = |count: usize, length: f64| -> Vec<f64> {
-        (0..count)
-            .map(|step| (step as f64 + random.range(0.1, 0.9)) / count as f64 * length)
-            .collect()
+        (0..count).map(|step| (step as f64 + random.range(0.1, 0.9)) / count as f64 * length).collect()
     };
     let mut polar = steps(rings, PI);
     polar.insert(0, 0.0);
@@ -56,11 +50,7 @@ fn closed_surface(random: &mut Random, rings: usize) -> Stage {
     let mut around = steps(rings, TAU);
     around.extend(around.first().copied());
     let vertex = |polar: f64, around: f64| {
-        let ring = if polar == 0.0 || polar == PI {
-            0.0
-        } else {
-            polar.sin()
-        };
+        let ring = if polar == 0.0 || polar == PI { 0.0 } else { polar.sin() };
         [ring * around.cos(), polar.cos(), ring * around.sin()].map(|v| v as f32)
     };
     let mut stage = Stage::default();
@@ -70,19 +60,11 @@ fn closed_surface(random: &mut Random, rings: usize) -> Stage {
                 continue;
             };
             if upper > 0.0 {
-                let corners = [
-                    vertex(upper, left),
-                    vertex(upper, right),
-                    vertex(lower, left),
-                ];
+                let corners = [vertex(upper, left), vertex(upper, right), vertex(lower, left)];
                 stage.add(0, corners);
             }
             if lower < PI {
-                let corners = [
-                    vertex(upper, right),
-                    vertex(lower, right),
-                    vertex(lower, left),
-                ];
+                let corners = [vertex(upper, right), vertex(lower, right), vertex(lower, left)];
                 stage.add(0, corners);
             }
         }

@@ -56,13 +56,7 @@ fn of_mesh(
     settings: &Settings,
     counts: impl Fn([u32; 2]) -> bool,
 ) -> Result<Hits, RenderError> {
-    count(
-        headless,
-        &stage(mesh, settings),
-        settings,
-        &camera(),
-        counts,
-    )
+    count(headless, &stage(mesh, settings), settings, &camera(), counts)
 }
 
 /// Stage of a mesh's triangles, with their vertices in all orders.
@@ -74,16 +68,7 @@ fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
 
 /// Adds findings about holes and double hits, neither of which is allowed.
 pub(super) fn report(findings: &mut Vec<Finding>, case: &str, hits: Hits) {
-    for (unit, measured) in [
-        ("samples without a hit", hits.holes),
-        ("hits other than one", hits.excess),
-    ] {
-        findings.push(Finding {
-            case: case.to_owned(),
-            checked: hits.samples,
-            unit,
-            measured,
-            allowed: Some(0.0),
-        });
+    for (unit, measured) in [("samples without a hit", hits.holes), ("hits other than one", hits.excess)] {
+        findings.push(Finding { case: case.to_owned(), checked: hits.samples, unit, measured, allowed: Some(0.0) });
     }
 }

@@ -44,16 +44,9 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         pose.geometry.origin = away;
         let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, &settings)?;
-        let camera = Camera {
-            eye: away,
-            ..camera()
-        };
+        let camera = Camera { eye: away, ..camera() };
         let image = headless.render(&mut frame, &camera)?;
-        findings.push(same(
-            format!("{far:e} units away in each axis"),
-            &first,
-            &image,
-        ));
+        findings.push(same(format!("{far:e} units away in each axis"), &first, &image));
     }
     for samples in [1, 16] {
         findings.push(ladder(headless, samples)?);
@@ -62,12 +55,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
 }
 
 /// Image of a stage whose lengths, the near plane's distance included, are scaled by `factor`.
-fn scaled(
-    headless: &mut Headless,
-    stage: &Stage,
-    settings: &Settings,
-    factor: f64,
-) -> Result<Rendered, RenderError> {
+fn scaled(headless: &mut Headless, stage: &Stage, settings: &Settings, factor: f64) -> Result<Rendered, RenderError> {
     let mut stage = stage.clone();
     for corner in stage.triangles.iter_mut().flat_map(|t| &mut t.corners) {
         *corner = corner.map(|v| (f64::from(v) * factor) as f32);
@@ -76,14 +64,7 @@ fn scaled(
 }
 
 fn near_at(near: f64) -> Camera {
-    Camera {
-        projection: Projection::Perspective {
-            fov: std::f64::consts::FRAC_PI_2,
-            near,
-            far: None,
-        },
-        ..camera()
-    }
+    Camera { projection: Projection::Perspective { fov: std::f64::consts::FRAC_PI_2, near, far: None }, ..camera() }
 }
 
 /// Finding on columns at distances from 10^-3 to 10^6 in random order, each in front of a wall that is farther by a
@@ -96,8 +77,7 @@ fn ladder(headless: &mut Headless, samples: u32) -> Result<Finding, RenderError>
     let mut order: Vec<(u32, bool)> = (0..STEPS).flat_map(|s| [(s, true), (s, false)]).collect();
     Random::new(4).shuffle(&mut order);
     for (step, wall) in order {
-        let distance =
-            10.0_f64.powi(step as i32 - 3) * if wall { 1.0 + 1.0 / 65536.0 } else { 1.0 };
+        let distance = 10.0_f64.powi(step as i32 - 3) * if wall { 1.0 + 1.0 / 65536.0 } else { 1.0 };
         let left = f64::from(step * COLUMN) - f64::from(size[0]) / 2.0;
         let right = left + f64::from(COLUMN);
         let corners = [[left, -20.0], [right, -20.0], [right, 20.0], [left, 20.0]];
@@ -110,16 +90,10 @@ fn ladder(headless: &mut Headless, samples: u32) -> Result<Finding, RenderError>
     let settings = everywhere(size, Pattern::Sobol, samples);
     let image = stage.seen_by(headless, &settings, &near_at(1e-4))?;
     Ok(Finding {
-        case: format!(
-            "distances from 0.001 to 1,000,000, each 2^-16 before another, {samples} samples"
-        ),
+        case: format!("distances from 0.001 to 1,000,000, each 2^-16 before another, {samples} samples"),
         checked: image.colors.len() as u64 * u64::from(samples),
         unit: "samples of the farther surface",
-        measured: image
-            .colors
-            .iter()
-            .map(|color| ((1.0 - f64::from(color[0])) * f64::from(samples)).round())
-            .sum(),
+        measured: image.colors.iter().map(|color| ((1.0 - f64::from(color[0])) * f64::from(samples)).round()).sum(),
         allowed: Some(0.0),
     })
 }

@@ -22,10 +22,8 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         delaunay(3, half, length.choose(60, 400), Depths::Random),
         ground(3, half, 2.0, 24),
     ];
-    let sampled = |shading| {
-        everywhere([side; 2], Pattern::Sobol, 16)
-            .map_superpixels(|options| options.shading(shading))
-    };
+    let sampled =
+        |shading| everywhere([side; 2], Pattern::Sobol, 16).map_superpixels(|options| options.shading(shading));
     let one = sampled(Shading::Triangle).method(Method::None);
     let methods = [
         ("one sample", one),
@@ -52,11 +50,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
                 // `f32::max` ignores NaN, but a sum keeps it.
                 let parts = [r, g, b].map(worst);
                 let sum: f32 = parts.iter().sum();
-                if sum.is_nan() {
-                    f64::INFINITY
-                } else {
-                    f64::from(parts.into_iter().fold(0.0, f32::max))
-                }
+                if sum.is_nan() { f64::INFINITY } else { f64::from(parts.into_iter().fold(0.0, f32::max)) }
             };
             findings.push(Finding {
                 case: format!("{}, {name}", mesh.name),

@@ -13,9 +13,8 @@ const COLORS: usize = 16;
 pub fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);
     let mut channel = || random.below(65) as f32 / 64.0;
-    let mut materials: Vec<Material> = (0..COLORS)
-        .map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque))
-        .collect();
+    let mut materials: Vec<Material> =
+        (0..COLORS).map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque)).collect();
     materials.push(flat([0.25, 0.5, 0.75, 0.5], AlphaMode::Blend));
     let mut stage = Stage::new(materials);
     let mut random = Random::new(!seed);
@@ -25,11 +24,7 @@ pub fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
             let place = middle.map(|middle| middle + random.range(-20.0, 20.0));
             seen_at(place, random.range(1.0, 9.0), size[1])
         });
-        let material = if index + blend < count {
-            index % COLORS
-        } else {
-            COLORS
-        };
+        let material = if index + blend < count { index % COLORS } else { COLORS };
         stage.add(material, corners);
     }
     stage

@@ -7,13 +7,12 @@
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
 use crate::render::{
-    Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest, Settings, Shading,
-    SuperpixelOptions,
+    Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest, Settings, Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 use crate::scene::{
-    AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture,
-    TextureTransform, TextureUse, VertexStreams,
+    AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture, TextureTransform, TextureUse,
+    VertexStreams,
 };
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
@@ -26,11 +25,7 @@ pub fn camera() -> Camera {
     Camera {
         eye: DVec3::ZERO,
         axes: DMat3::IDENTITY,
-        projection: Projection::Perspective {
-            fov: std::f64::consts::FRAC_PI_2,
-            near: NEAR,
-            far: None,
-        },
+        projection: Projection::Perspective { fov: std::f64::consts::FRAC_PI_2, near: NEAR, far: None },
         shift: DVec2::ZERO,
     }
 }
@@ -70,24 +65,14 @@ pub struct Stage {
 /// Unlit material that is visible from both sides.
 #[must_use]
 pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
-    Material {
-        base_color,
-        alpha_mode,
-        unlit: true,
-        double_sided: true,
-        ..Material::default()
-    }
+    Material { base_color, alpha_mode, unlit: true, double_sided: true, ..Material::default() }
 }
 
 /// Unlit material with the stage's texture.
 #[must_use]
 pub fn textured(alpha_mode: AlphaMode) -> Material {
     Material {
-        base_color_texture: Some(TextureUse {
-            texture: 0,
-            uv_set: 0,
-            transform: TextureTransform::default(),
-        }),
+        base_color_texture: Some(TextureUse { texture: 0, uv_set: 0, transform: TextureTransform::default() }),
         ..flat([1.0; 4], alpha_mode)
     }
 }
@@ -95,20 +80,12 @@ pub fn textured(alpha_mode: AlphaMode) -> Material {
 impl Stage {
     /// Makes a stage with these materials and without triangles.
     pub fn new(materials: Vec<Material>) -> Self {
-        Self {
-            materials,
-            ..Self::default()
-        }
+        Self { materials, ..Self::default() }
     }
 
     /// Adds a white triangle.
     pub fn add(&mut self, material: usize, corners: [[f32; 3]; 3]) {
-        self.triangles.push(Triangle {
-            material,
-            corners,
-            color: [1.0; 4],
-            uvs: [[0.0; 2]; 3],
-        });
+        self.triangles.push(Triangle { material, corners, color: [1.0; 4], uvs: [[0.0; 2]; 3] });
     }
 
     /// Adds the two triangles of a quadrilateral, whose corners are given in order around it.
@@ -119,20 +96,11 @@ impl Stage {
 
     /// Adds a mesh as seen in an image `height` pixels high. `permutation` gives the order of each triangle's corners,
     /// as in [`Mesh::corners`].
-    pub fn add_mesh(
-        &mut self,
-        material: usize,
-        mesh: &Mesh,
-        height: u32,
-        permutation: impl Fn(usize) -> usize,
-    ) {
+    pub fn add_mesh(&mut self, material: usize, mesh: &Mesh, height: u32, permutation: impl Fn(usize) -> usize) {
         let half = height as f32 / 2.0;
         for triangle in 0..mesh.triangles.len() {
             let corners = mesh.corners(triangle, permutation(triangle));
-            self.add(
-                material,
-                corners.map(|[x, y, _, w]| [x / half, -y / half, -w]),
-            );
+            self.add(material, corners.map(|[x, y, _, w]| [x / half, -y / half, -w]));
         }
     }
 
@@ -149,33 +117,19 @@ impl Stage {
         let mut scene = Scene::from_materials(self.materials.clone());
         if let Some((image, sampler)) = &self.texture {
             scene.images = vec![image.clone()];
-            scene.textures = vec![Texture {
-                image: 0,
-                sampler: *sampler,
-            }];
+            scene.textures = vec![Texture { image: 0, sampler: *sampler }];
         }
         let mut draws: Vec<Draw> = Vec::new();
         for (index, triangle) in self.triangles.iter().enumerate() {
-            let (material, class) = (
-                triangle.material as u32,
-                DrawClass::of(&self.materials[triangle.material]),
-            );
+            let (material, class) = (triangle.material as u32, DrawClass::of(&self.materials[triangle.material]));
             match draws.last_mut() {
                 Some(draw) if draw.material == material && draw.class == class => {
                     draw.triangle_count += 1;
                 }
-                _ => draws.push(Draw {
-                    first_triangle: index as u32,
-                    triangle_count: 1,
-                    material,
-                    class,
-                }),
+                _ => draws.push(Draw { first_triangle: index as u32, triangle_count: 1, material, class }),
             }
         }
-        debug_assert!(
-            draws.is_sorted_by_key(|draw| draw.class),
-            "order of classes"
-        );
+        debug_assert!(draws.is_sorted_by_key(|draw| draw.class), "order of classes");
         let each = |value: &dyn Fn(&Triangle, usize) -> [f32; 4]| -> Vec<[f32; 4]> {
             let corners = |t| (0..3).map(move |corner| (t, corner));
             let all = self.triangles.iter().flat_map(corners);
@@ -194,15 +148,9 @@ impl Stage {
                     None => Vec::new(),
                 },
                 // Without colours the renderer uses white, which is exactly 1.
-                colors: if white {
-                    Vec::new()
-                } else {
-                    each(&|t, _| t.color)
-                },
+                colors: if white { Vec::new() } else { each(&|t, _| t.color) },
             },
-            triangles: (0..self.triangles.len() as u32)
-                .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
-                .collect(),
+            triangles: (0..self.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
             draws,
             instances: Vec::new(),
             strokes: Vec::new(),
@@ -223,11 +171,7 @@ impl Stage {
     ///
     /// # Errors
     /// As [`Headless::upload`], [`Headless::prepare`] and [`Headless::render`].
-    pub fn render(
-        &self,
-        headless: &mut Headless,
-        settings: &Settings,
-    ) -> Result<Rendered, RenderError> {
+    pub fn render(&self, headless: &mut Headless, settings: &Settings) -> Result<Rendered, RenderError> {
         self.seen_by(headless, settings, &camera())
     }
 
@@ -242,8 +186,7 @@ impl Stage {
         camera: &Camera,
     ) -> Result<Rendered, RenderError> {
         let (scene, pose) = self.build();
-        let prepared =
-            headless.upload(SceneRequest::new(&scene, &pose).within(settings.scene.max_memory))?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose).within(settings.scene.max_memory))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         headless.render(&mut frame, camera)
     }
@@ -267,24 +210,15 @@ pub fn code(id: u32) -> [f32; 3] {
 #[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     Settings::new(size[0], size[1])
-        .reference(Reference::Scene {
-            tonemapped_detection: false,
-        })
-        .method(
-            SuperpixelOptions::new(samples)
-                .pattern(pattern)
-                .shading(Shading::Triangle)
-                .detection(Detection::Every),
-        )
+        .reference(Reference::Scene { tonemapped_detection: false })
+        .method(SuperpixelOptions::new(samples).pattern(pattern).shading(Shading::Triangle).detection(Detection::Every))
 }
 
 /// Settings for one sample at each pixel's centre, with attributes and without tone mapping.
 #[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
     Settings::new(size[0], size[1])
-        .reference(Reference::Scene {
-            tonemapped_detection: false,
-        })
+        .reference(Reference::Scene { tonemapped_detection: false })
         .attributes(true)
         .method(Method::None)
 }

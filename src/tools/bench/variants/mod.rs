@@ -36,14 +36,7 @@ pub enum Variant {
 
 impl Variant {
     /// All variants, the raster pass first.
-    pub const ALL: [Self; 6] = [
-        Self::Raster,
-        Self::Planar,
-        Self::Offset,
-        Self::Superpixel,
-        Self::NoPattern,
-        Self::Rig,
-    ];
+    pub const ALL: [Self; 6] = [Self::Raster, Self::Planar, Self::Offset, Self::Superpixel, Self::NoPattern, Self::Rig];
 
     /// Description of the variant for readers of a table.
     #[must_use]
@@ -53,12 +46,8 @@ impl Variant {
                 "the centre of each pixel by the raster pass: the planar render that the others are held against"
             }
             Self::Planar => "the same centres as locations of the engine that samples any location",
-            Self::Offset => {
-                "one location a pixel, where a smooth zoom by 1 / 0.3 of the middle of the image sends it"
-            }
-            Self::Superpixel => {
-                "two rates: the centres of pixels, and 64 samples in place of each that aliases"
-            }
+            Self::Offset => "one location a pixel, where a smooth zoom by 1 / 0.3 of the middle of the image sends it",
+            Self::Superpixel => "two rates: the centres of pixels, and 64 samples in place of each that aliases",
             Self::NoPattern => "as many random locations as the image has pixels, in random order",
             Self::Rig => {
                 "an equirectangular panorama of 360 x 180 degrees, as wide as the image, on the planes of six pinholes"
@@ -132,13 +121,7 @@ impl VariantContender {
     ) -> Result<Self, VariantError> {
         let mut work = VariantWork::new(variant, headless, scene, camera, settings)?;
         let done = work.run(headless, scene, camera)?;
-        Ok(Self {
-            variant,
-            work,
-            samples: done.samples,
-            gpu_ms: Vec::new(),
-            wall_ms: Vec::new(),
-        })
+        Ok(Self { variant, work, samples: done.samples, gpu_ms: Vec::new(), wall_ms: Vec::new() })
     }
 
     /// Runs every contender `repeat` times, in turns. A contender that would need more than `budget` drops out of

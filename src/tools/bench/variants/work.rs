@@ -7,8 +7,8 @@ use crate::camera::set::{Sample, SamplingSet, SetError};
 use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
 use crate::camera::{Camera, Pinhole, SampleLocation};
 use crate::render::{
-    CellOptions, Footprint, Frame, Headless, MethodKind, PreparedScene, RenderError, SceneSettings,
-    Settings, Statistics,
+    CellOptions, Footprint, Frame, Headless, MethodKind, PreparedScene, RenderError, SceneSettings, Settings,
+    Statistics,
 };
 
 /// Largest number of samples in a leaf of the quadtree.
@@ -43,8 +43,7 @@ impl VariantWork {
         settings: &Settings,
     ) -> Result<Self, VariantError> {
         let size = settings.size;
-        let with =
-            |method: MethodKind, samples| settings.clone().method(method.with_samples(samples));
+        let with = |method: MethodKind, samples| settings.clone().method(method.with_samples(samples));
         let once = with(MethodKind::None, 1);
         let pinhole = Pinhole::from_camera(camera, size)?;
         let points = |set: SamplingSet| vec![(pinhole, set.locations())];
@@ -55,10 +54,7 @@ impl VariantWork {
             Variant::Superpixel => {
                 let settings = with(MethodKind::Superpixel, CellOptions::DEFAULT_SAMPLES);
                 let locations = SamplingSet::planar(size)?.locations();
-                return Ok(Self::TwoRates(
-                    vec![(pinhole, locations)],
-                    Box::new(settings),
-                ));
+                return Ok(Self::TwoRates(vec![(pinhole, locations)], Box::new(settings)));
             }
             Variant::Planar => points(SamplingSet::planar(size)?),
             Variant::Offset => points(SamplingSet::mapped(size, &zoom(size)?)?),
@@ -79,10 +75,7 @@ impl VariantWork {
         scene: &PreparedScene,
         camera: &Camera,
     ) -> Result<Done, RenderError> {
-        let done = |samples: u64, statistics: &Statistics| Done {
-            samples,
-            gpu_ms: statistics.gpu_ms(),
-        };
+        let done = |samples: u64, statistics: &Statistics| Done { samples, gpu_ms: statistics.gpu_ms() };
         match self {
             Self::Frame(frame) => {
                 let rendered = headless.render(frame, camera)?;
@@ -126,10 +119,6 @@ fn random(size: [u32; 2]) -> Result<SamplingSet, SetError> {
     let [width, height] = size.map(f64::from);
     let count = u64::from(size[0]) * u64::from(size[1]);
     let mut random = Random::new(SEED);
-    let sample = |_| Sample {
-        uv: [random.range(0.0, width), random.range(0.0, height)],
-        row: 0,
-        col: 0,
-    };
+    let sample = |_| Sample { uv: [random.range(0.0, width), random.range(0.0, height)], row: 0, col: 0 };
     SamplingSet::no_pattern([1, 1], (0..count).map(sample).collect(), None, LEAF_SAMPLES)
 }

@@ -15,40 +15,16 @@ use crate::stage::{Stage, on_gpu, textured};
 fn what_casts_shadows_is_what_stands_in_the_way() {
     on_gpu(|gpu| {
         let mask = AlphaMode::Mask { cutoff: 0.5 };
-        let single = Material {
-            double_sided: false,
-            ..lit(AlphaMode::Opaque)
-        };
-        let mut stage = floor(vec![
-            lit(AlphaMode::Opaque),
-            single,
-            textured(mask),
-            lit(AlphaMode::Blend),
-        ]);
+        let single = Material { double_sided: false, ..lit(AlphaMode::Opaque) };
+        let mut stage = floor(vec![lit(AlphaMode::Opaque), single, textured(mask), lit(AlphaMode::Blend)]);
         stage.triangles.iter_mut().for_each(|t| t.material = 0);
         let texel = |i: u32| [255, 255, 255, 255 * (1 - (i + i / 4) as u8 % 2)];
         stage.texture = Some((
-            Image {
-                width: 4,
-                height: 4,
-                pixels: (0..16).flat_map(texel).collect(),
-            },
-            Sampler {
-                mag: Filter::Nearest,
-                min: Filter::Nearest,
-                mip: None,
-                ..Sampler::default()
-            },
+            Image { width: 4, height: 4, pixels: (0..16).flat_map(texel).collect() },
+            Sampler { mag: Filter::Nearest, min: Filter::Nearest, mip: None, ..Sampler::default() },
         ));
         // The squares are at height 1, and light from straight above casts the shadows of their middles side by side.
-        let square = |x: f32| {
-            [
-                [x, 1.0, -4.0],
-                [x + 1.0, 1.0, -4.0],
-                [x + 1.0, 1.0, -5.0],
-                [x, 1.0, -5.0],
-            ]
-        };
+        let square = |x: f32| [[x, 1.0, -4.0], [x + 1.0, 1.0, -4.0], [x + 1.0, 1.0, -5.0], [x, 1.0, -5.0]];
         let [a, b, c, d] = square(-2.5);
         // Single-sided triangles come first; their backs face the floor, and later the light.
         let mut order = Stage::new(stage.materials.clone());
@@ -64,29 +40,22 @@ fn what_casts_shadows_is_what_stands_in_the_way() {
         let pinhole = pinhole(SIZE);
         let mut random = Random::new(8);
         let mut fraction = || random.below(1 << 20) as f64 / f64::from(1 << 20);
-        let on_floor: Vec<DVec3> = (0..30_000)
-            .map(|_| DVec3::new(6.0 * fraction() - 3.0, FLOOR, -3.5 - 2.0 * fraction()))
-            .collect();
-        let locations: Vec<SampleLocation> = on_floor
-            .iter()
-            .map(|p| location(pinhole.project(*p).unwrap().to_array(), 0))
-            .collect();
+        let on_floor: Vec<DVec3> =
+            (0..30_000).map(|_| DVec3::new(6.0 * fraction() - 3.0, FLOOR, -3.5 - 2.0 * fraction())).collect();
+        let locations: Vec<SampleLocation> =
+            on_floor.iter().map(|p| location(pinhole.project(*p).unwrap().to_array(), 0)).collect();
         let mut shadowed = [0; 3];
         for (p, seen) in on_floor.iter().zip(ask(gpu, &order, &[down], &locations)) {
             let of_square = |x: f64| [p.x - x, -4.0 - p.z];
             let is_in = |at: [f64; 2]| at.iter().all(|v| (0.0..1.0).contains(v));
             let (back, masked) = (of_square(-2.5), of_square(-0.5));
-            let doubtful = |at: &[f64; 2]| {
-                at.iter()
-                    .any(|v| (4.0 * v - (4.0 * v).round()).abs() < 1e-3)
-            };
+            let doubtful = |at: &[f64; 2]| at.iter().any(|v| (4.0 * v - (4.0 * v).round()).abs() < 1e-3);
             if [back, masked, of_square(1.5)].iter().any(doubtful) || !(3..=4).contains(&seen.id) {
                 continue;
             }
             let texel = masked.map(|v| (4.0 * v).floor() as i64);
             let blended = is_in(of_square(1.5));
-            let expected =
-                blended || is_in(back) || is_in(masked) && (texel[0] + texel[1]) % 2 == 0;
+            let expected = blended || is_in(back) || is_in(masked) && (texel[0] + texel[1]) % 2 == 0;
             assert_eq!(seen.shadows, u32::from(expected), "{p}");
             shadowed[0] += u32::from(expected && is_in(back));
             shadowed[1] += u32::from(expected && is_in(masked));
@@ -110,10 +79,7 @@ fn what_can_not_be_shadowed_is_refused() {
         pose.lights = vec![sun(); 33];
         let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
         let many = gpu.upload(request).map(|_| ());
-        assert!(
-            matches!(many, Err(RenderError::ShadowLights { found: 33 })),
-            "{many:?}"
-        );
+        assert!(matches!(many, Err(RenderError::ShadowLights { found: 33 })), "{many:?}");
         // With 32 lights, the last one has the highest bit.
         pose.lights.truncate(32);
         let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);

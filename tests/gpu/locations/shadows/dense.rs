@@ -15,10 +15,7 @@ const UNLISTED: usize = 45_000;
 #[test]
 fn shadows_are_the_same_without_a_list() {
     on_gpu(|gpu| {
-        for (light, caster) in [
-            (sun(), AlphaMode::Opaque),
-            (lamp(LightKind::Point), AlphaMode::Blend),
-        ] {
+        for (light, caster) in [(sun(), AlphaMode::Opaque), (lamp(LightKind::Point), AlphaMode::Blend)] {
             let stage = floor(vec![lit(AlphaMode::Opaque), lit(caster)]);
             let mut random = Random::new(5);
             let specks: Vec<_> = (0..LISTED)
@@ -40,9 +37,7 @@ fn shadows_are_the_same_without_a_list() {
             });
             assert!(listed.iter().any(|point| point.shadows != 0));
             let pairs = found.iter().zip(&listed);
-            let differ = pairs
-                .filter(|(a, b)| (a.color, a.shadows) != (b.color, b.shadows))
-                .count();
+            let differ = pairs.filter(|(a, b)| (a.color, a.shadows) != (b.color, b.shadows)).count();
             assert_eq!(differ, 0, "of {}", found.len());
         }
     });

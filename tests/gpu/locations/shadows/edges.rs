@@ -12,12 +12,7 @@ fn edges_of_shadows_lie_where_light_casts_them() {
         let mut stage = floor(vec![lit(AlphaMode::Opaque)]);
         stage.add(0, OVER);
         let pinhole = pinhole(SIZE);
-        for light in [
-            sun(),
-            lamp(LightKind::Point),
-            lamp(spot(40.0)),
-            lamp(spot(85.0)),
-        ] {
+        for light in [sun(), lamp(LightKind::Point), lamp(spot(40.0)), lamp(spot(85.0))] {
             let corners = OVER.map(|corner| cast(&light, corner, &pinhole));
             let locations = places(corners);
             let (mut inside, mut close, mut tight) = (0, 0, 0);
@@ -33,17 +28,10 @@ fn edges_of_shadows_lie_where_light_casts_them() {
                 }
                 tight += u32::from(distance < 1.0 / 64.0);
                 let found = seen.shadows;
-                assert_eq!(
-                    found,
-                    u32::from(expected),
-                    "{distance} from an edge at {place}"
-                );
+                assert_eq!(found, u32::from(expected), "{distance} from an edge at {place}");
                 inside += found;
             }
-            assert!(
-                inside > 3_000 && close > 1_000 && tight > 3_000,
-                "{inside} {close} {tight}"
-            );
+            assert!(inside > 3_000 && close > 1_000 && tight > 3_000, "{inside} {close} {tight}");
         }
     });
 }
@@ -57,21 +45,11 @@ fn light_that_does_not_reach_casts_no_shadow() {
         let wide = lamp(spot(40.0));
         let corners = OVER.map(|corner| cast(&wide, corner, &pinhole(SIZE)));
         let narrow = lamp(spot(15.0));
-        let short = Light {
-            range: Some(1.0),
-            ..wide
-        };
+        let short = Light { range: Some(1.0), ..wide };
         let locations = places(corners);
         let seen = ask(gpu, &stage, &[wide, narrow, short], &locations);
-        let count = |bit: u32| {
-            seen.iter()
-                .filter(|seen| seen.shadows >> bit & 1 != 0)
-                .count()
-        };
+        let count = |bit: u32| seen.iter().filter(|seen| seen.shadows >> bit & 1 != 0).count();
         let [all, some, none] = [0, 1, 2].map(count);
-        assert!(
-            some > 1_000 && some < all - 1_000 && none == 0,
-            "{all} {some} {none}"
-        );
+        assert!(some > 1_000 && some < all - 1_000 && none == 0, "{all} {some} {none}");
     });
 }

@@ -19,15 +19,8 @@ fn a_ball_shadows_its_far_side_alone() {
     on_gpu(|gpu| {
         let mut stage = Stage::new(vec![lit(AlphaMode::Opaque)]);
         let at = |ring: usize, sector: usize| {
-            let (polar, azimuth) = (
-                PI * ring as f64 / RINGS as f64,
-                TAU * sector as f64 / SECTORS as f64,
-            );
-            let around = DVec3::new(
-                polar.sin() * azimuth.sin(),
-                polar.cos(),
-                polar.sin() * azimuth.cos(),
-            );
+            let (polar, azimuth) = (PI * ring as f64 / RINGS as f64, TAU * sector as f64 / SECTORS as f64);
+            let around = DVec3::new(polar.sin() * azimuth.sin(), polar.cos(), polar.sin() * azimuth.cos());
             (around + DVec3::new(0.1, 0.05, -2.5)).as_vec3().to_array()
         };
         for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |s| (ring, s))) {
@@ -41,18 +34,11 @@ fn a_ball_shadows_its_far_side_alone() {
             }
         }
         let mut random = Random::new(3);
-        let mut place = |from: f64, to: f64| {
-            from + (to - from) * random.below(1 << 20) as f64 / f64::from(1 << 20)
-        };
-        let locations: Vec<SampleLocation> = (0..60_000)
-            .map(|_| location([place(480.0, 840.0), place(180.0, 520.0)], 0))
-            .collect();
+        let mut place = |from: f64, to: f64| from + (to - from) * random.below(1 << 20) as f64 / f64::from(1 << 20);
+        let locations: Vec<SampleLocation> =
+            (0..60_000).map(|_| location([place(480.0, 840.0), place(180.0, 520.0)], 0)).collect();
         let lights = [
-            light(
-                LightKind::Directional,
-                DVec3::ZERO,
-                DVec3::new(0.8, -0.5, -0.2),
-            ),
+            light(LightKind::Directional, DVec3::ZERO, DVec3::new(0.8, -0.5, -0.2)),
             light(LightKind::Point, DVec3::new(-1.2, 1.9, -1.7), DVec3::NEG_Y),
         ];
         let (mut day, mut night, mut grazing, mut edges) = ([0; 2], [0; 2], 0, 0);
@@ -76,19 +62,13 @@ fn a_ball_shadows_its_far_side_alone() {
                 }
                 // A facet that faces away may be lit just behind an edge, where the facet in front of it is at the same
                 // distance.
-                assert!(
-                    !shadowed || cosine < 0.0,
-                    "{seen:?}: {cosine} towards light {bit}"
-                );
+                assert!(!shadowed || cosine < 0.0, "{seen:?}: {cosine} towards light {bit}");
                 edges += u32::from(!shadowed && cosine < 0.0);
                 day[bit] += u32::from(!shadowed);
                 night[bit] += u32::from(shadowed);
             }
         }
-        assert!(
-            day.iter().chain(&night).all(|count| *count > 3_000),
-            "{day:?} {night:?}"
-        );
+        assert!(day.iter().chain(&night).all(|count| *count > 3_000), "{day:?} {night:?}");
         assert!(grazing < 8_000 && edges < 20, "{grazing} {edges}");
     });
 }
@@ -116,11 +96,7 @@ fn a_plane_that_light_grazes_is_lit() {
         }
         let grazing = DVec3::new(0.8, -(1.0_f64.to_radians()).tan(), 0.6);
         let sun = light(LightKind::Directional, DVec3::ZERO, grazing);
-        let locations = places([
-            DVec2::new(600.0, 400.0),
-            DVec2::new(700.0, 450.0),
-            DVec2::new(640.0, 700.0),
-        ]);
+        let locations = places([DVec2::new(600.0, 400.0), DVec2::new(700.0, 450.0), DVec2::new(640.0, 700.0)]);
         let seen = ask(gpu, &stage, &[sun], &locations);
         assert!(seen.iter().filter(|seen| seen.id != 0).count() > 30_000);
         assert_eq!(seen.iter().filter(|seen| seen.shadows != 0).count(), 0);

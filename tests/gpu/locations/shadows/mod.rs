@@ -13,9 +13,7 @@ mod wires;
 
 use glam::{DVec2, DVec3};
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{
-    Footprint, Headless, PointSample, PreparedScene, Rendered, SceneRequest, Settings, Shadows,
-};
+use gpc::render::{Footprint, Headless, PointSample, PreparedScene, Rendered, SceneRequest, Settings, Shadows};
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{location, pinhole};
@@ -29,35 +27,20 @@ const FLOOR: f64 = -1.0;
 const OVER: [[f32; 3]; 3] = [[-0.9, 0.3, -2.7], [1.1, 0.5, -3.4], [0.2, 0.9, -2.2]];
 
 fn lit(alpha_mode: AlphaMode) -> Material {
-    Material {
-        unlit: false,
-        metallic: 0.0,
-        ..flat([0.7, 0.7, 0.7, 1.0], alpha_mode)
-    }
+    Material { unlit: false, metallic: 0.0, ..flat([0.7, 0.7, 0.7, 1.0], alpha_mode) }
 }
 
 /// A stage with a floor of its first material.
 fn floor(materials: Vec<Material>) -> Stage {
     let mut stage = Stage::new(materials);
     let corner = |x: f32, z: f32| [x, FLOOR as f32, z];
-    let quad = [
-        corner(-9.0, -0.5),
-        corner(9.0, -0.5),
-        corner(9.0, -14.0),
-        corner(-9.0, -14.0),
-    ];
+    let quad = [corner(-9.0, -0.5), corner(9.0, -0.5), corner(9.0, -14.0), corner(-9.0, -14.0)];
     stage.add_quad(0, quad);
     stage
 }
 
 fn light(kind: LightKind, position: DVec3, direction: DVec3) -> Light {
-    Light {
-        kind,
-        position,
-        direction: direction.normalize(),
-        color: [3.0; 3],
-        range: None,
-    }
+    Light { kind, position, direction: direction.normalize(), color: [3.0; 3], range: None }
 }
 
 fn sun() -> Light {
@@ -72,10 +55,7 @@ fn lamp(kind: LightKind) -> Light {
 }
 
 fn spot(outer_degrees: f32) -> LightKind {
-    LightKind::Spot {
-        inner_angle: 0.1,
-        outer_angle: outer_degrees.to_radians(),
-    }
+    LightKind::Spot { inner_angle: 0.1, outer_angle: outer_degrees.to_radians() }
 }
 
 fn upload(gpu: &mut Headless, stage: &Stage, lights: &[Light]) -> PreparedScene {
@@ -91,17 +71,10 @@ fn render(gpu: &mut Headless, prepared: &PreparedScene, settings: &Settings) -> 
 }
 
 fn exact() -> Settings {
-    once(SIZE)
-        .shadows(Shadows::Exact)
-        .footprint(Footprint::Pixel)
+    once(SIZE).shadows(Shadows::Exact).footprint(Footprint::Pixel)
 }
 
-fn ask(
-    gpu: &mut Headless,
-    stage: &Stage,
-    lights: &[Light],
-    locations: &[SampleLocation],
-) -> Vec<PointSample> {
+fn ask(gpu: &mut Headless, stage: &Stage, lights: &[Light], locations: &[SampleLocation]) -> Vec<PointSample> {
     let prepared = upload(gpu, stage, lights);
     let seen = gpu.sample_points(&prepared, &pinhole(SIZE), locations, &exact().scene);
     seen.unwrap().values
@@ -125,10 +98,7 @@ fn within(place: DVec2, corners: [DVec2; 3]) -> (bool, f64) {
         (to - from).normalize().perp_dot(place - from)
     });
     let inside = sides.iter().all(|d| *d > 0.0) || sides.iter().all(|d| *d < 0.0);
-    (
-        inside,
-        sides.iter().fold(f64::MAX, |least, d| least.min(d.abs())),
-    )
+    (inside, sides.iter().fold(f64::MAX, |least, d| least.min(d.abs())))
 }
 
 /// Locations all over the lower half of the image, and the same number along the sides of a triangle.
@@ -140,8 +110,7 @@ fn places(corners: [DVec2; 3]) -> Vec<SampleLocation> {
         let anywhere = [fraction() * 1280.0, 361.0 + fraction() * 359.0];
         locations.push(location(anywhere, 0));
         let side = corners[index % 3].lerp(corners[(index + 1) % 3], fraction());
-        let near =
-            side + (DVec2::new(fraction(), fraction()) - 0.5) * 0.25_f64.powf(8.0 * fraction());
+        let near = side + (DVec2::new(fraction(), fraction()) - 0.5) * 0.25_f64.powf(8.0 * fraction());
         locations.push(location(near.to_array(), 0));
     }
     locations

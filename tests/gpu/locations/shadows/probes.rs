@@ -41,9 +41,7 @@ fn pixels_are_probed_where_the_twin_has_it() {
             (on_floor - sun().direction * 20.0).as_vec3().to_array()
         };
         let columns = (2..SIZE[0] - 2).step_by(APART);
-        let pixels = (124..SIZE[1] - 2)
-            .step_by(APART)
-            .flat_map(|y| columns.clone().map(move |x| [x, y]));
+        let pixels = (124..SIZE[1] - 2).step_by(APART).flat_map(|y| columns.clone().map(move |x| [x, y]));
         let mut expected = Vec::new();
         for (pixel, dot) in pixels.zip(dots()) {
             let middle = dot + DVec2::from_array(pixel.map(f64::from)) + 0.5;
@@ -65,16 +63,11 @@ fn pixels_are_probed_where_the_twin_has_it() {
         let frame = render(gpu, &prepared, &settings);
         let rig = [(pinhole, planar(SIZE))];
         let list = gpu.render_locations(&prepared, &rig, &settings);
-        let is_superpixel = |image: &Rendered, x: u32, y: u32| {
-            image.attributes[(y * SIZE[0] + x) as usize].superpixel == 1
-        };
+        let is_superpixel =
+            |image: &Rendered, x: u32, y: u32| image.attributes[(y * SIZE[0] + x) as usize].superpixel == 1;
         for (name, image) in [("frame", &frame), ("list", &list.unwrap())] {
             for ([x, y], dot, probed) in &expected {
-                assert_eq!(
-                    is_superpixel(image, *x, *y),
-                    *probed,
-                    "{name}: {x}, {y}, {dot}"
-                );
+                assert_eq!(is_superpixel(image, *x, *y), *probed, "{name}: {x}, {y}, {dot}");
             }
         }
     });

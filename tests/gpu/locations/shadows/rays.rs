@@ -15,9 +15,7 @@ fn shining(light: &Light, corners: &[[DVec3; 3]]) -> Shining {
             let (low, high) = corners
                 .iter()
                 .flatten()
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
-                    (low.min(*at), high.max(*at))
-                });
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)));
             return Shining::Distant {
                 to_light: -light.direction,
                 depth: ((high - low) * light.direction.abs()).element_sum(),
@@ -39,24 +37,16 @@ fn places_lie_in_the_shadow_of_what_rays_meet() {
         let mut random = Random::new(41);
         let mut fraction = || random.below(1 << 20) as f64 / f64::from(1 << 20);
         let mut leaf = lit(AlphaMode::Opaque);
-        leaf.lobes.diffuse_transmission = Some(DiffuseTransmission {
-            color: [0.8; 3],
-            factor: 0.5,
-            texture: None,
-            color_texture: None,
-        });
+        leaf.lobes.diffuse_transmission =
+            Some(DiffuseTransmission { color: [0.8; 3], factor: 0.5, texture: None, color_texture: None });
         let mut stage = Stage::new(vec![lit(AlphaMode::Opaque), leaf]);
         let mut corners: Vec<[DVec3; 3]> = Vec::new();
         let is_leaf = |triangle: usize| triangle % 2 == 1;
         for i in 0..200 {
-            let mut within =
-                |side: f64| DVec3::new(fraction() - 0.5, fraction() - 0.5, fraction() - 0.5) * side;
+            let mut within = |side: f64| DVec3::new(fraction() - 0.5, fraction() - 0.5, fraction() - 0.5) * side;
             let middle = within(2.0) * DVec3::new(2.0, 1.0, 1.0) - DVec3::Z * 3.5;
             let triangle = [(); 3].map(|()| (middle + within(1.2)).as_vec3());
-            stage.add(
-                usize::from(is_leaf(i)),
-                triangle.map(|corner| corner.to_array()),
-            );
+            stage.add(usize::from(is_leaf(i)), triangle.map(|corner| corner.to_array()));
             corners.push(triangle.map(|corner| corner.as_dvec3()));
         }
         let down = DVec3::new(0.3, -1.0, -0.2);
@@ -66,16 +56,12 @@ fn places_lie_in_the_shadow_of_what_rays_meet() {
             light(LightKind::Directional, DVec3::ZERO, down),
             light(LightKind::Point, among, DVec3::NEG_Y),
             light(spot(30.0), above, DVec3::NEG_Y),
-            Light {
-                range: Some(2.8),
-                ..light(spot(85.0), above, down)
-            },
+            Light { range: Some(2.8), ..light(spot(85.0), above, down) },
         ];
         let pinhole = pinhole(SIZE);
         let size = SIZE.map(f64::from);
-        let locations: Vec<_> = (0..60_000)
-            .map(|_| location([fraction() * size[0], fraction() * size[1]], 0))
-            .collect();
+        let locations: Vec<_> =
+            (0..60_000).map(|_| location([fraction() * size[0], fraction() * size[1]], 0)).collect();
         let seen = ask(gpu, &stage, &lights, &locations);
         let mut found = [[[0; 2]; 2]; 4];
         for (location, seen) in locations.iter().zip(&seen) {
@@ -106,13 +92,6 @@ fn places_lie_in_the_shadow_of_what_rays_meet() {
             let both = |hidden: usize| of_light[0][hidden] + of_light[1][hidden];
             assert!(both(0) > 400 && both(1) > 400, "{found:?}");
         }
-        assert!(
-            found
-                .as_flattened()
-                .as_flattened()
-                .iter()
-                .all(|count| *count > 150),
-            "{found:?}"
-        );
+        assert!(found.as_flattened().as_flattened().iter().all(|count| *count > 150), "{found:?}");
     });
 }

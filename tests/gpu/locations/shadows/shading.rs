@@ -18,10 +18,7 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
         let corners = OVER.map(|corner| cast(&lights[0], corner, &pinhole(SIZE)));
         let locations = places(corners);
         let both = ask(gpu, &stage, &lights, &locations);
-        let dark = |light: &Light| Light {
-            color: [0.0; 3],
-            ..*light
-        };
+        let dark = |light: &Light| Light { color: [0.0; 3], ..*light };
         let mut found = [0; 4];
         for hidden in 0..4_u32 {
             let mut shining = lights;
@@ -31,9 +28,7 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
                 }
             }
             let prepared = upload(gpu, &stage, &shining);
-            let open = gpu
-                .sample_points(&prepared, &pinhole(SIZE), &locations, &once_each())
-                .unwrap();
+            let open = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &once_each()).unwrap();
             for (seen, expected) in both.iter().zip(&open.values) {
                 assert_eq!(expected.shadows, 0);
                 if seen.id != 0 && seen.shadows == hidden {
@@ -50,10 +45,7 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
 #[test]
 fn blend_lets_pass_what_its_opacity_leaves() {
     on_gpu(|gpu| {
-        let blend = |opacity: f32| Material {
-            base_color: [1.0, 1.0, 1.0, opacity],
-            ..lit(AlphaMode::Blend)
-        };
+        let blend = |opacity: f32| Material { base_color: [1.0, 1.0, 1.0, opacity], ..lit(AlphaMode::Blend) };
         let mut stage = floor(vec![lit(AlphaMode::Opaque), blend(0.25), blend(0.6)]);
         // Both triangles block the first light; for the second light one lies behind the floor.
         let above = |height: f32| OVER.map(|[x, y, z]| [x + 0.2 * height, y + height, z]);
@@ -62,16 +54,12 @@ fn blend_lets_pass_what_its_opacity_leaves() {
         stage.add(2, above(-4.0));
         let lights = [sun(), lamp(LightKind::Point)];
         let shades = [OVER, above(0.3)];
-        let cast_by = |light: usize| {
-            shades.map(|corners| corners.map(|corner| cast(&lights[light], corner, &pinhole(SIZE))))
-        };
+        let cast_by =
+            |light: usize| shades.map(|corners| corners.map(|corner| cast(&lights[light], corner, &pinhole(SIZE))));
         let locations = places(cast_by(0)[0]);
         let seen = ask(gpu, &stage, &lights, &locations);
         // This is the contribution of each light on its own, without casters.
-        let dark = |light: &Light| Light {
-            color: [0.0; 3],
-            ..*light
-        };
+        let dark = |light: &Light| Light { color: [0.0; 3], ..*light };
         let open = |gpu: &mut Headless, shining: [Light; 2]| {
             let prepared = upload(gpu, &stage, &shining);
             let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &once_each());
@@ -87,13 +75,8 @@ fn blend_lets_pass_what_its_opacity_leaves() {
                 continue;
             }
             let place = DVec2::from_array(location.uv);
-            let in_shades =
-                [0, 1].map(|light| cast_by(light).map(|corners| within(place, corners)));
-            if in_shades
-                .iter()
-                .flatten()
-                .any(|(_, distance)| *distance < 0.01)
-            {
+            let in_shades = [0, 1].map(|light| cast_by(light).map(|corners| within(place, corners)));
+            if in_shades.iter().flatten().any(|(_, distance)| *distance < 0.01) {
                 continue;
             }
             let share = |light: usize| {
@@ -102,14 +85,9 @@ fn blend_lets_pass_what_its_opacity_leaves() {
             };
             let green = |of: &[PointSample]| f64::from(of[i].color[1]);
             let ambient = green(&none);
-            let expected = ambient
-                + (green(&first) - ambient) * share(0)
-                + (green(&second) - ambient) * share(1);
+            let expected = ambient + (green(&first) - ambient) * share(0) + (green(&second) - ambient) * share(1);
             let got = f64::from(seen.color[1]);
-            assert!(
-                (got - expected).abs() < 1e-4 * expected.max(1.0),
-                "{got} {expected} at {place}"
-            );
+            assert!((got - expected).abs() < 1e-4 * expected.max(1.0), "{got} {expected} at {place}");
             let bits = [0, 1].map(|light| u32::from(share(light) < 1.0) << light);
             assert_eq!(seen.shadows, bits[0] | bits[1]);
             found[usize::from(in_shades[0][0].0) + 2 * usize::from(in_shades[0][1].0)] += 1;
@@ -140,10 +118,7 @@ fn blend_receives_shadows() {
         };
         let opaque = seen(gpu, lit(AlphaMode::Opaque));
         for opacity in [1.0, 0.4] {
-            let layer = Material {
-                base_color: [0.7, 0.7, 0.7, opacity],
-                ..lit(AlphaMode::Blend)
-            };
+            let layer = Material { base_color: [0.7, 0.7, 0.7, opacity], ..lit(AlphaMode::Blend) };
             let mut found = [0; 4];
             for (expected, layer) in opaque.iter().zip(seen(gpu, layer)) {
                 if !(2..=3).contains(&expected.id) {
@@ -151,10 +126,7 @@ fn blend_receives_shadows() {
                 }
                 assert_eq!([layer.id, layer.blend_id], [0, expected.id]);
                 for (got, expected) in layer.color.into_iter().zip(expected.color) {
-                    assert!(
-                        (got - opacity * expected).abs() < 1e-5,
-                        "{layer:?} {expected}"
-                    );
+                    assert!((got - opacity * expected).abs() < 1e-5, "{layer:?} {expected}");
                 }
                 found[expected.shadows as usize] += 1;
             }

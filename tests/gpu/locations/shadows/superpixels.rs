@@ -39,9 +39,7 @@ fn borders_of_shadows_are_antialiased() {
                 let (column, row) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
                 let around = |dx: i32, dy: i32| shadow(column + f64::from(dx), row + f64::from(dy));
                 let one = (-1..=1).all(|dy| {
-                    let at = |dx: i32| {
-                        (index as i64 + i64::from(dy) * i64::from(SIZE[0]) + i64::from(dx)) as usize
-                    };
+                    let at = |dx: i32| (index as i64 + i64::from(dy) * i64::from(SIZE[0]) + i64::from(dx)) as usize;
                     (-1..=1).all(|dx| single.attributes[at(dx)].id == single.attributes[index].id)
                 });
                 let differs = (-1..=1).any(|dy| (-1..=1).any(|dx| around(dx, dy) != around(0, 0)));
@@ -59,15 +57,10 @@ fn borders_of_shadows_are_antialiased() {
                 }
                 let darker = ends[0].min(ends[1]);
                 let lighter = ends[0].max(ends[1]);
-                let lit = offsets
-                    .iter()
-                    .filter(|[dx, dy]| !shadow(column + f64::from(*dx), row + f64::from(*dy)));
+                let lit = offsets.iter().filter(|[dx, dy]| !shadow(column + f64::from(*dx), row + f64::from(*dy)));
                 let expected = darker + (lighter - darker) * lit.count() as f64 / 64.0;
                 let found = f64::from(image.colors[index][1]);
-                assert!(
-                    (found - expected).abs() < 0.04 * lighter,
-                    "{x}, {y}: {found} {expected}"
-                );
+                assert!((found - expected).abs() < 0.04 * lighter, "{x}, {y}: {found} {expected}");
                 partly += 1;
             }
         }
@@ -80,35 +73,17 @@ fn borders_of_shadows_are_antialiased() {
 fn superpixels_without_shadows_stay_as_they_were() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let settings = everywhere(SIZE, Pattern::Sobol, 16)
-            .map_superpixels(|options| options.shading(Shading::Sample));
-        let black = Light {
-            color: [0.0; 3],
-            ..sun()
-        };
+        let settings = everywhere(SIZE, Pattern::Sobol, 16).map_superpixels(|options| options.shading(Shading::Sample));
+        let black = Light { color: [0.0; 3], ..sun() };
         let prepared = upload(gpu, &stage, &[black]);
         let locations: Vec<SampleLocation> = (0..300)
-            .map(|i| {
-                location(
-                    [
-                        390.0 + f64::from(i % 60) * 7.3,
-                        200.0 + f64::from(i / 60) * 61.7,
-                    ],
-                    0,
-                )
-            })
+            .map(|i| location([390.0 + f64::from(i % 60) * 7.3, 200.0 + f64::from(i / 60) * 61.7], 0))
             .collect();
         let mut values = [Shadows::None, Shadows::Exact].map(|shadows| {
             let settings = settings.clone().shadows(shadows);
-            gpu.sample_superpixels(
-                &prepared,
-                &pinhole(SIZE),
-                &locations,
-                &cells(&settings),
-                &settings.scene,
-            )
-            .unwrap()
-            .values
+            gpu.sample_superpixels(&prepared, &pinhole(SIZE), &locations, &cells(&settings), &settings.scene)
+                .unwrap()
+                .values
         });
         let [open, shadowed] = &mut values;
         for (a, b) in open.iter().zip(shadowed) {

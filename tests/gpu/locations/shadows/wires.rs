@@ -24,17 +24,10 @@ const FIRST_ROW: u32 = 234;
 #[test]
 fn the_shadow_of_a_thin_wire_keeps_its_energy() {
     on_gpu(|gpu| {
-        let rough = Material {
-            roughness: 1.0,
-            ..lit(AlphaMode::Opaque)
-        };
+        let rough = Material { roughness: 1.0, ..lit(AlphaMode::Opaque) };
         let mut stage = floor(vec![rough]);
         let pinhole = Pinhole::from_camera(&camera(), SIZE).unwrap();
-        let sun = light(
-            LightKind::Directional,
-            DVec3::ZERO,
-            DVec3::new(0.1, -1.0, 0.05),
-        );
+        let sun = light(LightKind::Directional, DVec3::ZERO, DVec3::new(0.1, -1.0, 0.05));
         let part = |wire: u32| [PART[0] * (wire % 4), FIRST_ROW + PART[1] * (wire / 4)];
         for wire in 0..8 {
             let [x, y] = part(wire).map(f64::from);
@@ -69,18 +62,14 @@ fn the_shadow_of_a_thin_wire_keeps_its_energy() {
         };
         let shadowed = [false, true].map(|as_list| image(sun, Shadows::Exact, as_list));
         let open = image(sun, Shadows::None, false);
-        let dark = Light {
-            color: [0.0; 3],
-            ..sun
-        };
+        let dark = Light { color: [0.0; 3], ..sun };
         let ambient = image(dark, Shadows::None, false);
         let taken = |shadowed: &[[f32; 4]], wire: u32| -> f64 {
             let [left, top] = part(wire);
             let rows = (top..top + PART[1]).map(|y| (y * SIZE[0] + left) as usize);
             let pixels = rows.flat_map(|row| row..row + PART[0] as usize);
             let share = |i: usize| {
-                let [open, shadowed, ambient] =
-                    [&open, shadowed, &ambient].map(|image| f64::from(image[i][1]));
+                let [open, shadowed, ambient] = [&open, shadowed, &ambient].map(|image| f64::from(image[i][1]));
                 if open == ambient {
                     return 0.0;
                 }
@@ -92,10 +81,7 @@ fn the_shadow_of_a_thin_wire_keeps_its_energy() {
             let energies: Vec<f64> = (0..8).map(|wire| taken(shadowed, wire)).collect();
             let mean = energies.iter().sum::<f64>() / 8.0;
             assert!((mean - 1.0).abs() < 0.03, "{energies:?}");
-            assert!(
-                energies.iter().all(|energy| (energy - 1.0).abs() < 0.08),
-                "{energies:?}"
-            );
+            assert!(energies.iter().all(|energy| (energy - 1.0).abs() < 0.08), "{energies:?}");
         }
     });
 }

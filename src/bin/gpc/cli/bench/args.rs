@@ -23,12 +23,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
     /// Methods to measure
-    #[arg(
-        long,
-        value_name = "NAMES",
-        value_delimiter = ',',
-        default_value = "none,msaa,ssaa,superpixel"
-    )]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "none,msaa,ssaa,superpixel")]
     methods: Vec<MethodKind>,
     /// Samples a pixel; a method leaves out the numbers that it doesn't allow
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
@@ -111,22 +106,14 @@ fn reference_samples(text: &str) -> Result<u32, String> {
     text.parse()
         .ok()
         .filter(|count: &u32| {
-            (GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(count)
-                && count.is_multiple_of(GRID_SAMPLES)
+            (GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(count) && count.is_multiple_of(GRID_SAMPLES)
         })
-        .ok_or_else(|| {
-            format!("expected a multiple of {GRID_SAMPLES} up to {MAX_REFERENCE_SAMPLES}")
-        })
+        .ok_or_else(|| format!("expected a multiple of {GRID_SAMPLES} up to {MAX_REFERENCE_SAMPLES}"))
 }
 
 /// Parses a number of seconds that a [`Duration`] can hold.
 fn budget(text: &str) -> Result<f64, String> {
     const MOST: f64 = 1e6;
-    values::not_negative(text).and_then(|seconds| {
-        if seconds <= MOST {
-            Ok(seconds)
-        } else {
-            Err(format!("expected at most {MOST} seconds"))
-        }
-    })
+    values::not_negative(text)
+        .and_then(|seconds| if seconds <= MOST { Ok(seconds) } else { Err(format!("expected at most {MOST} seconds")) })
 }

@@ -70,11 +70,7 @@ impl Bench<'_> {
             accuracy,
             cost: Contender::cost(contender),
         };
-        Ok(SceneChoices {
-            name,
-            textured: subject.is_textured(),
-            rows: measured.map(row).collect(),
-        })
+        Ok(SceneChoices { name, textured: subject.is_textured(), rows: measured.map(row).collect() })
     }
 }
 
@@ -101,11 +97,8 @@ pub fn print(scene: &SceneChoices) -> anyhow::Result<()> {
     Ok(())
 }
 
-const COLUMNS: &str = concat!(
-    "scene,textured,option,value,samples,frames,",
-    csv::time_columns!(),
-    ",superpixel_fraction,rmse,flip"
-);
+const COLUMNS: &str =
+    concat!("scene,textured,option,value,samples,frames,", csv::time_columns!(), ",superpixel_fraction,rmse,flip");
 
 /// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneChoices]) -> String {

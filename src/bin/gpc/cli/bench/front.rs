@@ -17,16 +17,9 @@ pub fn error(row: &Row) -> f64 {
 }
 
 /// The rows that no other row beats in both time and error, sorted by time: their Pareto front.
-pub fn front<'a>(
-    rows: impl IntoIterator<Item = &'a Row>,
-    error: impl Fn(&Row) -> f64,
-) -> Vec<&'a Row> {
+pub fn front<'a>(rows: impl IntoIterator<Item = &'a Row>, error: impl Fn(&Row) -> f64) -> Vec<&'a Row> {
     let mut sorted: Vec<_> = rows.into_iter().collect();
-    sorted.sort_by(|a, b| {
-        time(a)
-            .total_cmp(&time(b))
-            .then(error(a).total_cmp(&error(b)))
-    });
+    sorted.sort_by(|a, b| time(a).total_cmp(&time(b)).then(error(a).total_cmp(&error(b))));
     let mut least = f64::INFINITY;
     sorted.retain(|row| {
         let better = error(row) < least;
@@ -42,10 +35,7 @@ pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> 
     let goal = scene.row(MethodKind::Ssaa, samples)?;
     let rows = scene.rows.iter();
     let superpixels = rows.filter(|row| row.method == MethodKind::Superpixel);
-    let points: Vec<_> = front(superpixels, error)
-        .into_iter()
-        .map(|row| [time(row), error(row)])
-        .collect();
+    let points: Vec<_> = front(superpixels, error).into_iter().map(|row| [time(row), error(row)]).collect();
     if points.is_empty() || time(goal) <= 0.0 {
         return None;
     }

@@ -46,11 +46,7 @@ impl Gallery {
         superpixels: Option<&GalleryImage>,
     ) -> anyhow::Result<Self> {
         let truth = yardstick.reference();
-        let method = |name: String, image| MethodKind {
-            errors: ErrorMap::new(truth, image),
-            name,
-            image,
-        };
+        let method = |name: String, image| MethodKind { errors: ErrorMap::new(truth, image), name, image };
         let mut images = vec![method("one sample".to_owned(), yardstick.one_sample())];
         let mut worst = vec![(0, "Where one sample a pixel errs most".to_owned())];
         if let Some(shown) = superpixels {
@@ -74,11 +70,7 @@ impl Gallery {
                 continue;
             };
             let window = method.errors.worst_window();
-            parts.push(Part {
-                title,
-                versions: versions(window, truth, &images)?,
-                window,
-            });
+            parts.push(Part { title, versions: versions(window, truth, &images)?, window });
         }
         Ok(Self { overview, parts })
     }
@@ -121,11 +113,7 @@ struct MethodKind<'a> {
     errors: ErrorMap,
 }
 
-fn versions(
-    window: CropBox,
-    reference: &DecodedImage,
-    images: &[MethodKind<'_>],
-) -> anyhow::Result<Vec<Version>> {
+fn versions(window: CropBox, reference: &DecodedImage, images: &[MethodKind<'_>]) -> anyhow::Result<Vec<Version>> {
     let size = reference.size;
     let mut versions = vec![version("truth", window.png(size, &colors(reference))?)];
     for MethodKind { name, image, .. } in images {
@@ -140,8 +128,5 @@ fn versions(
 }
 
 fn version(caption: &str, data: String) -> Version {
-    Version {
-        caption: caption.to_owned(),
-        data,
-    }
+    Version { caption: caption.to_owned(), data }
 }

@@ -8,7 +8,8 @@ use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{CellOptions, MethodKind, RenderError, SceneRequest};
 use std::fmt::Write;
 
-const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
+const COLUMNS: &str =
+    "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
 
 /// All times of all curves (RFC 4180, but with bare line feeds).
 pub fn csv(curves: &[ScalingCurve]) -> String {
@@ -50,15 +51,10 @@ impl Bench<'_> {
     /// where the device runs out of memory.
     pub fn grow(&mut self, growth: Growth) -> anyhow::Result<ScalingCurve> {
         self.progress.begin(&growth.to_string());
-        let mut curve = ScalingCurve {
-            quantity: growth.to_string(),
-            points: Vec::new(),
-            notes: Vec::new(),
-        };
+        let mut curve = ScalingCurve { quantity: growth.to_string(), points: Vec::new(), notes: Vec::new() };
         let mut methods = METHODS.to_vec();
         for index in 0..growth.steps() {
-            self.progress
-                .say(&format!("step {} of {}", index + 1, growth.steps()));
+            self.progress.say(&format!("step {} of {}", index + 1, growth.steps()));
             let Some(step) = growth.step(index, self.args.size) else {
                 break;
             };
@@ -70,9 +66,7 @@ impl Bench<'_> {
                     curve.points.push(point);
                 }
                 Err(error) => {
-                    curve
-                        .notes
-                        .push(format!("ends before {}: {error}", step.value));
+                    curve.notes.push(format!("ends before {}: {error}", step.value));
                     break;
                 }
             }
@@ -81,21 +75,13 @@ impl Bench<'_> {
     }
 
     /// Removes the methods that would take too long for the next scene.
-    fn drop_slow(
-        &self,
-        point: &Point,
-        methods: &mut Vec<(MethodKind, u32)>,
-        notes: &mut Vec<String>,
-    ) {
+    fn drop_slow(&self, point: &Point, methods: &mut Vec<(MethodKind, u32)>, notes: &mut Vec<String>) {
         let budget = self.args.budget;
         methods.retain(|(method, _)| {
             let time = point.times.iter().find(|time| time.method == *method);
             let fits = time.is_some_and(|time| 1e-3 * time.wall_ms.min <= budget);
             if !fits {
-                notes.push(format!(
-                    "{method} ends at {}: a frame takes longer than {budget} s",
-                    point.value
-                ));
+                notes.push(format!("{method} ends at {}: a frame takes longer than {budget} s", point.value));
             }
             fits
         });
@@ -108,9 +94,7 @@ impl Bench<'_> {
         methods: &mut Vec<(MethodKind, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {
-        let prepared = self
-            .headless
-            .upload(SceneRequest::new(&step.scene, &step.pose))?;
+        let prepared = self.headless.upload(SceneRequest::new(&step.scene, &step.pose))?;
         let pixels = f64::from(step.size[0]) * f64::from(step.size[1]);
         let mut contenders = Vec::new();
         let mut superpixel_fraction = None;
@@ -144,12 +128,7 @@ impl Bench<'_> {
             .zip(&contenders)
             .map(|((method, samples), contender)| {
                 let cost = contender.cost();
-                Time {
-                    method: *method,
-                    samples: *samples,
-                    gpu_ms: cost.gpu_ms,
-                    wall_ms: cost.wall_ms,
-                }
+                Time { method: *method, samples: *samples, gpu_ms: cost.gpu_ms, wall_ms: cost.wall_ms }
             })
             .collect();
         Ok(Point {
@@ -165,21 +144,15 @@ impl Bench<'_> {
 /// Prints a curve.
 pub fn print(curve: &ScalingCurve) -> anyhow::Result<()> {
     print::line(&format!("\ngrowth of {}, GPU ms:", curve.quantity))?;
-    print::line(
-        "         value  triangles        size  superpx      none  superpixel 64    ssaa 64",
-    )?;
+    print::line("         value  triangles        size  superpx      none  superpixel 64    ssaa 64")?;
     let ms = |time: Option<f64>| time.map_or_else(|| "-".to_owned(), |ms| format!("{ms:.1}"));
     for point in &curve.points {
         print::line(&format!(
             "  {:>12} {:>10} {:>11} {:>8} {:>9} {:>14} {:>10}",
-            format!("{:.4}", point.value)
-                .trim_end_matches('0')
-                .trim_end_matches('.'),
+            format!("{:.4}", point.value).trim_end_matches('0').trim_end_matches('.'),
             point.triangles,
             format!("{}x{}", point.size[0], point.size[1]),
-            point
-                .superpixel_fraction
-                .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+            point.superpixel_fraction.map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
             ms(point.ms(MethodKind::None)),
             ms(point.ms(MethodKind::Superpixel)),
             ms(point.ms(MethodKind::Ssaa)),

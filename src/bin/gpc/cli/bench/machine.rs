@@ -16,11 +16,9 @@ pub struct Machine {
 impl Machine {
     pub fn this() -> Self {
         Self {
-            cpu: value_in("/proc/cpuinfo", "model name", ':')
-                .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
+            cpu: value_in("/proc/cpuinfo", "model name", ':').unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
             threads: std::thread::available_parallelism().map_or(1, usize::from),
-            os: value_in("/etc/os-release", "PRETTY_NAME", '=')
-                .unwrap_or_else(|| std::env::consts::OS.to_owned()),
+            os: value_in("/etc/os-release", "PRETTY_NAME", '=').unwrap_or_else(|| std::env::consts::OS.to_owned()),
         }
     }
 }

@@ -43,21 +43,18 @@ impl Bench<'_> {
         let mut ssaa = None;
         let mut superpixels = None;
         for (method, samples) in self.args.cells() {
-            self.progress
-                .say(&format!("{method} {samples}, warming up"));
-            let (contender, rendered) =
-                match self.warm_up(&subject, &self.settings(method, samples)) {
-                    Err(RenderError::Engine(EngineError::Samples { possible, .. })) => {
-                        notes.leave_out(method, samples, possible);
-                        continue;
-                    }
-                    done => done?,
-                };
+            self.progress.say(&format!("{method} {samples}, warming up"));
+            let (contender, rendered) = match self.warm_up(&subject, &self.settings(method, samples)) {
+                Err(RenderError::Engine(EngineError::Samples { possible, .. })) => {
+                    notes.leave_out(method, samples, possible);
+                    continue;
+                }
+                done => done?,
+            };
             let picture = Picture::new(rendered.size, &rendered.colors)?;
             let pieces = match &splitter {
                 Some(splitter) => {
-                    self.progress
-                        .say(&format!("{method} {samples}, whose fault its errors are"));
+                    self.progress.say(&format!("{method} {samples}, whose fault its errors are"));
                     Some(splitter.split(self, &subject, &yardstick, &picture, method, samples)?)
                 }
                 None => None,
@@ -69,8 +66,7 @@ impl Bench<'_> {
                     samples,
                     cost: contender.cost(),
                     memory_bytes: statistics.memory_bytes,
-                    superpixel_fraction: statistics.superpixels as f64
-                        / rendered.colors.len() as f64,
+                    superpixel_fraction: statistics.superpixels as f64 / rendered.colors.len() as f64,
                     candidates: statistics.candidates,
                     accuracy: yardstick.measure(&picture)?,
                     geometry: match &geometry {
@@ -114,27 +110,19 @@ impl Bench<'_> {
     /// measured.
     fn shown_samples(&self) -> Option<u32> {
         let cells = self.args.cells();
-        let counts = cells
-            .iter()
-            .filter(|(method, _)| *method == MethodKind::Superpixel)
-            .map(|(_, samples)| *samples);
+        let counts = cells.iter().filter(|(method, _)| *method == MethodKind::Superpixel).map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == CellOptions::DEFAULT_SAMPLES, *samples))
     }
 
     /// Yardstick of geometry alone, if it is asked for. `one_sample` serves both yardsticks, because one sample a
     /// pixel is the same image with either footprint.
-    fn geometry_yardstick(
-        &mut self,
-        subject: &Subject,
-        one_sample: &Picture<'_>,
-    ) -> anyhow::Result<Option<Yardstick>> {
+    fn geometry_yardstick(&mut self, subject: &Subject, one_sample: &Picture<'_>) -> anyhow::Result<Option<Yardstick>> {
         if !self.args.geometry {
             return Ok(None);
         }
         let settings = for_whole_pixels(self.settings(MethodKind::None, 1));
         let name = "its reference for geometry alone";
-        let (reference, _) =
-            self.reference(&subject.wanted(&settings, self.args.reference, name))?;
+        let (reference, _) = self.reference(&subject.wanted(&settings, self.args.reference, name))?;
         let reference = Picture::new(settings.size, &reference)?;
         Ok(Some(Yardstick::new(&reference, one_sample)?))
     }
@@ -152,11 +140,7 @@ impl Bench<'_> {
         Ok(yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?)
     }
 
-    fn time(
-        &mut self,
-        subject: &Subject,
-        mut entries: Vec<Entry>,
-    ) -> Result<Vec<Row>, RenderError> {
+    fn time(&mut self, subject: &Subject, mut entries: Vec<Entry>) -> Result<Vec<Row>, RenderError> {
         let progress = &self.progress;
         bench::take_turns(
             &mut self.headless,
@@ -170,13 +154,7 @@ impl Bench<'_> {
                 progress.say(&format!("{} {}", method.kind(), method.samples()));
             },
         )?;
-        Ok(entries
-            .into_iter()
-            .map(|Entry { contender, row }| Row {
-                cost: contender.cost(),
-                ..row
-            })
-            .collect())
+        Ok(entries.into_iter().map(|Entry { contender, row }| Row { cost: contender.cost(), ..row }).collect())
     }
 }
 
@@ -191,11 +169,7 @@ struct SkippedSamples(Vec<(MethodKind, String, Vec<u32>)>);
 
 impl SkippedSamples {
     fn leave_out(&mut self, method: MethodKind, samples: u32, possible: String) {
-        match self
-            .0
-            .iter_mut()
-            .find(|(known, reason, _)| *known == method && *reason == possible)
-        {
+        match self.0.iter_mut().find(|(known, reason, _)| *known == method && *reason == possible) {
             Some((_, _, counts)) => counts.push(samples),
             None => self.0.push((method, possible, vec![samples])),
         }
@@ -204,10 +178,7 @@ impl SkippedSamples {
     fn lines(&self) -> Vec<String> {
         let line = |(method, possible, counts): &(MethodKind, String, Vec<u32>)| {
             let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
-            format!(
-                "{method} left out at {} samples: it can have {possible}",
-                counts.join(", ")
-            )
+            format!("{method} left out at {} samples: it can have {possible}", counts.join(", "))
         };
         self.0.iter().map(line).collect()
     }

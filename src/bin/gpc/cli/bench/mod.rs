@@ -35,12 +35,7 @@ use std::process::ExitCode;
 use subject::Bench;
 
 /// Every method, in the order of tables.
-const METHODS: [MethodKind; 4] = [
-    MethodKind::None,
-    MethodKind::Msaa,
-    MethodKind::Ssaa,
-    MethodKind::Superpixel,
-];
+const METHODS: [MethodKind; 4] = [MethodKind::None, MethodKind::Msaa, MethodKind::Ssaa, MethodKind::Superpixel];
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let mut files = args.scenes.iter().chain(&args.motion);
@@ -50,8 +45,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let Some(cache) = args.cache.clone().or_else(Cache::default_folder) else {
         exit::usage!("there is no home folder to keep references in; name a folder with --cache");
     };
-    std::fs::create_dir_all(&args.out)
-        .with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
+    std::fs::create_dir_all(&args.out).with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
     let timed = if args.variants { args.scenes.len() } else { 0 };

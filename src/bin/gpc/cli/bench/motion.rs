@@ -51,28 +51,16 @@ impl Bench<'_> {
                 self.progress.say(&format!("{motion}, {method} {samples}"));
                 let settings = subject::settings(method, samples, size);
                 match self.sequence(&subject, &settings, &cameras, &truths) {
-                    Ok(sequence) => rows.push(MotionRow {
-                        motion,
-                        method,
-                        samples,
-                        steadiness: sequence.steadiness(),
-                    }),
+                    Ok(sequence) => rows.push(MotionRow { motion, method, samples, steadiness: sequence.steadiness() }),
                     Err(error) => match error.downcast_ref() {
-                        Some(RenderError::Engine(EngineError::Samples { possible, .. })) => notes.push(format!(
-                            "{motion}: {method} left out at {samples} samples: it can have {possible}"
-                        )),
+                        Some(RenderError::Engine(EngineError::Samples { possible, .. })) => notes
+                            .push(format!("{motion}: {method} left out at {samples} samples: it can have {possible}")),
                         _ => return Err(error),
                     },
                 }
             }
         }
-        Ok(SceneMotion {
-            name,
-            textured: subject.is_textured(),
-            size,
-            rows,
-            notes,
-        })
+        Ok(SceneMotion { name, textured: subject.is_textured(), size, rows, notes })
     }
 
     /// The reference of each frame.
@@ -87,10 +75,7 @@ impl Bench<'_> {
         let mut truths = Vec::new();
         for (index, camera) in cameras.iter().enumerate() {
             let name = format!("{motion}, truth {} of {}", index + 1, cameras.len());
-            let (truth, _) = self.reference(&Wanted {
-                camera,
-                ..subject.wanted(&settings, TRUTH_SAMPLES, &name)
-            })?;
+            let (truth, _) = self.reference(&Wanted { camera, ..subject.wanted(&settings, TRUTH_SAMPLES, &name) })?;
             truths.push(DecodedImage::from(&Picture::new(size, &truth)?));
         }
         Ok(truths)
@@ -117,9 +102,7 @@ impl Bench<'_> {
 
 /// Superpixel / supersampling ratios, one for each number of samples at which both were measured.
 pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
-    let counts = CELLS
-        .iter()
-        .filter(|(method, _)| *method == MethodKind::Superpixel);
+    let counts = CELLS.iter().filter(|(method, _)| *method == MethodKind::Superpixel);
     let at = |&(_, samples): &(MethodKind, u32)| {
         let pairs = || {
             scenes.iter().flat_map(move |scene| {

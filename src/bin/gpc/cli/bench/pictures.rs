@@ -35,11 +35,7 @@ pub struct CropBox {
 
 /// An image's colours, RGB of 0 to 1.
 pub fn colors(image: &DecodedImage) -> Vec<[f32; 3]> {
-    image
-        .pixels
-        .iter()
-        .map(|[r, g, b, _]| [*r, *g, *b])
-        .collect()
+    image.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
 }
 
 impl ErrorMap {
@@ -51,12 +47,7 @@ impl ErrorMap {
         };
         Self {
             size: reference.size.map(|side| side as usize),
-            errors: reference
-                .pixels
-                .iter()
-                .zip(&image.pixels)
-                .map(error)
-                .collect(),
+            errors: reference.pixels.iter().zip(&image.pixels).map(error).collect(),
         }
     }
 
@@ -127,17 +118,9 @@ pub fn small_jpeg(size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String>
     let mut bytes = Vec::with_capacity(3 * columns * rows);
     for y in 0..rows {
         for x in 0..columns {
-            let block = CropBox {
-                low: [x * step, y * step],
-                size: [step, step],
-            };
-            let pixels = block
-                .rows(width)
-                .filter_map(|row| colors.get(row))
-                .flatten();
-            let sum = pixels.fold([0.0; 3], |[r, g, b], color| {
-                [r + color[0], g + color[1], b + color[2]]
-            });
+            let block = CropBox { low: [x * step, y * step], size: [step, step] };
+            let pixels = block.rows(width).filter_map(|row| colors.get(row)).flatten();
+            let sum = pixels.fold([0.0; 3], |[r, g, b], color| [r + color[0], g + color[1], b + color[2]]);
             bytes.extend(codes(sum.map(|value| value / (step * step) as f32)));
         }
     }
@@ -163,10 +146,7 @@ mod tests {
     #[test]
     fn the_worst_window_holds_the_worst_pixels() {
         let size = [200, 100];
-        let black = DecodedImage {
-            size,
-            pixels: vec![[0.0, 0.0, 0.0, 1.0]; 20_000],
-        };
+        let black = DecodedImage { size, pixels: vec![[0.0, 0.0, 0.0, 1.0]; 20_000] };
         let mut image = black.clone();
         for (x, y) in [(10, 10), (150, 70), (151, 71)] {
             image.pixels[y * 200 + x] = [0.5; 4];
@@ -178,10 +158,7 @@ mod tests {
 
     #[test]
     fn a_window_is_no_larger_than_its_image() {
-        let tiny = DecodedImage {
-            size: [7, 1],
-            pixels: vec![[0.0; 4]; 7],
-        };
+        let tiny = DecodedImage { size: [7, 1], pixels: vec![[0.0; 4]; 7] };
         let window = ErrorMap::new(&tiny, &tiny).worst_window();
         assert_eq!((window.low, window.size), ([0, 0], [7, 1]));
         assert!(small_jpeg([7, 1], &colors(&tiny)).is_ok());

@@ -13,13 +13,9 @@ impl Progress {
     /// Makes a bar of `parts` scenes, curves and checks.
     pub fn new(parts: usize) -> Self {
         let style = ProgressStyle::with_template("{spinner} {pos}/{len}, {elapsed}  {wide_msg}");
-        let bar = ProgressBar::new(parts as u64)
-            .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let bar = ProgressBar::new(parts as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.enable_steady_tick(Duration::from_millis(200));
-        Self {
-            bar,
-            scene: String::new(),
-        }
+        Self { bar, scene: String::new() }
     }
 
     /// Begins to measure a scene.

@@ -254,9 +254,7 @@ impl Point {
 impl SceneMotion {
     /// The row of a motion, a method and a number of samples.
     pub fn row(&self, motion: Motion, method: MethodKind, samples: u32) -> Option<&MotionRow> {
-        let wanted = |row: &&MotionRow| {
-            row.motion == motion && row.method == method && row.samples == samples
-        };
+        let wanted = |row: &&MotionRow| row.motion == motion && row.method == method && row.samples == samples;
         self.rows.iter().find(wanted)
     }
 }

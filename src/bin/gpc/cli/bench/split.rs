@@ -1,9 +1,7 @@
 //! Split of an image's error by cause and by fault.
 
 use super::subject::{Bench, Subject, Wanted};
-use gpc::bench::{
-    self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick,
-};
+use gpc::bench::{self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 
@@ -36,21 +34,14 @@ impl Splitter {
         let settings = bench.settings(MethodKind::None, 1);
         let progress = &bench.progress;
         let mut looks = 0;
-        let found = PixelTriangles::new(
-            &mut bench.headless,
-            &subject.prepared,
-            &subject.view.camera,
-            &settings,
-            || {
+        let found =
+            PixelTriangles::new(&mut bench.headless, &subject.prepared, &subject.view.camera, &settings, || {
                 looks += 1;
                 progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
-            },
-        )?;
+            })?;
         let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
             let scene = stripped.of(&subject.scene);
-            let prepared = bench
-                .headless
-                .upload(SceneRequest::new(&scene, &subject.pose))?;
+            let prepared = bench.headless.upload(SceneRequest::new(&scene, &subject.pose))?;
             let (truth, _) = bench.reference(&Wanted {
                 prepared: &prepared,
                 ..subject.wanted(&settings, bench.args.reference.min(MOST_SAMPLES), name)
@@ -84,16 +75,11 @@ impl Splitter {
         let settings = bench.settings(MethodKind::Superpixel, samples);
         let camera = &subject.view.camera;
         let scene = &subject.prepared;
-        let causes = self
-            .looks
-            .causes(&mut bench.headless, scene, camera, &settings)?;
+        let causes = self.looks.causes(&mut bench.headless, scene, camera, &settings)?;
         let faults = if superpixels {
             let suspects = Suspects {
                 scene,
-                halves: self
-                    .halves
-                    .each_ref()
-                    .map(|(scene, truth)| Half { scene, truth }),
+                halves: self.halves.each_ref().map(|(scene, truth)| Half { scene, truth }),
                 camera,
                 looks: &self.looks,
             };
@@ -103,11 +89,7 @@ impl Splitter {
         };
         Ok(Pieces {
             split: yardstick.split(picture, &causes)?,
-            within: if superpixels {
-                Some(yardstick.split_within(picture, &causes, &faults)?)
-            } else {
-                None
-            },
+            within: if superpixels { Some(yardstick.split_within(picture, &causes, &faults)?) } else { None },
             causes,
             faults,
         })
@@ -131,21 +113,9 @@ pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
 /// Parts of the error that superpixels leave: a phrase, and its share of the squared error of one sample a pixel.
 pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
     [
-        (
-            Cause::Superpixel,
-            Some(Fault::Edges),
-            within.superpixel_edges,
-        ),
-        (
-            Cause::Superpixel,
-            Some(Fault::Texture),
-            within.superpixel_texture,
-        ),
-        (
-            Cause::Superpixel,
-            Some(Fault::Light),
-            within.superpixel_light,
-        ),
+        (Cause::Superpixel, Some(Fault::Edges), within.superpixel_edges),
+        (Cause::Superpixel, Some(Fault::Texture), within.superpixel_texture),
+        (Cause::Superpixel, Some(Fault::Light), within.superpixel_light),
         (Cause::BelowThreshold, None, left.below_threshold),
         (Cause::Unseen, None, left.unseen),
         (Cause::Inside, Some(Fault::Texture), within.inside_texture),

@@ -12,11 +12,7 @@ impl Bench<'_> {
         self.progress.begin(check.name);
         let start = Instant::now();
         let findings = check.run(&mut self.headless, Length::Long)?;
-        Ok(Stress {
-            about: check.name,
-            seconds: start.elapsed().as_secs_f64(),
-            findings,
-        })
+        Ok(Stress { about: check.name, seconds: start.elapsed().as_secs_f64(), findings })
     }
 }
 

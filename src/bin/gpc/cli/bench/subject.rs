@@ -9,9 +9,7 @@ use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
-use gpc::render::{
-    Headless, MethodKind, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
-};
+use gpc::render::{Headless, MethodKind, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
 use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
@@ -58,9 +56,7 @@ impl Bench<'_> {
             anyhow::bail!("{}: there is no camera to see it with", path.display());
         };
         Ok(Subject {
-            prepared: self
-                .headless
-                .upload(SceneRequest::new(&loaded.scene, &pose))?,
+            prepared: self.headless.upload(SceneRequest::new(&loaded.scene, &pose))?,
             scene: loaded.scene,
             pose,
             view,
@@ -72,27 +68,10 @@ impl Bench<'_> {
     }
 
     /// A reference image, and the seconds that it took to render; `None` if it came from the cache.
-    pub(super) fn reference(
-        &mut self,
-        wanted: &Wanted<'_>,
-    ) -> anyhow::Result<(Vec<[f32; 4]>, Option<f64>)> {
-        let Wanted {
-            prepared,
-            geometry,
-            camera,
-            settings,
-            samples,
-            name,
-        } = *wanted;
+    pub(super) fn reference(&mut self, wanted: &Wanted<'_>) -> anyhow::Result<(Vec<[f32; 4]>, Option<f64>)> {
+        let Wanted { prepared, geometry, camera, settings, samples, name } = *wanted;
         self.progress.say(&format!("looking for {name}"));
-        let fingerprint = Fingerprint::new(
-            &mut self.headless,
-            prepared,
-            geometry,
-            camera,
-            settings,
-            samples,
-        )?;
+        let fingerprint = Fingerprint::new(&mut self.headless, prepared, geometry, camera, settings, samples)?;
         if let Some(known) = self.cache.get(fingerprint, settings.size) {
             return Ok((known, None));
         }
@@ -105,14 +84,7 @@ impl Bench<'_> {
             done += 1;
         };
         count();
-        let reference = bench::brute_force(
-            &mut self.headless,
-            prepared,
-            camera,
-            settings,
-            samples,
-            count,
-        )?;
+        let reference = bench::brute_force(&mut self.headless, prepared, camera, settings, samples, count)?;
         let seconds = start.elapsed().as_secs_f64();
         let picture = Picture::new(settings.size, &reference)?;
         self.cache.put(fingerprint, &picture)?;
@@ -124,12 +96,7 @@ impl Bench<'_> {
         subject: &Subject,
         settings: &Settings,
     ) -> Result<(Contender, Rendered), RenderError> {
-        Contender::warm_up(
-            &mut self.headless,
-            &subject.prepared,
-            &subject.view.camera,
-            settings,
-        )
+        Contender::warm_up(&mut self.headless, &subject.prepared, &subject.view.camera, settings)
     }
 }
 
@@ -171,9 +138,5 @@ pub fn settings(method: MethodKind, samples: u32, [width, height]: [u32; 2]) -> 
 pub(super) fn name(path: &Path) -> String {
     let stem = input::stem(path);
     let folder = || Some(path.parent()?.file_name()?.to_string_lossy().into_owned());
-    if stem == "scene" {
-        folder().unwrap_or(stem)
-    } else {
-        stem
-    }
+    if stem == "scene" { folder().unwrap_or(stem) } else { stem }
 }

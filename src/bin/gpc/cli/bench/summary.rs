@@ -73,10 +73,7 @@ pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
                 textured,
                 scenes: mine.len(),
                 at: counts.iter().map(|count| at(&mine, *count)).collect(),
-                reach: TARGETS
-                    .into_iter()
-                    .filter_map(|samples| reach(&mine, samples))
-                    .collect(),
+                reach: TARGETS.into_iter().filter_map(|samples| reach(&mine, samples)).collect(),
             })
         })
         .collect()
@@ -95,20 +92,14 @@ pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32
 impl Summary {
     /// Phrase for the summarised scenes: their number, and whether they are textured.
     pub fn about(&self) -> String {
-        let kind = if self.textured {
-            "textured"
-        } else {
-            "untextured"
-        };
+        let kind = if self.textured { "textured" } else { "untextured" };
         let scenes = if self.scenes == 1 { "scene" } else { "scenes" };
         format!("{} {kind} {scenes}", self.scenes)
     }
 }
 
 fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
-    let each = |ratio: &dyn Fn(&SceneResults) -> Option<f64>| {
-        median(scenes.iter().filter_map(|s| ratio(s)))
-    };
+    let each = |ratio: &dyn Fn(&SceneResults) -> Option<f64>| median(scenes.iter().filter_map(|s| ratio(s)));
     let row = |scene: &SceneResults| {
         let row = scene.row(MethodKind::Superpixel, samples)?;
         Some(row.accuracy.removed)
@@ -126,39 +117,22 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
 }
 
 fn reach(scenes: &[&SceneResults], samples: u32) -> Option<TimeToMatch> {
-    let scenes: Vec<_> = scenes
-        .iter()
-        .filter_map(|scene| Some((scene.name.clone(), time_to_error(scene, samples)?)))
-        .collect();
-    let shares = scenes
-        .iter()
-        .map(|(_, share)| share.unwrap_or(f64::INFINITY));
+    let scenes: Vec<_> =
+        scenes.iter().filter_map(|scene| Some((scene.name.clone(), time_to_error(scene, samples)?))).collect();
+    let shares = scenes.iter().map(|(_, share)| share.unwrap_or(f64::INFINITY));
     let share = median(shares)?;
-    Some(TimeToMatch {
-        samples,
-        share: share.is_finite().then_some(share),
-        scenes,
-    })
+    Some(TimeToMatch { samples, share: share.is_finite().then_some(share), scenes })
 }
 
 impl Ratio {
-    fn over(
-        scenes: &[&SceneResults],
-        ratio: impl Fn(&SceneResults) -> Option<f64>,
-    ) -> Option<Self> {
-        Self::of(
-            scenes
-                .iter()
-                .filter_map(|scene| Some((scene.name.clone(), ratio(scene)?, 1.0))),
-        )
+    fn over(scenes: &[&SceneResults], ratio: impl Fn(&SceneResults) -> Option<f64>) -> Option<Self> {
+        Self::of(scenes.iter().filter_map(|scene| Some((scene.name.clone(), ratio(scene)?, 1.0))))
     }
 
     /// Median and largest of the ratios `first / second` of named pairs. A pair whose second number is 0 is left out.
     pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
-        let ratios: Vec<_> = pairs
-            .into_iter()
-            .filter_map(|(name, above, below)| Some((ratio(above, below)?, name)))
-            .collect();
+        let ratios: Vec<_> =
+            pairs.into_iter().filter_map(|(name, above, below)| Some((ratio(above, below)?, name))).collect();
         let (worst, worst_scene) = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Self {
             median: median(ratios.iter().map(|(ratio, _)| *ratio))?,
@@ -237,18 +211,11 @@ mod tests {
         let row = |&(method, samples, ms, rmse): &(MethodKind, u32, f64, f64)| Row {
             method,
             samples,
-            cost: Cost {
-                gpu_ms: Spread::of([ms]),
-                wall_ms: Spread::of([ms]),
-                passes: Vec::new(),
-            },
+            cost: Cost { gpu_ms: Spread::of([ms]), wall_ms: Spread::of([ms]), passes: Vec::new() },
             memory_bytes: 1,
             superpixel_fraction: 0.5,
             candidates: 1,
-            accuracy: Accuracy {
-                rmse,
-                ..Accuracy::default()
-            },
+            accuracy: Accuracy { rmse, ..Accuracy::default() },
             geometry: None,
             left: None,
             left_within: None,
@@ -269,29 +236,13 @@ mod tests {
     fn untextured_scenes_do_not_flatter() {
         use MethodKind::{Ssaa, Superpixel};
         let scenes = [
-            scene(
-                "paint",
-                true,
-                &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 10.0, 0.04)],
-            ),
-            scene(
-                "cloth",
-                true,
-                &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 20.0, 0.02)],
-            ),
-            scene(
-                "metal",
-                false,
-                &[(Ssaa, 64, 90.0, 0.01), (Superpixel, 64, 9.0, 0.01)],
-            ),
+            scene("paint", true, &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 10.0, 0.04)]),
+            scene("cloth", true, &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 20.0, 0.02)]),
+            scene("metal", false, &[(Ssaa, 64, 90.0, 0.01), (Superpixel, 64, 9.0, 0.01)]),
         ];
         let [textured, untextured] = summarize(&scenes).try_into().unwrap();
         assert!(textured.textured && textured.scenes == 2 && untextured.scenes == 1);
-        let expected = Ratio {
-            median: 3.0,
-            worst: 4.0,
-            worst_scene: "paint".to_owned(),
-        };
+        let expected = Ratio { median: 3.0, worst: 4.0, worst_scene: "paint".to_owned() };
         assert_eq!(textured.at[0].rmse_ratio.as_ref(), Some(&expected));
         assert_eq!(textured.at[0].speedup, Some(7.5));
         assert_eq!(textured.at[0].geometry_ratio, None);

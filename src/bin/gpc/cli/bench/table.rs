@@ -9,13 +9,8 @@ use std::fmt::Write;
 
 /// Prints the figures of a scene.
 pub fn print(scene: &SceneResults) -> anyhow::Result<()> {
-    let reference = scene
-        .reference_seconds
-        .map_or_else(String::new, |s| format!(", reference rendered in {s:.0} s"));
-    print::line(&format!(
-        "\n{}: {} triangles{reference}",
-        scene.name, scene.triangles
-    ))?;
+    let reference = scene.reference_seconds.map_or_else(String::new, |s| format!(", reference rendered in {s:.0} s"));
+    print::line(&format!("\n{}: {} triangles{reference}", scene.name, scene.triangles))?;
     for note in &scene.notes {
         print::line(&format!("  {note}"))?;
     }
@@ -40,10 +35,7 @@ fn print_left(scene: &SceneResults) -> anyhow::Result<()> {
             )?;
         }
         let shares = |faults: &[f64]| {
-            let shares: Vec<_> = faults
-                .iter()
-                .map(|share| format!("{:.2}", 100.0 * share))
-                .collect();
+            let shares: Vec<_> = faults.iter().map(|share| format!("{:.2}", 100.0 * share)).collect();
             format!("({})", shares.join(", "))
         };
         let [superpixels, inside] = match row.left_within.as_ref().map(within) {
@@ -67,10 +59,7 @@ fn print_left(scene: &SceneResults) -> anyhow::Result<()> {
 
 /// Prints the errors of geometry alone.
 fn print_geometry(scene: &SceneResults) -> anyhow::Result<()> {
-    let rows = scene
-        .rows
-        .iter()
-        .filter_map(|row| Some((row, row.geometry?)));
+    let rows = scene.rows.iter().filter_map(|row| Some((row, row.geometry?)));
     for (index, (row, geometry)) in rows.enumerate() {
         if index == 0 {
             print::line("  geometry alone, textures read for a whole pixel in all:")?;
@@ -130,8 +119,7 @@ pub fn print_summary(summary: &[Summary]) -> anyhow::Result<()> {
                 worst(&at.flip_ratio),
                 median(&at.geometry_ratio),
                 worst(&at.geometry_ratio),
-                at.removed
-                    .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+                at.removed.map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
                 times(at.speedup),
                 times(at.over_none),
             ))?;
@@ -152,10 +140,7 @@ pub fn print_summary(summary: &[Summary]) -> anyhow::Result<()> {
 
 /// A ratio of times as text, or "never".
 pub fn share(share: Option<f64>) -> String {
-    share.map_or_else(
-        || "never".to_owned(),
-        |share| format!("{:.1} %", 100.0 * share),
-    )
+    share.map_or_else(|| "never".to_owned(), |share| format!("{:.1} %", 100.0 * share))
 }
 
 fn times(ratio: Option<f64>) -> String {
@@ -214,14 +199,7 @@ pub fn csv(scenes: &[SceneResults]) -> String {
 
 /// The four shares of the error that is left, by cause, as cells of a CSV; empty cells if they were not measured.
 fn left(row: &Row) -> String {
-    let shares = row.left.map(|left| {
-        [
-            left.superpixels,
-            left.below_threshold,
-            left.unseen,
-            left.inside,
-        ]
-    });
+    let shares = row.left.map(|left| [left.superpixels, left.below_threshold, left.unseen, left.inside]);
     let shares = shares.map_or([None; 4], |shares| shares.map(Some));
     shares.map(optional).join(",")
 }

@@ -41,12 +41,7 @@ impl Bench<'_> {
         let costs: Vec<_> = contenders.iter().map(VariantContender::cost).collect();
         let raster = costs.first();
         let row = |cost: &_| Some(VariantRow::new(*cost, raster?));
-        Ok(SceneVariants {
-            name,
-            triangles: subject.triangles(),
-            rows: costs.iter().filter_map(row).collect(),
-            notes,
-        })
+        Ok(SceneVariants { name, triangles: subject.triangles(), rows: costs.iter().filter_map(row).collect(), notes })
     }
 }
 
@@ -59,9 +54,7 @@ pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
     for note in &scene.notes {
         print::line(&format!("  {note}"))?;
     }
-    print::line(
-        "  variant       samples    GPU ms     min  ns/sample   ratio   wall ms     min  ns/sample   ratio",
-    )?;
+    print::line("  variant       samples    GPU ms     min  ns/sample   ratio   wall ms     min  ns/sample   ratio")?;
     for row in &scene.rows {
         let VariantRow { cost, .. } = row;
         print::line(&format!(
@@ -81,11 +74,8 @@ pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
     Ok(())
 }
 
-const COLUMNS: &str = concat!(
-    "scene,triangles,variant,samples,runs,",
-    csv::time_columns!(),
-    ",gpu_ns,wall_ns,gpu_ratio,wall_ratio"
-);
+const COLUMNS: &str =
+    concat!("scene,triangles,variant,samples,runs,", csv::time_columns!(), ",gpu_ns,wall_ns,gpu_ratio,wall_ratio");
 
 /// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneVariants]) -> String {

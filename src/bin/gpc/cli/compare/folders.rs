@@ -63,11 +63,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
     let bound = args.max_rmse.unwrap_or(0.0);
     let [expected, found] = [names(&args.a)?, names(&args.b)?];
     if expected.is_empty() && found.is_empty() {
-        anyhow::bail!(
-            "neither {} nor {} has a .png, .jpg, .jpeg or .exr file",
-            args.a.display(),
-            args.b.display()
-        );
+        anyhow::bail!("neither {} nor {} has a .png, .jpg, .jpeg or .exr file", args.a.display(), args.b.display());
     }
     let mut images = Vec::new();
     for name in expected.union(&found) {
@@ -84,29 +80,17 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
     let count = |status| images.iter().filter(|image| image.status == status).count();
     let [equal, different, missing, new] = Status::ALL.map(count);
     if args.json {
-        print::json(&ComparisonReport {
-            equal,
-            different,
-            missing,
-            new,
-            images: &images,
-        })?;
+        print::json(&ComparisonReport { equal, different, missing, new, images: &images })?;
     } else {
         for image in &images {
             print::line(&line(image))?;
         }
-        print::line(&format!(
-            "{equal} equal, {different} different, {missing} missing, {new} new"
-        ))?;
+        print::line(&format!("{equal} equal, {different} different, {missing} missing, {new} new"))?;
     }
     if equal == images.len() {
         return Ok(ExitCode::SUCCESS);
     }
-    log::error!(
-        "{} of {} images are not equal within an rmse of {bound}",
-        images.len() - equal,
-        images.len()
-    );
+    log::error!("{} of {} images are not equal within an rmse of {bound}", images.len() - equal, images.len());
     Ok(ExitCode::from(exit::OVER_BOUND))
 }
 
@@ -193,11 +177,7 @@ fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Compar
 
 /// Path of the error map of an image: the image's name in `folder`, with `.png` appended unless it ends so already.
 fn difference_path(folder: &Path, name: &str) -> PathBuf {
-    if name.to_lowercase().ends_with(".png") {
-        folder.join(name)
-    } else {
-        folder.join(format!("{name}.png"))
-    }
+    if name.to_lowercase().ends_with(".png") { folder.join(name) } else { folder.join(format!("{name}.png")) }
 }
 
 fn line(image: &ComparedImage) -> String {

@@ -36,11 +36,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
         (true, true) => return folders::run(args),
         (false, false) => {}
         (first, _) => {
-            let (folder, image) = if first {
-                (&args.a, &args.b)
-            } else {
-                (&args.b, &args.a)
-            };
+            let (folder, image) = if first { (&args.a, &args.b) } else { (&args.b, &args.a) };
             exit::usage!(
                 "{} is a folder and {} is not; compare two images or two folders",
                 folder.display(),
@@ -79,9 +75,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
 
 /// Prints a comparison for people.
 pub fn print_lines(comparison: &compare::Comparison) -> anyhow::Result<()> {
-    let psnr = comparison
-        .psnr
-        .map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.2} dB"));
+    let psnr = comparison.psnr.map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.2} dB"));
     print::line(&format!(
         "rmse {:.6}\npsnr {psnr}\nmax  {:.6}\nflip {:.6}",
         comparison.rmse, comparison.max, comparison.flip

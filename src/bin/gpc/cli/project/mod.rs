@@ -97,10 +97,8 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     if name.replace(FIELD, "").contains(['{', '}']) {
         usage!("-o {name}: {FIELD} is all that it can hold in braces");
     }
-    let (projectors, fits): (Vec<_>, Vec<_>) = calibration::read(args)?
-        .into_iter()
-        .map(|calibrated| (calibrated.projector, calibrated.fit))
-        .unzip();
+    let (projectors, fits): (Vec<_>, Vec<_>) =
+        calibration::read(args)?.into_iter().map(|calibrated| (calibrated.projector, calibrated.fit)).unzip();
     let weights = blend_weights(&projectors);
     let mut stage = RenderSetup::open(&args.scene, &args.image, args.image.settings(format))?;
     let mut images = Vec::new();
@@ -112,9 +110,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         let path = PathBuf::from(name.replace(FIELD, &index.to_string()));
         let picture = Picture::new(size, &colors)?;
         render::write(&path, &output::encode(format, &picture, &[])?)?;
-        let weights_path = args
-            .weights
-            .then(|| render::beside(&path, format, "weights"));
+        let weights_path = args.weights.then(|| render::beside(&path, format, "weights"));
         if let Some(path) = &weights_path {
             render::write(path, &output::encode_shares(size, weights)?)?;
         }
@@ -145,10 +141,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         let picture = Picture::new(args.image.size, &light)?;
         render::write(path, &output::encode(format, &picture, &[])?)?;
     }
-    args.report.print(&ProjectReport {
-        images,
-        wall: args.wall.as_ref().map(|path| path.display().to_string()),
-    })?;
+    args.report.print(&ProjectReport { images, wall: args.wall.as_ref().map(|path| path.display().to_string()) })?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -6,9 +6,7 @@ use crate::cli::values::{self, Shard};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
-use gpc::render::{
-    CellOptions, Detection, Footprint, Method, MethodKind, PixelRect, Shading, SuperpixelOptions,
-};
+use gpc::render::{CellOptions, Detection, Footprint, Method, MethodKind, PixelRect, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -70,12 +68,7 @@ pub struct SamplingArgs {
     pub detect: Detection,
     /// Where the samples of a superpixel lie: on straight lines (lines), or at points (sobol, lattice, korobov, grid or
     /// rotated)
-    #[arg(
-        long,
-        value_name = "P",
-        default_value = "lines",
-        hide_short_help = true
-    )]
+    #[arg(long, value_name = "P", default_value = "lines", hide_short_help = true)]
     pub pattern: Pattern,
     /// Area over which textures are filtered
     #[arg(long, default_value = "sample", hide_short_help = true)]

@@ -34,12 +34,7 @@ enum ShownMoment {
 
 impl<'a> Film<'a> {
     /// A film of these steps. `first` is the time of the first pose, in seconds.
-    pub fn new(
-        image: &'a ImageArgs,
-        loaded: Loaded,
-        first: f64,
-        steps: &[SequenceFrame],
-    ) -> anyhow::Result<Self> {
+    pub fn new(image: &'a ImageArgs, loaded: Loaded, first: f64, steps: &[SequenceFrame]) -> anyhow::Result<Self> {
         let moves = steps.iter().any(|step| step.time != first);
         let (pose, motion) = if moves {
             let (pose, motion) = image.pose_in_motion(&loaded, first)?;
@@ -75,14 +70,8 @@ impl<'a> Film<'a> {
     }
 
     /// Brings the scene to a time in seconds. Returns warnings about what could not be posed.
-    pub fn show(
-        &mut self,
-        time: f64,
-        session: &mut Session,
-        clock: &mut Clock,
-    ) -> anyhow::Result<Vec<String>> {
-        if matches!(self.shown, Some(ShownMoment::Moved(now) | ShownMoment::Posed(now)) if now == time)
-        {
+    pub fn show(&mut self, time: f64, session: &mut Session, clock: &mut Clock) -> anyhow::Result<Vec<String>> {
+        if matches!(self.shown, Some(ShownMoment::Moved(now) | ShownMoment::Posed(now)) if now == time) {
             return Ok(Vec::new());
         }
         let scene = &self.loaded.scene;

@@ -63,12 +63,7 @@ pub struct AppearanceArgs {
     /// Shadows of the scene's own lights: none or exact
     ///
     /// They are tested exactly at every sample. An image takes several times as long.
-    #[arg(
-        long,
-        value_name = "S",
-        default_value = "none",
-        hide_possible_values = true
-    )]
+    #[arg(long, value_name = "S", default_value = "none", hide_possible_values = true)]
     pub shadows: Shadows,
     /// Width of lines in pixels
     #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
@@ -97,10 +92,7 @@ impl AppearanceArgs {
 
     /// The edges to draw, if any.
     pub fn edges(&self) -> Option<Edges> {
-        self.edges.map(|edges| Edges {
-            color: values::linear(edges.color),
-            ..Edges::default()
-        })
+        self.edges.map(|edges| Edges { color: values::linear(edges.color), ..Edges::default() })
     }
 
     /// `settings` with this appearance.
@@ -130,9 +122,9 @@ impl ImageArgs {
     /// Checks the number of samples against the method, as far as that is independent of the device.
     pub fn check_samples(&self) -> Result<(), Usage> {
         match (self.sampling.aa, self.sampling.samples()) {
-            (MethodKind::None, samples) if samples != 1 => Err(Usage(format!(
-                "none can't have {samples} samples a pixel; it can have 1"
-            ))),
+            (MethodKind::None, samples) if samples != 1 => {
+                Err(Usage(format!("none can't have {samples} samples a pixel; it can have 1")))
+            }
             _ => Ok(()),
         }
     }
@@ -156,10 +148,8 @@ impl ImageArgs {
 
     /// Loads a scene with the variant, the environment and the edges that the options name.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
-        let (loaded, environment) = rayon::join(
-            || input::load_variant(path, self.camera.variant.as_deref()),
-            || self.appearance.environment(),
-        );
+        let (loaded, environment) =
+            rayon::join(|| input::load_variant(path, self.camera.variant.as_deref()), || self.appearance.environment());
         let mut loaded = loaded?;
         let (environment, warnings) = environment?;
         loaded.scene.environment = environment;
@@ -184,9 +174,7 @@ impl ImageArgs {
             .reference(if tonemaps && !format.is_scene_linear() {
                 Reference::Display
             } else {
-                Reference::Scene {
-                    tonemapped_detection: tonemaps,
-                }
+                Reference::Scene { tonemapped_detection: tonemaps }
             })
             .attributes(!self.aov.is_empty())
             .max_memory(self.device.max_memory);
@@ -210,10 +198,6 @@ impl ImageArgs {
     }
 
     fn request(&self, time: f64) -> PoseRequest {
-        PoseRequest {
-            scene: self.camera.scene,
-            animation: self.camera.animation.clone(),
-            time,
-        }
+        PoseRequest { scene: self.camera.scene, animation: self.camera.animation.clone(), time }
     }
 }

@@ -75,9 +75,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     })?;
     clock.lap("device");
     // Everything else reads light.
-    let reads_codes = format == Format::Png8
-        && args.format.is_none()
-        && image.background != Background::Environment;
+    let reads_codes = format == Format::Png8 && args.format.is_none() && image.background != Background::Environment;
     let mut session = Session::new(headless, settings.clone(), reads_codes);
     let device = session.device();
     let mut video = args
@@ -108,11 +106,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 shot.rendered.show_behind(environment, &camera, &settings)?;
             }
             clock.lap("frame");
-            let path = template.fill(&Fields {
-                stem: &stem,
-                camera: &view.label,
-                frame: step.frame,
-            });
+            let path = template.fill(&Fields { stem: &stem, camera: &view.label, frame: step.frame });
             match (&shot, &mut video) {
                 (Shot::Light(shot), Some(video)) => {
                     video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;
@@ -151,12 +145,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
 }
 
 /// Warning about an image that shows nothing.
-fn warn<P: PartialEq>(
-    colors: &[P],
-    view: &NamedView,
-    film: &Film<'_>,
-    aspect: f64,
-) -> Option<String> {
+fn warn<P: PartialEq>(colors: &[P], view: &NamedView, film: &Film<'_>, aspect: f64) -> Option<String> {
     unseen::warning(colors, view, &film.pose, film.cameras(), aspect)
 }
 
@@ -164,11 +153,7 @@ fn warn<P: PartialEq>(
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
-    let settings = args
-        .image
-        .settings(format)
-        .region(args.region)
-        .time_rounds(args.time_rounds);
+    let settings = args.image.settings(format).region(args.region).time_rounds(args.time_rounds);
     if let Some(region) = args.region {
         region.end(settings.size)?;
     }

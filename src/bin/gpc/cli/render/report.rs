@@ -69,10 +69,10 @@ impl ImageReport {
             output: origin.output,
             device: origin.device.clone(),
             size,
-            region: origin.settings.region.map(|region| RegionReport {
-                corner: region.corner,
-                image: origin.settings.size,
-            }),
+            region: origin
+                .settings
+                .region
+                .map(|region| RegionReport { corner: region.corner, image: origin.settings.size }),
             camera: describe(origin.camera, origin.view, width / height),
             effort: Effort::new(
                 origin.settings,
@@ -91,12 +91,7 @@ impl ImageReport {
     /// A line of text for people.
     pub fn line(&self) -> String {
         let [width, height] = self.size;
-        let Effort {
-            samples,
-            superpixels,
-            triangles,
-            ..
-        } = &self.effort;
+        let Effort { samples, superpixels, triangles, .. } = &self.effort;
         format!(
             "{}: {width}x{height}, {} triangles, {} superpixels ({:.1} %) of {samples} samples, GPU {:.1} ms, {}",
             self.output,

@@ -7,35 +7,21 @@ use std::path::{Path, PathBuf};
 
 /// Writes an image to a file, or to standard output for `-`. Its AOVs become files in the same folder, unless the
 /// format has layers.
-pub fn save(
-    path: &Path,
-    format: Format,
-    rendered: &Rendered,
-    kinds: &[AovKind],
-) -> anyhow::Result<()> {
+pub fn save(path: &Path, format: Format, rendered: &Rendered, kinds: &[AovKind]) -> anyhow::Result<()> {
     let bytes = encode(path, format, rendered, kinds)?;
     write(path, &bytes)
 }
 
 /// Writes an image that the device has encoded as codes of 8 bits to a PNG file, or to standard output for `-`. Its AOVs become
 /// files in the same folder.
-pub fn save_codes(
-    path: &Path,
-    rendered: &Rendered<[u8; 4]>,
-    kinds: &[AovKind],
-) -> anyhow::Result<()> {
+pub fn save_codes(path: &Path, rendered: &Rendered<[u8; 4]>, kinds: &[AovKind]) -> anyhow::Result<()> {
     let bytes = output::encode_rgba(rendered.size, &rendered.colors)?;
     save_aovs(path, Format::Png8, rendered, &aovs(rendered, kinds))?;
     write(path, &bytes)
 }
 
 /// Encodes an image. AOVs for which the format has no layers are written to files in the same folder.
-pub fn encode(
-    path: &Path,
-    format: Format,
-    rendered: &Rendered,
-    kinds: &[AovKind],
-) -> anyhow::Result<Vec<u8>> {
+pub fn encode(path: &Path, format: Format, rendered: &Rendered, kinds: &[AovKind]) -> anyhow::Result<Vec<u8>> {
     let picture = Picture::new(rendered.size, &rendered.colors)?;
     let aovs = aovs(rendered, kinds);
     let bytes = output::encode(format, &picture, &aovs)?;
@@ -47,18 +33,11 @@ pub fn encode(
 
 fn aovs<P>(rendered: &Rendered<P>, kinds: &[AovKind]) -> Vec<Aov> {
     let kinds = kinds.iter();
-    kinds
-        .map(|kind| Aov::from_attributes(*kind, &rendered.attributes))
-        .collect()
+    kinds.map(|kind| Aov::from_attributes(*kind, &rendered.attributes)).collect()
 }
 
 /// Writes AOVs to files in the folder of the image at `path`.
-fn save_aovs<P>(
-    path: &Path,
-    format: Format,
-    rendered: &Rendered<P>,
-    aovs: &[Aov],
-) -> anyhow::Result<()> {
+fn save_aovs<P>(path: &Path, format: Format, rendered: &Rendered<P>, aovs: &[Aov]) -> anyhow::Result<()> {
     for aov in aovs {
         let bytes = output::encode_aov(rendered.size, aov)?;
         output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
@@ -77,18 +56,11 @@ pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 /// Fails if the folder of an output file does not exist, before work is done for that file. A folder whose name has
 /// placeholders is not checked.
 pub fn check_folder(path: &Path) -> anyhow::Result<()> {
-    let Some(folder) = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-    else {
+    let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
     if !folder.is_dir() && !folder.to_string_lossy().contains('{') {
-        anyhow::bail!(
-            "-o {}: there is no folder {}",
-            path.display(),
-            folder.display()
-        );
+        anyhow::bail!("-o {}: there is no folder {}", path.display(), folder.display());
     }
     Ok(())
 }

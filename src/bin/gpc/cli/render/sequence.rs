@@ -21,12 +21,7 @@ const MAX_STEPS: u32 = 1_000_000;
 
 /// Refuses options that need a sequence without one, and options that contradict each other.
 pub fn check(args: &RenderArgs) -> Result<(), Usage> {
-    let SequenceArgs {
-        frames,
-        fps,
-        turntable,
-        shard,
-    } = &args.sequence;
+    let SequenceArgs { frames, fps, turntable, shard } = &args.sequence;
     let standard = input::is_standard(&args.output);
     let refuse = |text: &str| Err(Usage(text.to_owned()));
     if args.format.is_some() && !standard {
@@ -39,9 +34,7 @@ pub fn check(args: &RenderArgs) -> Result<(), Usage> {
         return refuse("--shard: it divides --frames A..B or --turntable N");
     }
     if shard.is_some() && standard {
-        return refuse(
-            "--shard: every N-th frame makes no film; write files, such as -o {frame}.png",
-        );
+        return refuse("--shard: every N-th frame makes no film; write files, such as -o {frame}.png");
     }
     Ok(())
 }
@@ -58,21 +51,13 @@ pub fn share(steps: Vec<SequenceFrame>, shard: Option<Shard>) -> Vec<SequenceFra
 /// The steps of the whole sequence that the options describe, at least one.
 pub fn steps(args: &RenderArgs) -> Result<Vec<SequenceFrame>, Usage> {
     let time = args.image.camera.time;
-    let still = SequenceFrame {
-        frame: 0,
-        time,
-        turn: 0.0,
-    };
+    let still = SequenceFrame { frame: 0, time, turn: 0.0 };
     if let Some(frames) = &args.sequence.frames {
         if frames.end() - frames.start() >= MAX_STEPS {
             return Err(Usage(format!("--frames: at most {MAX_STEPS} at once")));
         }
         let fps = args.sequence.fps();
-        let step = |frame| SequenceFrame {
-            frame,
-            time: f64::from(frame) / fps,
-            ..still
-        };
+        let step = |frame| SequenceFrame { frame, time: f64::from(frame) / fps, ..still };
         return Ok(frames.clone().map(step).collect());
     }
     let Some(count) = args.sequence.turntable else {
@@ -81,10 +66,6 @@ pub fn steps(args: &RenderArgs) -> Result<Vec<SequenceFrame>, Usage> {
     if count > MAX_STEPS {
         return Err(Usage(format!("--turntable: at most {MAX_STEPS} images")));
     }
-    let step = |frame| SequenceFrame {
-        frame,
-        turn: 360.0 * f64::from(frame) / f64::from(count),
-        ..still
-    };
+    let step = |frame| SequenceFrame { frame, turn: 360.0 * f64::from(frame) / f64::from(count), ..still };
     Ok((0..count).map(step).collect())
 }

@@ -4,8 +4,8 @@ use super::startup::Clock;
 use crate::cli::report::DeviceReport;
 use gpc::camera::Camera;
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, PassTime, Pixel, PreparedScene, RenderError, Rendered,
-    SceneRequest, Settings, Shadows,
+    Frame, Headless, HeadlessOptions, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
+    Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
 use gpc::vulkan::VulkanError;
@@ -39,11 +39,7 @@ pub struct RenderedImage<P = [f32; 4]> {
 /// Opens the best device, or one by part of its name. `GPC_VALIDATION` turns the validation layer on.
 fn open(device: Option<String>) -> Result<Headless, VulkanError> {
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
-    Headless::new(
-        &HeadlessOptions::default()
-            .device(device)
-            .validation(validation),
-    )
+    Headless::new(&HeadlessOptions::default().device(device).validation(validation))
 }
 
 /// Opens a device as [`open`] does, while `load` runs in parallel. If both fail, the error is that of `load`.
@@ -54,9 +50,7 @@ pub fn open_beside<T>(
     std::thread::scope(|threads| {
         let headless = threads.spawn(|| open(device));
         let loaded = load();
-        let headless = headless
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        let headless = headless.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         let loaded = loaded?;
         Ok((headless?, loaded))
     })
@@ -84,12 +78,7 @@ impl Session {
     /// Opens a session on a device. Images are read back as 8-bit codes with straight alpha if `reads_codes` is set, otherwise
     /// as light.
     pub fn new(headless: Headless, settings: Settings, reads_codes: bool) -> Self {
-        Self {
-            headless,
-            settings,
-            reads_codes,
-            shown: None,
-        }
+        Self { headless, settings, reads_codes, shown: None }
     }
 
     /// The device.
@@ -110,8 +99,7 @@ impl Session {
         let scene = upload(&mut self.headless, scene, (pose, motion), &self.settings)?;
         clock.lap("upload");
         let frame = if self.reads_codes {
-            self.headless
-                .prepare_pixels::<[u8; 4]>(&scene, &self.settings)?
+            self.headless.prepare_pixels::<[u8; 4]>(&scene, &self.settings)?
         } else {
             self.headless.prepare(&scene, &self.settings)?
         };
@@ -137,11 +125,7 @@ impl Session {
         })
     }
 
-    fn render<P: Pixel>(
-        &mut self,
-        camera: &Camera,
-        repeat: Option<u32>,
-    ) -> anyhow::Result<RenderedImage<P>> {
+    fn render<P: Pixel>(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<RenderedImage<P>> {
         let Some(frame) = &mut self.shown else {
             anyhow::bail!("nothing was put on the device to render");
         };
@@ -156,11 +140,7 @@ impl Session {
             wall_ms.push(1e3 * start.elapsed().as_secs_f64());
             passes.push(rendered.statistics.passes.clone());
             if passes.len() >= repeat.unwrap_or(1) as usize {
-                return Ok(RenderedImage {
-                    rendered,
-                    passes,
-                    wall_ms,
-                });
+                return Ok(RenderedImage { rendered, passes, wall_ms });
             }
         }
     }

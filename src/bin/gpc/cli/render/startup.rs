@@ -23,11 +23,7 @@ pub struct StartUp(BTreeMap<&'static str, f64>);
 impl Clock {
     pub fn start() -> Self {
         let now = Instant::now();
-        Self {
-            start: now,
-            last: now,
-            laps: Some(BTreeMap::new()),
-        }
+        Self { start: now, last: now, laps: Some(BTreeMap::new()) }
     }
 
     /// Adds the time since the last call to the step that has just ended.

@@ -47,10 +47,7 @@ impl Template {
                 "-o -: standard output takes one image, not {count} {what}; with --format y4m or raw it takes frames"
             )
         } else {
-            format!(
-                "-o {}: add {placeholder} to it, for there are {count} {what}",
-                self.0
-            )
+            format!("-o {}: add {placeholder} to it, for there are {count} {what}", self.0)
         }))
     }
 
@@ -77,10 +74,7 @@ impl Template {
 /// A name from a scene as part of a file name: characters that folders, drives or shells interpret become `_`.
 pub fn file_name_part(name: &str) -> String {
     let safe = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ' | '+');
-    let part: String = name
-        .chars()
-        .map(|c| if safe(c) { c } else { '_' })
-        .collect();
+    let part: String = name.chars().map(|c| if safe(c) { c } else { '_' }).collect();
     match part.trim_matches(['.', ' ']) {
         "" => "_".to_owned(),
         trimmed => trimmed.to_owned(),
@@ -97,29 +91,18 @@ mod tests {
 
     #[test]
     fn fields_are_filled_in() {
-        let fields = Fields {
-            stem: "a{frame}",
-            camera: "top",
-            frame: 7,
-        };
-        let name = template("o/{stem}-{camera}.{frame}.png")
-            .unwrap()
-            .fill(&fields);
+        let fields = Fields { stem: "a{frame}", camera: "top", frame: 7 };
+        let name = template("o/{stem}-{camera}.{frame}.png").unwrap().fill(&fields);
         assert_eq!(name, Path::new("o/a{frame}-top.0007.png"));
         let frame = 12_345;
-        let name = template("{frame}")
-            .unwrap()
-            .fill(&Fields { frame, ..fields });
+        let name = template("{frame}").unwrap().fill(&Fields { frame, ..fields });
         assert_eq!(name, Path::new("12345"));
     }
 
     #[test]
     fn unknown_fields_are_told_the_known_ones() {
         let message = template("{name}.png").err().unwrap();
-        assert!(
-            message.contains("{name}") && message.contains("{stem}"),
-            "{message}"
-        );
+        assert!(message.contains("{name}") && message.contains("{stem}"), "{message}");
         assert!(template("{stem.png").is_err());
     }
 
@@ -129,18 +112,8 @@ mod tests {
         assert!(plain.require("frame", "frames", 1).is_ok());
         let message = plain.require("frame", "frames", 2).unwrap_err().to_string();
         assert!(message.contains("add {frame}"), "{message}");
-        assert!(
-            template("{frame}.png")
-                .unwrap()
-                .require("frame", "frames", 2)
-                .is_ok()
-        );
-        assert!(
-            template("-")
-                .unwrap()
-                .require("camera", "cameras", 2)
-                .is_err()
-        );
+        assert!(template("{frame}.png").unwrap().require("frame", "frames", 2).is_ok());
+        assert!(template("-").unwrap().require("camera", "cameras", 2).is_err());
     }
 
     #[test]

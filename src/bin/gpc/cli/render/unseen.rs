@@ -19,17 +19,10 @@ pub fn warning<P: PartialEq>(
         return None;
     }
     if pose.geometry.bounds().is_none() {
-        return Some(
-            "the image is empty, like the scene; `gpc info` lists what the file has".to_owned(),
-        );
+        return Some("the image is empty, like the scene; `gpc info` lists what the file has".to_owned());
     }
     let geometry = pose.geometry.flat();
-    let points = || {
-        geometry
-            .positions
-            .iter()
-            .map(|p| DVec3::from_array(p.map(f64::from)) + geometry.origin)
-    };
+    let points = || geometry.positions.iter().map(|p| DVec3::from_array(p.map(f64::from)) + geometry.origin);
     let seeing: Vec<String> = cameras
         .iter()
         .enumerate()

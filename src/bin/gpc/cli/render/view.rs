@@ -62,34 +62,20 @@ pub fn choose_among(
             widen(&mut camera, args.fov, &label)?;
             let ahead = (centre - camera.eye).dot(camera.direction());
             let distance = if ahead > 0.0 { ahead } else { 1.0 };
-            Ok(NamedView {
-                label,
-                target: camera.eye + camera.direction() * distance,
-                camera,
-            })
+            Ok(NamedView { label, target: camera.eye + camera.direction() * distance, camera })
         })
         .collect()
 }
 
-fn stand_at(
-    eye: DVec3,
-    args: &CameraArgs,
-    (low, high): (DVec3, DVec3),
-) -> Result<NamedView, Usage> {
+fn stand_at(eye: DVec3, args: &CameraArgs, (low, high): (DVec3, DVec3)) -> Result<NamedView, Usage> {
     let viewpoint = Viewpoint {
         eye,
         target: args.target.unwrap_or(0.5 * (low + high)),
         up: args.up.unwrap_or(DVec3::Y),
         fov: args.fov.unwrap_or(Orbit::default().fov),
     };
-    let camera = viewpoint
-        .frame(low, high)
-        .map_err(|error| Usage(error.to_string()))?;
-    Ok(NamedView {
-        label: "eye".to_owned(),
-        camera,
-        target: viewpoint.target,
-    })
+    let camera = viewpoint.frame(low, high).map_err(|error| Usage(error.to_string()))?;
+    Ok(NamedView { label: "eye".to_owned(), camera, target: viewpoint.target })
 }
 
 fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<NamedView, Usage> {
@@ -100,14 +86,8 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
         zoom: args.zoom.unwrap_or(default.zoom),
         fov: args.fov.unwrap_or(default.fov),
     };
-    let camera = orbit
-        .frame(low, high, aspect)
-        .map_err(|error| Usage(error.to_string()))?;
-    Ok(NamedView {
-        label: NamedView::ORBIT.to_owned(),
-        camera,
-        target: 0.5 * (low + high),
-    })
+    let camera = orbit.frame(low, high, aspect).map_err(|error| Usage(error.to_string()))?;
+    Ok(NamedView { label: NamedView::ORBIT.to_owned(), camera, target: 0.5 * (low + high) })
 }
 
 fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
@@ -122,14 +102,8 @@ fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
             None => index.to_string(),
         })
         .collect();
-    let known = if known.is_empty() {
-        "none".to_owned()
-    } else {
-        known.join(", ")
-    };
-    Err(Usage(format!(
-        "--camera {asked}: there is no such camera; the scene has {known}"
-    )))
+    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    Err(Usage(format!("--camera {asked}: there is no such camera; the scene has {known}")))
 }
 
 /// A unique part of a file name for each camera.
@@ -158,9 +132,9 @@ fn widen(camera: &mut Camera, asked: Option<f64>, label: &str) -> Result<(), Usa
             *fov = asked.to_radians();
             Ok(())
         }
-        (Projection::Orthographic { .. }, Some(_)) => Err(Usage(format!(
-            "--fov: camera {label} is orthographic and has no field of view"
-        ))),
+        (Projection::Orthographic { .. }, Some(_)) => {
+            Err(Usage(format!("--fov: camera {label} is orthographic and has no field of view")))
+        }
     }
 }
 

@@ -131,26 +131,11 @@ mod tests {
         let time = |pass, ms| PassTime { pass, ms };
         let rendering = |ms| {
             let [shade, shade_again] = [1.0, 2.0].map(|ms| time("shade", ms));
-            vec![
-                time("raster", ms),
-                shade,
-                shade_again,
-                time(PassTime::COPY, 7.0),
-            ]
+            vec![time("raster", ms), shade, shade_again, time(PassTime::COPY, 7.0)]
         };
-        let found = medians(&[
-            rendering(9.0),
-            rendering(1.0),
-            rendering(2.0),
-            rendering(4.0),
-        ]);
+        let found = medians(&[rendering(9.0), rendering(1.0), rendering(2.0), rendering(4.0)]);
         // A copy is no part of the total.
-        let expected = [
-            ("copy", 7.0),
-            ("raster", 3.0),
-            ("shade", 3.0),
-            ("total", 6.0),
-        ];
+        let expected = [("copy", 7.0), ("raster", 3.0), ("shade", 3.0), ("total", 6.0)];
         assert_eq!(found, BTreeMap::from(expected));
         assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
     }

@@ -28,9 +28,7 @@ impl ReportArgs {
     /// Refuses `--json` if the image itself goes to standard output.
     pub fn check(&self, output: &Path) -> Result<(), Usage> {
         if self.json && input::is_standard(output) {
-            return Err(Usage(
-                "-o - and --json both want standard output".to_owned(),
-            ));
+            return Err(Usage("-o - and --json both want standard output".to_owned()));
         }
         Ok(())
     }
@@ -54,10 +52,7 @@ pub struct DeviceReport {
 impl DeviceReport {
     pub fn of(headless: &Headless) -> Self {
         let limits = headless.gpu().limits();
-        Self {
-            device: limits.device_name.clone(),
-            driver: limits.driver.clone(),
-        }
+        Self { device: limits.device_name.clone(), driver: limits.driver.clone() }
     }
 }
 

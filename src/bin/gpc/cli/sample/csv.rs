@@ -18,11 +18,8 @@ pub fn write(rows: &[SampleRow]) -> Vec<u8> {
         for (column, value) in row.iter().enumerate() {
             let comma = if column == 0 { "" } else { "," };
             // Locations are the given 64-bit numbers; the renderer's values have 32 bits.
-            let written = if column < 2 {
-                write!(text, "{comma}{value}")
-            } else {
-                write!(text, "{comma}{}", *value as f32)
-            };
+            let written =
+                if column < 2 { write!(text, "{comma}{value}") } else { write!(text, "{comma}{}", *value as f32) };
             // Writing to a string can't fail.
             let _ = written;
         }

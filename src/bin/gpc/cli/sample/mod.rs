@@ -81,10 +81,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     let mut stage = RenderSetup::open(&args.scene, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let start = Instant::now();
-    let Sampled {
-        values: samples,
-        statistics,
-    } = sample(&mut stage, &pinhole, &set)?;
+    let Sampled { values: samples, statistics } = sample(&mut stage, &pinhole, &set)?;
     let work = RenderWork {
         statistics: &statistics,
         cells: samples.len() as u64,
@@ -94,9 +91,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     stage.finish()?;
     let rows = || {
         let pairs = locations.uv.iter().zip(&samples);
-        pairs
-            .map(|(uv, sample)| table::row(*uv, sample))
-            .collect::<Vec<_>>()
+        pairs.map(|(uv, sample)| table::row(*uv, sample)).collect::<Vec<_>>()
     };
     let bytes = match kind {
         Kind::Csv => csv::write(&rows()),
@@ -108,42 +103,22 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         }
     };
     render::write(&args.output, &bytes)?;
-    let seen = SampleFields {
-        locations: samples.len(),
-        hits: samples
-            .iter()
-            .filter(|sample| table::is_hit(sample))
-            .count(),
-    };
-    log::info!(
-        "{}: {} samples, {} of them see a triangle",
-        args.output.display(),
-        seen.locations,
-        seen.hits
-    );
+    let seen =
+        SampleFields { locations: samples.len(), hits: samples.iter().filter(|sample| table::is_hit(sample)).count() };
+    log::info!("{}: {} samples, {} of them see a triangle", args.output.display(), seen.locations, seen.hits);
     let size = match kind {
         Kind::Image(_) => set.size(),
         Kind::Csv | Kind::Npy => args.image.size,
     };
     let effort = Effort::new(&stage.settings, &work);
-    args.report
-        .print(&stage.figures(&args.output, size, effort, seen))?;
+    args.report.print(&stage.figures(&args.output, size, effort, seen))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Values at each location; with antialiasing, the colours are means around it.
-fn sample(
-    stage: &mut RenderSetup,
-    pinhole: &Pinhole,
-    set: &SamplingSet,
-) -> anyhow::Result<Sampled<PointSample>> {
+fn sample(stage: &mut RenderSetup, pinhole: &Pinhole, set: &SamplingSet) -> anyhow::Result<Sampled<PointSample>> {
     let locations = set.locations();
-    let RenderSetup {
-        headless,
-        scene,
-        settings,
-        ..
-    } = stage;
+    let RenderSetup { headless, scene, settings, .. } = stage;
     // Samples of supersampling read textures over the whole location.
     let (cells, settings) = match &settings.method {
         Method::None => (None, over_locations(&settings.scene)),
@@ -152,10 +127,7 @@ fn sample(
             let cells = CellOptions::new(*samples);
             (Some(cells), over_locations(&settings.scene))
         }
-        method => usage!(
-            "--aa {}: the device's own samples lie in pixels only",
-            method.kind()
-        ),
+        method => usage!("--aa {}: the device's own samples lie in pixels only", method.kind()),
     };
     let mut samples = headless.sample_points(scene, pinhole, &locations, &settings)?;
     if let Some(cells) = cells {
@@ -182,24 +154,14 @@ fn set(locations: &Locations) -> anyhow::Result<SamplingSet> {
     const LEAF_SAMPLES: usize = 32;
     let samples = locations.samples()?;
     let size = samples.iter().fold([1, 1], |[columns, rows], sample| {
-        [
-            columns.max(sample.col.saturating_add(1)),
-            rows.max(sample.row.saturating_add(1)),
-        ]
+        [columns.max(sample.col.saturating_add(1)), rows.max(sample.row.saturating_add(1))]
     });
     Ok(SamplingSet::no_pattern(size, samples, None, LEAF_SAMPLES)?)
 }
 
 fn read(path: &Path) -> anyhow::Result<Locations> {
-    let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
-        path: path.to_path_buf(),
-        source,
-    })?;
-    let read = if ends_with(path, "npy") {
-        npy::read(&bytes)
-    } else {
-        csv::read(&bytes)
-    };
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.to_path_buf(), source })?;
+    let read = if ends_with(path, "npy") { npy::read(&bytes) } else { csv::read(&bytes) };
     read.map_err(|reason| anyhow::anyhow!("{}: {reason}", path.display()))
 }
 
@@ -222,6 +184,5 @@ fn kind(args: &SampleArgs) -> anyhow::Result<Kind> {
 }
 
 fn ends_with(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|found| found.eq_ignore_ascii_case(ending))
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }

@@ -15,10 +15,7 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
     // From version 2 on, the header's length has four bytes.
     let wide = if version.first() == Some(&1) { 2 } else { 4 };
     let (length, rest) = rest.split_at_checked(wide).ok_or_else(broken)?;
-    let length = length
-        .iter()
-        .rev()
-        .fold(0, |sum, byte| sum << 8 | usize::from(*byte));
+    let length = length.iter().rev().fold(0, |sum, byte| sum << 8 | usize::from(*byte));
     let (header, data) = rest.split_at_checked(length).ok_or_else(broken)?;
     let header = std::str::from_utf8(header).map_err(|_| broken())?;
 
@@ -40,25 +37,16 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
     let count = rows.checked_mul(width).ok_or_else(broken)?;
     let numbers: Vec<f64> = if kind.starts_with("'<f8'") {
         let (values, _) = data.as_chunks::<8>();
-        values
-            .iter()
-            .map(|value| f64::from_le_bytes(*value))
-            .collect()
+        values.iter().map(|value| f64::from_le_bytes(*value)).collect()
     } else if kind.starts_with("'<f4'") {
         let (values, _) = data.as_chunks::<4>();
-        values
-            .iter()
-            .map(|value| f64::from(f32::from_le_bytes(*value)))
-            .collect()
+        values.iter().map(|value| f64::from(f32::from_le_bytes(*value))).collect()
     } else {
         return Err("its numbers must be float32 or float64, little endian".to_owned());
     };
     match numbers.get(..count) {
         Some(numbers) => Ok(Locations::from_rows(width, numbers)),
-        None => Err(format!(
-            "it holds {} numbers; its shape promises {count}",
-            numbers.len()
-        )),
+        None => Err(format!("it holds {} numbers; its shape promises {count}", numbers.len())),
     }
 }
 
@@ -69,20 +57,14 @@ fn refuse(shape: &[usize]) -> String {
 /// The numbers of a tuple at the start of `text`, such as `(3, 2), }`.
 fn shape(text: &str) -> Option<Vec<usize>> {
     let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
-    let numbers = inside
-        .split(',')
-        .map(str::trim)
-        .filter(|number| !number.is_empty());
+    let numbers = inside.split(',').map(str::trim).filter(|number| !number.is_empty());
     numbers.map(|number| number.parse().ok()).collect()
 }
 
 /// Writes an array of N x 12 float64.
 pub fn write(rows: &[SampleRow]) -> Vec<u8> {
-    let mut header = format!(
-        "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
-        rows.len(),
-        COLUMNS.len()
-    );
+    let mut header =
+        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows.len(), COLUMNS.len());
     let before = MAGIC.len() + 4;
     while !(before + header.len() + 1).is_multiple_of(ALIGNMENT) {
         header.push(' ');
@@ -92,11 +74,7 @@ pub fn write(rows: &[SampleRow]) -> Vec<u8> {
     bytes.extend([1, 0]);
     bytes.extend((header.len() as u16).to_le_bytes());
     bytes.extend(header.as_bytes());
-    bytes.extend(
-        rows.as_flattened()
-            .iter()
-            .flat_map(|value| value.to_le_bytes()),
-    );
+    bytes.extend(rows.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
     bytes
 }
 
@@ -105,24 +83,17 @@ mod tests {
     use super::*;
 
     fn array(descr: &str, order: &str, shape: &str, data: &[u8]) -> Vec<u8> {
-        let header =
-            format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}\n");
+        let header = format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}\n");
         let length = (header.len() as u16).to_le_bytes();
         [MAGIC, &[1, 0], &length, header.as_bytes(), data].concat()
     }
 
     #[test]
     fn both_precisions_are_read() {
-        let doubles: Vec<u8> = [1.5_f64, -2.0, 3.0, 4.0]
-            .iter()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
+        let doubles: Vec<u8> = [1.5_f64, -2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         let found = read(&array("<f8", "False", "(2, 2)", &doubles)).unwrap();
         assert_eq!(found.uv, [[1.5, -2.0], [3.0, 4.0]]);
-        let floats: Vec<u8> = [1.5_f32, -2.0, 3.0, 4.0]
-            .iter()
-            .flat_map(|v| v.to_le_bytes())
-            .collect();
+        let floats: Vec<u8> = [1.5_f32, -2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         let found = read(&array("<f4", "False", "(1, 4)", &floats)).unwrap();
         assert_eq!(found.uv, [[1.5, -2.0]]);
         assert_eq!(found.cells, Some(vec![[3.0, 4.0]]));

@@ -28,11 +28,7 @@ impl Locations {
     /// The samples of a set, in the order of the file.
     pub fn samples(&self) -> anyhow::Result<Vec<Sample>> {
         let Some(cells) = &self.cells else {
-            let sample = |uv: &[f64; 2]| Sample {
-                uv: *uv,
-                row: 0,
-                col: 0,
-            };
+            let sample = |uv: &[f64; 2]| Sample { uv: *uv, row: 0, col: 0 };
             return Ok(self.uv.iter().map(sample).collect());
         };
         let index = |value: f64| {
@@ -55,9 +51,7 @@ impl Locations {
 }
 
 /// Names of the columns of a result.
-pub const COLUMNS: [&str; 12] = [
-    "u", "v", "r", "g", "b", "a", "depth", "id", "hit", "nx", "ny", "nz",
-];
+pub const COLUMNS: [&str; 12] = ["u", "v", "r", "g", "b", "a", "depth", "id", "hit", "nx", "ny", "nz"];
 
 /// The values of one sample.
 pub type SampleRow = [f64; COLUMNS.len()];

@@ -57,15 +57,10 @@ impl RegionArgs {
     /// The map that the options describe.
     pub fn map(&self) -> Result<ZoomMap, Usage> {
         let count = self.center.len();
-        let counts = [
-            ("radius", self.radius.len()),
-            ("multiplicity", self.multiplicity.len()),
-        ];
+        let counts = [("radius", self.radius.len()), ("multiplicity", self.multiplicity.len())];
         for (option, found) in counts {
             if found != count {
-                return Err(Usage(format!(
-                    "{count} --center and {found} --{option}; give one for each region"
-                )));
+                return Err(Usage(format!("{count} --center and {found} --{option}; give one for each region")));
             }
         }
         let shapes = each("shape", &self.shape, count)?;
@@ -89,9 +84,6 @@ fn each<T: Copy>(option: &str, values: &[T], count: usize) -> Result<Vec<T>, Usa
     match values {
         [value] => Ok(vec![*value; count]),
         _ if values.len() == count => Ok(values.to_vec()),
-        _ => Err(Usage(format!(
-            "{count} --center and {} --{option}; give one for all or one for each",
-            values.len()
-        ))),
+        _ => Err(Usage(format!("{count} --center and {} --{option}; give one for all or one for each", values.len()))),
     }
 }

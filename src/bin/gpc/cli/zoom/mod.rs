@@ -58,15 +58,8 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let ZoomResult {
-        result,
-        steps,
-        figures,
-    } = if is_picture(&args.input) {
-        photograph(args, &map)?
-    } else {
-        scene(args, format, &map)?
-    };
+    let ZoomResult { result, steps, figures } =
+        if is_picture(&args.input) { photograph(args, &map)? } else { scene(args, format, &map)? };
     for step in &steps {
         let picture = Picture::new(step.size, &step.pixels)?;
         let path = render::beside(&args.output, format, &step.name);
@@ -95,9 +88,8 @@ pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
 /// Refuses regions that lie outside of an image of `size` = [width, height].
 fn check_places(map: &ZoomMap, size: [u32; 2]) -> Result<(), Usage> {
     for ZoomRegion { center, radius, .. } in map.regions() {
-        let touches = (0..2).all(|axis| {
-            center[axis] + radius[axis] > 0.0 && center[axis] - radius[axis] < f64::from(size[axis])
-        });
+        let touches =
+            (0..2).all(|axis| center[axis] + radius[axis] > 0.0 && center[axis] - radius[axis] < f64::from(size[axis]));
         if !touches {
             return Err(Usage(format!(
                 "--center {},{}: the region lies outside of the image, which has {} x {} pixels",
@@ -124,28 +116,15 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     let start = Instant::now();
     let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
-    let steps = if args.steps {
-        steps::common(size, photograph.pixels(), &colors, map)
-    } else {
-        Vec::new()
-    };
-    let result = Rendered {
-        size,
-        colors,
-        attributes: Vec::new(),
-        statistics: Statistics::default(),
-    };
+    let steps = if args.steps { steps::common(size, photograph.pixels(), &colors, map) } else { Vec::new() };
+    let result = Rendered { size, colors, attributes: Vec::new(), statistics: Statistics::default() };
     let figures = ZoomReport::Photograph {
         output: args.output.display().to_string(),
         size,
         regions: map.regions().to_vec(),
         wall_ms,
     };
-    Ok(ZoomResult {
-        result,
-        steps,
-        figures,
-    })
+    Ok(ZoomResult { result, steps, figures })
 }
 
 /// Samples a scene at the locations that the map gives the pixels.
@@ -162,10 +141,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
     let set = SamplingSet::mapped(size, map)?;
     let statistics = set.statistics();
     let shot = render_set(&mut stage, pinhole, &set)?;
-    let about = About {
-        regions: map.regions().to_vec(),
-        locations: statistics,
-    };
+    let about = About { regions: map.regions().to_vec(), locations: statistics };
     let figures = stage.figures(&args.output, size, stage.effort(&shot), about);
     let result = shot.rendered;
     log::info!(
@@ -183,11 +159,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
         steps = steps::common(size, &original.colors, &result.colors, map);
         for (index, region) in map.regions().iter().enumerate() {
             let window = region.window();
-            let direct = render_set(
-                &mut stage,
-                pinhole,
-                &SamplingSet::mapped(window.size, &window)?,
-            )?;
+            let direct = render_set(&mut stage, pinhole, &SamplingSet::mapped(window.size, &window)?)?;
             let name = match map.regions() {
                 [_] => "direct".to_owned(),
                 _ => format!("direct-{index}"),
@@ -196,11 +168,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
         }
     }
     stage.finish()?;
-    Ok(ZoomResult {
-        result,
-        steps,
-        figures: ZoomReport::Scene(Box::new(figures)),
-    })
+    Ok(ZoomResult { result, steps, figures: ZoomReport::Scene(Box::new(figures)) })
 }
 
 /// A sampling rate as text. Images of a single row or column have no rate.
@@ -211,10 +179,6 @@ fn rate(rate: Option<f64>) -> String {
     }
 }
 
-fn render_set(
-    stage: &mut RenderSetup,
-    pinhole: Pinhole,
-    set: &SamplingSet,
-) -> anyhow::Result<RenderedImage> {
+fn render_set(stage: &mut RenderSetup, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<RenderedImage> {
     stage.render(set.size(), &[(pinhole, set.locations())])
 }

@@ -17,21 +17,12 @@ pub struct StepPicture {
 
 impl StepPicture {
     pub fn new(name: &str, size: [u32; 2], pixels: LinearPixels) -> Self {
-        Self {
-            name: name.to_owned(),
-            size,
-            pixels,
-        }
+        Self { name: name.to_owned(), size, pixels }
     }
 }
 
 /// The steps that zooms of scenes and of photographs have in common.
-pub fn common(
-    size: [u32; 2],
-    original: &[[f32; 4]],
-    result: &[[f32; 4]],
-    map: &ZoomMap,
-) -> Vec<StepPicture> {
+pub fn common(size: [u32; 2], original: &[[f32; 4]], result: &[[f32; 4]], map: &ZoomMap) -> Vec<StepPicture> {
     vec![
         StepPicture::new("original", size, original.to_vec()),
         StepPicture::new("locations", size, locations(size, original, map)),
@@ -58,9 +49,7 @@ fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> LinearPixe
         // A dot has 2 x 2 pixels, centred on the location.
         for (dx, dy) in [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)] {
             let pixel = (at + DVec2::new(dx, dy)).floor();
-            let inside = pixel.cmpge(DVec2::ZERO).all()
-                && pixel.x < f64::from(width)
-                && pixel.y < f64::from(height);
+            let inside = pixel.cmpge(DVec2::ZERO).all() && pixel.x < f64::from(width) && pixel.y < f64::from(height);
             let index = pixel.y as usize * width as usize + pixel.x as usize;
             if let Some(dot) = picture.get_mut(index).filter(|_| inside) {
                 *dot = [1.0; 4];
@@ -81,20 +70,14 @@ fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> LinearPixel
 }
 
 fn in_transition(map: &ZoomMap, place: DVec2) -> bool {
-    map.regions()
-        .iter()
-        .any(|region| region.in_transition(place))
+    map.regions().iter().any(|region| region.in_transition(place))
 }
 
 /// The pixels at whose places `kept` is true; the others become transparent.
 fn keep(size: [u32; 2], pixels: &[[f32; 4]], kept: impl Fn(DVec2) -> bool) -> LinearPixels {
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |col| (col, row)));
     let pixel = |(pixel, (col, row)): (&[f32; 4], (u32, u32))| {
-        if kept(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)) {
-            *pixel
-        } else {
-            [0.0; 4]
-        }
+        if kept(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)) { *pixel } else { [0.0; 4] }
     };
     pixels.iter().zip(places).map(pixel).collect()
 }

@@ -34,8 +34,7 @@ impl MovingBounds {
     pub fn new(geometry: &Geometry, motion: &Motion) -> Self {
         let mut moves = vec![false; geometry.positions.len()];
         for part in &motion.parts {
-            let vertices =
-                part.first_vertex as usize..(part.first_vertex + part.vertex_count) as usize;
+            let vertices = part.first_vertex as usize..(part.first_vertex + part.vertex_count) as usize;
             if let Some(moves) = moves.get_mut(vertices) {
                 moves.fill(true);
             }
@@ -49,11 +48,7 @@ impl MovingBounds {
         Self {
             origin: geometry.origin,
             still: still.fold(NOTHING, with),
-            parts: motion
-                .parts
-                .iter()
-                .map(|part| PartBounds::new(part, motion))
-                .collect(),
+            parts: motion.parts.iter().map(|part| PartBounds::new(part, motion)).collect(),
         }
     }
 
@@ -63,9 +58,8 @@ impl MovingBounds {
         for (part, at) in self.parts.iter().zip(&moment.parts) {
             let from = |first: u32| moment.vectors.get(first as usize..).unwrap_or(&[]);
             let weights = from(at.first_weight).iter().take(at.weight_count as usize);
-            let displaced = part.displaced_by(
-                weights.map(|&[weight, target, ..]| (f64::from(weight), target as usize)),
-            );
+            let displaced =
+                part.displaced_by(weights.map(|&[weight, target, ..]| (f64::from(weight), target as usize)));
             let (matrices, _) = from(at.first_matrix).as_chunks::<3>();
             for (resting, rows) in part.resting.iter().zip(matrices) {
                 if resting[0].cmple(resting[1]).all() {
@@ -84,8 +78,7 @@ impl PartBounds {
         let count = part.vertex_count as usize;
         let mut resting = vec![NOTHING; part.matrix_count as usize];
         for vertex in 0..count {
-            let Some([position, ..]) = motion.vertices.get(part.first_resting as usize + vertex)
-            else {
+            let Some([position, ..]) = motion.vertices.get(part.first_resting as usize + vertex) else {
                 continue;
             };
             let mut hold = |matrix: usize| {
@@ -113,19 +106,13 @@ impl PartBounds {
             let positions = all.iter().step_by(vectors).take(count);
             positions.map(|v| vector(v)).fold(NOTHING, with)
         };
-        Self {
-            resting,
-            displacements: (0..part.target_count).map(of_target).collect(),
-        }
+        Self { resting, displacements: (0..part.target_count).map(of_target).collect() }
     }
 
     /// Lowest and highest displacement of the vertices along each axis, for these weights of targets.
     fn displaced_by(&self, weights: impl Iterator<Item = (f64, usize)>) -> Box3 {
         weights.fold([DVec3::ZERO; 2], |[low, high], (weight, target)| {
-            let [a, b] = self
-                .displacements
-                .get(target)
-                .map_or([DVec3::ZERO; 2], |ends| ends.map(|end| end * weight));
+            let [a, b] = self.displacements.get(target).map_or([DVec3::ZERO; 2], |ends| ends.map(|end| end * weight));
             [low + a.min(b), high + a.max(b)]
         })
     }
@@ -145,11 +132,7 @@ fn carried([low, high]: Box3, rows: &[[f32; 4]; 3]) -> Box3 {
     let linear = DMat3::from_cols(vector(&rows[0]), vector(&rows[1]), vector(&rows[2])).transpose();
     let offset = DVec3::from_array(rows.map(|[.., offset]| f64::from(offset)));
     let middle = linear * (0.5 * (low + high)) + offset;
-    let absolute = DMat3::from_cols(
-        linear.x_axis.abs(),
-        linear.y_axis.abs(),
-        linear.z_axis.abs(),
-    );
+    let absolute = DMat3::from_cols(linear.x_axis.abs(), linear.y_axis.abs(), linear.z_axis.abs());
     let half = absolute * (0.5 * (high - low));
     [middle - half, middle + half]
 }
@@ -183,16 +166,11 @@ mod tests {
         };
         let mut number = || 2.0 * random() - 1.0;
         let mut place = || [number(), number(), number(), 0.0];
-        let vertices = (0..2 * VERTICES)
-            .map(|_| [place(), [0.0; 4], [0.0; 4]])
-            .collect();
+        let vertices = (0..2 * VERTICES).map(|_| [place(), [0.0; 4], [0.0; 4]]).collect();
         let displacements = (0..3 * VERTICES * TARGETS).map(|_| place()).collect();
         let influences = (0..VERTICES).map(|v| {
             let weight = v as f32 / VERTICES as f32;
-            [
-                [v as u32 % 2, 2, 0, 0],
-                [weight, 1.0 - weight, 0.0, 0.0].map(f32::to_bits),
-            ]
+            [[v as u32 % 2, 2, 0, 0], [weight, 1.0 - weight, 0.0, 0.0].map(f32::to_bits)]
         });
         Motion {
             identity: Arc::default(),
@@ -203,10 +181,7 @@ mod tests {
             changes_lights: false,
             materials: Vec::new(),
             placements: 1,
-            parts: vec![
-                part(0, 0, 1, 0),
-                part(VERTICES as u32, 1, JOINTS as u32, TARGETS as u32),
-            ],
+            parts: vec![part(0, 0, 1, 0), part(VERTICES as u32, 1, JOINTS as u32, TARGETS as u32)],
             vertices,
             influences: influences.collect(),
             displacements,
@@ -240,8 +215,7 @@ mod tests {
         if let Some(v) = vertex.checked_sub(VERTICES) {
             for weight in &moment.vectors[3 * (1 + JOINTS)..] {
                 let target = weight[1] as usize;
-                place += f64::from(weight[0])
-                    * vector(&motion.displacements[3 * (target * VERTICES + v)]);
+                place += f64::from(weight[0]) * vector(&motion.displacements[3 * (target * VERTICES + v)]);
             }
             let [joints, weights] = motion.influences[v];
             rows = [0, 1, 2].map(|axis| {
@@ -252,8 +226,7 @@ mod tests {
                 })
             });
         }
-        DVec3::from_array(rows.map(|[x, y, z, w]| DVec3::new(x, y, z).dot(place) + w))
-            + motion.origin
+        DVec3::from_array(rows.map(|[x, y, z, w]| DVec3::new(x, y, z).dot(place) + w)) + motion.origin
     }
 
     #[test]
@@ -266,9 +239,7 @@ mod tests {
         let geometry = Geometry {
             origin: motion.origin,
             positions: positions.collect(),
-            triangles: (0..2 * VERTICES as u32 + 1)
-                .map(|v| [v, v + 1, v + 2])
-                .collect(),
+            triangles: (0..2 * VERTICES as u32 + 1).map(|v| [v, v + 1, v + 2]).collect(),
             ..Geometry::default()
         };
         let bounds = MovingBounds::new(&geometry, &motion);
@@ -277,9 +248,7 @@ mod tests {
             let moment = moment(&motion, &mut random);
             let (low, high) = bounds.at(&moment).unwrap();
             let still = still.iter().map(|at| vector(at) + motion.origin);
-            let places = (0..2 * VERTICES)
-                .map(|vertex| posed(&motion, &moment, vertex))
-                .chain(still);
+            let places = (0..2 * VERTICES).map(|vertex| posed(&motion, &moment, vertex)).chain(still);
             let exact = places.fold(NOTHING, with);
             assert!(low.cmple(exact[0] + 1e-9).all(), "{low} {exact:?}");
             assert!(high.cmpge(exact[1] - 1e-9).all(), "{high} {exact:?}");

@@ -61,12 +61,7 @@ impl Moving {
             node.is_some_and(|node| light_of(&document.lights, node).is_some())
         };
         lights |= (0..places.len()).any(|index| places[index] && carries_light(index));
-        Self {
-            places,
-            weights,
-            materials: looks::changing_materials(scene, animation),
-            lights,
-        }
+        Self { places, weights, materials: looks::changing_materials(scene, animation), lights }
     }
 
     /// Whether an animation moves a node.
@@ -191,18 +186,9 @@ impl Motion {
 
     fn add(&mut self, part: &MovingPlacement, placement: &Placement<'_>) {
         let primitive = placement.primitive;
-        let sets = if placement.is_skinned() {
-            primitive.influences.as_slice()
-        } else {
-            &[]
-        };
-        let turns =
-            |target: &Displacements| !target.normals.is_empty() || !target.tangents.is_empty();
-        let displacement_vectors = if primitive.targets.iter().any(turns) {
-            3
-        } else {
-            1
-        };
+        let sets = if placement.is_skinned() { primitive.influences.as_slice() } else { &[] };
+        let turns = |target: &Displacements| !target.normals.is_empty() || !target.tangents.is_empty();
+        let displacement_vectors = if primitive.targets.iter().any(turns) { 3 } else { 1 };
         let vertices = 0..primitive.positions.len();
         self.parts.push(MotionPart {
             placement: part.placement,
@@ -224,17 +210,11 @@ impl Motion {
         };
         self.vertices.extend(vertices.clone().map(|v| {
             let tangent = primitive.tangents.get(v).copied();
-            [
-                vector(&primitive.positions, v),
-                vector(&primitive.normals, v),
-                tangent.unwrap_or([1.0, 0.0, 0.0, 1.0]),
-            ]
+            [vector(&primitive.positions, v), vector(&primitive.normals, v), tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])]
         }));
         for set in sets {
             let pairs = set.joints.iter().zip(&set.weights);
-            let bits = |(joints, weights): (&[u16; 4], &[f32; 4])| {
-                [joints.map(u32::from), weights.map(f32::to_bits)]
-            };
+            let bits = |(joints, weights): (&[u16; 4], &[f32; 4])| [joints.map(u32::from), weights.map(f32::to_bits)];
             self.influences.extend(pairs.map(bits));
         }
         for target in &primitive.targets {
@@ -254,8 +234,7 @@ impl Motion {
 
     /// Largest number of vectors of a [`Moment`].
     pub(crate) fn vector_count(&self) -> u64 {
-        let of =
-            |part: &MotionPart| 3 * u64::from(part.matrix_count) + u64::from(part.target_count);
+        let of = |part: &MotionPart| 3 * u64::from(part.matrix_count) + u64::from(part.target_count);
         self.parts.iter().map(of).sum()
     }
 
@@ -266,20 +245,11 @@ impl Motion {
     /// # Errors
     /// As [`Scene::pose`].
     pub fn at(&self, scene: &Scene, time: f64) -> Result<Option<Moment>, SceneError> {
-        let request = PoseRequest {
-            time,
-            ..self.request.clone()
-        };
+        let request = PoseRequest { time, ..self.request.clone() };
         let mut warnings = Warnings::new(&scene.document.file);
         let shown = show(scene, &request, &Moving::default(), &mut warnings)?;
-        let kinds = |lights: &[Light]| -> Vec<_> {
-            lights
-                .iter()
-                .map(|light| discriminant(&light.kind))
-                .collect()
-        };
-        let is_alike = shown.placements.len() == self.placements
-            && kinds(&shown.lights) == kinds(&self.lights);
+        let kinds = |lights: &[Light]| -> Vec<_> { lights.iter().map(|light| discriminant(&light.kind)).collect() };
+        let is_alike = shown.placements.len() == self.placements && kinds(&shown.lights) == kinds(&self.lights);
         if !is_alike {
             return Ok(None);
         }
@@ -302,14 +272,9 @@ impl Motion {
             }
             let first_weight = moment.vectors.len() as u32;
             let weights = placement.targets.iter();
-            let weights =
-                weights.map(|(weight, index, _)| [*weight as f32, *index as f32, 0.0, 0.0]);
+            let weights = weights.map(|(weight, index, _)| [*weight as f32, *index as f32, 0.0, 0.0]);
             moment.vectors.extend(weights);
-            moment.parts.push(MomentPart {
-                first_matrix,
-                first_weight,
-                weight_count: placement.targets.len() as u32,
-            });
+            moment.parts.push(MomentPart { first_matrix, first_weight, weight_count: placement.targets.len() as u32 });
         }
         let finite = |vector: &[f32; 4]| vector.iter().all(|value| value.is_finite());
         Ok(Some(moment).filter(|moment| moment.vectors.iter().all(finite)))
@@ -334,9 +299,5 @@ fn rows(matrix: &DAffine3, origin: DVec3) -> [[f32; 4]; 3] {
     let linear = matrix.matrix3.transpose();
     let offset = matrix.translation - origin;
     let row = |axis: DVec3, offset: f64| [axis.x, axis.y, axis.z, offset].map(|value| value as f32);
-    [
-        row(linear.x_axis, offset.x),
-        row(linear.y_axis, offset.y),
-        row(linear.z_axis, offset.z),
-    ]
+    [row(linear.x_axis, offset.x), row(linear.y_axis, offset.y), row(linear.z_axis, offset.z)]
 }

@@ -24,24 +24,12 @@ impl Axis {
     pub fn logarithmic(values: impl Iterator<Item = f64> + Clone, from: f64, to: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min);
         let high = values.fold(0.0, f64::max).max(low);
-        Self {
-            low: low / 1.5,
-            high: high * 1.5,
-            from,
-            to,
-            logarithmic: true,
-        }
+        Self { low: low / 1.5, high: high * 1.5, from, to, logarithmic: true }
     }
 
     /// A linear axis from 0 to the greatest of the values.
     pub fn linear(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
-        Self {
-            low: 0.0,
-            high: values.fold(0.0, f64::max).max(f64::MIN_POSITIVE),
-            from,
-            to,
-            logarithmic: false,
-        }
+        Self { low: 0.0, high: values.fold(0.0, f64::max).max(f64::MIN_POSITIVE), from, to, logarithmic: false }
     }
 
     /// Place of a value on the axis.
@@ -57,9 +45,7 @@ impl Axis {
     /// Values to label: powers of ten, with steps between them where these are few; the quarters of a linear axis.
     fn ticks(&self) -> Vec<f64> {
         if !self.logarithmic {
-            return (0..=4)
-                .map(|step| f64::from(step) * 0.25 * self.high)
-                .collect();
+            return (0..=4).map(|step| f64::from(step) * 0.25 * self.high).collect();
         }
         let decades = (self.high / self.low).log10();
         let steps: &[f64] = match decades {
@@ -78,12 +64,7 @@ impl Axis {
 
 /// Draws the grid lines, their values and the names of the axes.
 pub fn grid(svg: &mut String, frame: &PlotArea, [x, y]: [&Axis; 2], [across, up]: [&str; 2]) {
-    let PlotArea {
-        left,
-        right,
-        top,
-        bottom,
-    } = frame;
+    let PlotArea { left, right, top, bottom } = frame;
     for value in x.ticks() {
         let at = x.place(value);
         let _ = write!(
@@ -129,19 +110,13 @@ fn name(value: f64) -> String {
 
 /// The `points` attribute of a polyline.
 pub fn points(places: &[(f64, f64)]) -> String {
-    let points: Vec<_> = places
-        .iter()
-        .map(|(x, y)| format!("{x:.1},{y:.1}"))
-        .collect();
+    let points: Vec<_> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     points.join(" ")
 }
 
 /// Draws a point whose tooltip is `words`.
 pub fn mark(svg: &mut String, (x, y): (f64, f64), words: &str) {
-    let _ = write!(
-        svg,
-        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\"><title>{words}</title></circle>"
-    );
+    let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\"><title>{words}</title></circle>");
 }
 
 /// Draws a method's mark and name above a chart; returns the place of the next legend.
@@ -163,15 +138,9 @@ mod tests {
     fn an_axis_spans_its_values_in_order() {
         let axis = Axis::logarithmic([0.02, 3.0, 0.5].into_iter(), 0.0, 100.0);
         let places = [0.02, 0.5, 3.0].map(|value| axis.place(value));
-        assert!(
-            places.is_sorted() && places[0] > 0.0 && places[2] < 100.0,
-            "{places:?}"
-        );
+        assert!(places.is_sorted() && places[0] > 0.0 && places[2] < 100.0, "{places:?}");
         let axis = Axis::linear([0.0, 100.0, 25.0].into_iter(), 10.0, 50.0);
-        assert_eq!(
-            [0.0, 25.0, 100.0].map(|v| axis.place(v)),
-            [10.0, 20.0, 50.0]
-        );
+        assert_eq!([0.0, 25.0, 100.0].map(|v| axis.place(v)), [10.0, 20.0, 50.0]);
     }
 
     #[test]
@@ -179,13 +148,7 @@ mod tests {
         let axis = Axis::logarithmic([0.01, 0.09].into_iter(), 0.0, 1.0);
         assert_eq!(axis.ticks(), [0.01, 0.02, 0.05, 0.1]);
         let wide = Axis::logarithmic([1.0, 100_000.0].into_iter(), 0.0, 1.0);
-        assert_eq!(
-            wide.ticks(),
-            [1.0, 10.0, 100.0, 1_000.0, 10_000.0, 100_000.0]
-        );
-        assert_eq!(
-            ["1e5", "300", "0.02", "0"],
-            [1e5, 300.0, 0.02, 0.0].map(name)
-        );
+        assert_eq!(wide.ticks(), [1.0, 10.0, 100.0, 1_000.0, 10_000.0, 100_000.0]);
+        assert_eq!(["1e5", "300", "0.02", "0"], [1e5, 300.0, 0.02, 0.0].map(name));
     }
 }

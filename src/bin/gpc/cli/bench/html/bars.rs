@@ -21,10 +21,7 @@ const LEAST: f64 = 0.012;
 pub fn chart(scene: &SceneResults) -> String {
     let shown = |row: &&Row| matches!(row.method, MethodKind::None | MethodKind::Superpixel);
     let rows: Vec<&Row> = scene.rows.iter().filter(shown).collect();
-    let longest = rows
-        .iter()
-        .map(|row| row.cost.gpu_ms.median)
-        .fold(0.0, f64::max);
+    let longest = rows.iter().map(|row| row.cost.gpu_ms.median).fold(0.0, f64::max);
     let passes = large_passes(&rows, longest);
     let scale = (WIDTH - LEFT - RIGHT) / longest.max(f64::MIN_POSITIVE);
     let mut svg = format!(
@@ -39,11 +36,7 @@ pub fn chart(scene: &SceneResults) -> String {
         } else {
             format!("{} {}", row.method, row.samples)
         };
-        let _ = write!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{baseline:.1}\" text-anchor=\"end\">{name}</text>",
-            LEFT - 8.0
-        );
+        let _ = write!(svg, "<text x=\"{:.1}\" y=\"{baseline:.1}\" text-anchor=\"end\">{name}</text>", LEFT - 8.0);
         let mut left = LEFT;
         for (pass, ms) in segments(row, &passes) {
             let width = ms * scale;
@@ -66,12 +59,7 @@ pub fn chart(scene: &SceneResults) -> String {
     }
     svg.push_str("</svg>\n<p class=\"legend\">");
     for pass in passes.iter().copied().chain([OTHER]) {
-        let _ = write!(
-            svg,
-            "<span><i class=\"{}\"></i>{}</span>",
-            class(&passes, pass),
-            escape(pass)
-        );
+        let _ = write!(svg, "<span><i class=\"{}\"></i>{}</span>", class(&passes, pass), escape(pass));
     }
     svg.push_str("</p>\n");
     svg
@@ -96,24 +84,14 @@ fn large_passes(rows: &[&Row], longest: f64) -> Vec<&'static str> {
     }
     let mut ranked: Vec<f64> = sizes.iter().map(|(_, most)| *most).collect();
     ranked.sort_by(|a, b| b.total_cmp(a));
-    let least = ranked
-        .get(COLORS)
-        .copied()
-        .unwrap_or(0.0)
-        .max(LEAST * longest);
-    sizes
-        .into_iter()
-        .filter(|(_, most)| *most > least)
-        .map(|(name, _)| name)
-        .collect()
+    let least = ranked.get(COLORS).copied().unwrap_or(0.0).max(LEAST * longest);
+    sizes.into_iter().filter(|(_, most)| *most > least).map(|(name, _)| name).collect()
 }
 
 /// A row's passes in order; the small ones are summed up at the end.
 fn segments(row: &Row, passes: &[&'static str]) -> Vec<(&'static str, f64)> {
-    let mut segments: Vec<_> = timed(row)
-        .filter(|pass| passes.contains(&pass.pass))
-        .map(|pass| (pass.pass, pass.ms.median))
-        .collect();
+    let mut segments: Vec<_> =
+        timed(row).filter(|pass| passes.contains(&pass.pass)).map(|pass| (pass.pass, pass.ms.median)).collect();
     let drawn: f64 = segments.iter().map(|(_, ms)| ms).sum();
     let all: f64 = timed(row).map(|pass| pass.ms.median).sum();
     segments.push((OTHER, (all - drawn).max(0.0)));
@@ -121,8 +99,5 @@ fn segments(row: &Row, passes: &[&'static str]) -> Vec<(&'static str, f64)> {
 }
 
 fn class(passes: &[&str], pass: &str) -> String {
-    passes
-        .iter()
-        .position(|known| *known == pass)
-        .map_or_else(|| "other".to_owned(), |index| format!("p{index}"))
+    passes.iter().position(|known| *known == pass).map_or_else(|| "other".to_owned(), |index| format!("p{index}"))
 }

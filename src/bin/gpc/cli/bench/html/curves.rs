@@ -24,24 +24,14 @@ pub struct Measure {
     of: fn(&Row) -> f64,
 }
 
-pub const RMSE: Measure = Measure {
-    name: "RMSE",
-    of: front::error,
-};
-pub const FLIP: Measure = Measure {
-    name: "FLIP",
-    of: |row| row.accuracy.flip,
-};
+pub const RMSE: Measure = Measure { name: "RMSE", of: front::error };
+pub const FLIP: Measure = Measure { name: "FLIP", of: |row| row.accuracy.flip };
 
 /// Draws the chart of a scene. Rows with an error or a time of zero are left out: a logarithmic axis has no place for
 /// them.
 pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
     let error = measure.of;
-    let drawn: Vec<&Row> = scene
-        .rows
-        .iter()
-        .filter(|row| error(row) > 0.0 && time(row) > 0.0)
-        .collect();
+    let drawn: Vec<&Row> = scene.rows.iter().filter(|row| error(row) > 0.0 && time(row) > 0.0).collect();
     if drawn.is_empty() {
         return "<p class=\"note\">No image differs from the truth.</p>".to_owned();
     }
@@ -49,42 +39,20 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
     let y = Axis::logarithmic(drawn.iter().map(|row| error(row)), HEIGHT - BOTTOM, TOP);
     let place = |row: &Row| (x.place(time(row)), y.place(error(row)));
 
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"error against time\">"
-    );
-    let frame = axis::PlotArea {
-        left: LEFT,
-        right: WIDTH - RIGHT,
-        top: TOP,
-        bottom: HEIGHT - BOTTOM,
-    };
+    let mut svg = format!("<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"error against time\">");
+    let frame = axis::PlotArea { left: LEFT, right: WIDTH - RIGHT, top: TOP, bottom: HEIGHT - BOTTOM };
     let names = ["time of a frame on the device, ms", measure.name];
     axis::grid(&mut svg, &frame, [&x, &y], names);
-    let front: Vec<ChartPoint> = front(drawn.iter().copied(), error)
-        .into_iter()
-        .map(place)
-        .collect();
-    let _ = write!(
-        svg,
-        "<polyline class=\"front\" points=\"{}\"/>",
-        points(&front)
-    );
+    let front: Vec<ChartPoint> = front(drawn.iter().copied(), error).into_iter().map(place).collect();
+    let _ = write!(svg, "<polyline class=\"front\" points=\"{}\"/>", points(&front));
     let mut at = LEFT;
     for method in METHODS {
-        let rows: Vec<&Row> = drawn
-            .iter()
-            .filter(|row| row.method == method)
-            .copied()
-            .collect();
+        let rows: Vec<&Row> = drawn.iter().filter(|row| row.method == method).copied().collect();
         if rows.is_empty() {
             continue;
         }
         let line: Vec<ChartPoint> = rows.iter().map(|row| place(row)).collect();
-        let _ = write!(
-            svg,
-            "<g class=\"{method}\"><polyline points=\"{}\"/>",
-            points(&line)
-        );
+        let _ = write!(svg, "<g class=\"{method}\"><polyline points=\"{}\"/>", points(&line));
         for (row, (x, y)) in rows.iter().zip(&line) {
             mark(&mut svg, row, measure, *x, *y);
         }
@@ -103,14 +71,8 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
 }
 
 fn mark(svg: &mut String, row: &Row, measure: &Measure, x: f64, y: f64) {
-    let words = format!(
-        "{} {}: {} ms, {} {:.5}",
-        row.method,
-        row.samples,
-        short(time(row)),
-        measure.name,
-        (measure.of)(row)
-    );
+    let words =
+        format!("{} {}: {} ms, {} {:.5}", row.method, row.samples, short(time(row)), measure.name, (measure.of)(row));
     axis::mark(svg, (x, y), &words);
     // Curves fall to the right, and superpixels lie left of the other methods.
     let (dx, dy, anchor) = match row.method {

@@ -8,12 +8,7 @@ use std::fmt::Write;
 
 const WIDTH: f64 = 540.0;
 const HEIGHT: f64 = 400.0;
-const FRAME: PlotArea = PlotArea {
-    left: 62.0,
-    right: WIDTH - 14.0,
-    top: 34.0,
-    bottom: HEIGHT - 44.0,
-};
+const FRAME: PlotArea = PlotArea { left: 62.0, right: WIDTH - 14.0, top: 34.0, bottom: HEIGHT - 44.0 };
 const METHODS: [MethodKind; 3] = [MethodKind::None, MethodKind::Superpixel, MethodKind::Ssaa];
 
 /// The section; empty where no growth was measured.
@@ -21,10 +16,7 @@ pub fn section(curves: &[ScalingCurve]) -> String {
     if curves.is_empty() {
         return String::new();
     }
-    let charts: String = curves
-        .iter()
-        .map(|curve| format!("<div>{}{}</div>\n", chart(curve), table(curve)))
-        .collect();
+    let charts: String = curves.iter().map(|curve| format!("<div>{}{}</div>\n", chart(curve), table(curve))).collect();
     format!(
         "<section>\n<h2>Growth</h2>\n<p class=\"note\">Time of a frame when one quantity of the scene or the image \
          grows and the others stay: a landscape of hills for triangles and megapixels, upright strips for superpixels, \
@@ -42,29 +34,17 @@ fn chart(curve: &ScalingCurve) -> String {
         Axis::logarithmic(values, FRAME.left, FRAME.right)
     };
     let all = curve.points.iter().flat_map(|point| &point.times);
-    let y = Axis::logarithmic(
-        all.map(|time| time.gpu_ms.median.max(f64::MIN_POSITIVE)),
-        FRAME.bottom,
-        FRAME.top,
-    );
+    let y = Axis::logarithmic(all.map(|time| time.gpu_ms.median.max(f64::MIN_POSITIVE)), FRAME.bottom, FRAME.top);
     let name = escape(&curve.quantity);
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"time against {name}\">"
-    );
+    let mut svg = format!("<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"time against {name}\">");
     axis::grid(&mut svg, &FRAME, [&x, &y], [&name, "ms"]);
     let mut at = FRAME.left;
     for method in METHODS {
         let ms = |point: &Point| Some((point.value, point.ms(method)?));
         let seen: Vec<_> = curve.points.iter().filter_map(ms).collect();
-        let places: Vec<_> = seen
-            .iter()
-            .map(|(value, ms)| (x.place(*value), y.place(ms.max(f64::MIN_POSITIVE))))
-            .collect();
-        let _ = write!(
-            svg,
-            "<g class=\"{method}\"><polyline points=\"{}\"/>",
-            points(&places)
-        );
+        let places: Vec<_> =
+            seen.iter().map(|(value, ms)| (x.place(*value), y.place(ms.max(f64::MIN_POSITIVE)))).collect();
+        let _ = write!(svg, "<g class=\"{method}\"><polyline points=\"{}\"/>", points(&places));
         for (place, (value, ms)) in places.iter().zip(&seen) {
             let words = format!("{method} at {value}: {} ms", short(*ms));
             axis::mark(&mut svg, *place, &words);
@@ -86,19 +66,13 @@ fn table(curve: &ScalingCurve) -> String {
         format!(
             "<tr><th>{}</th><td>{}</td>{cells}<td>{}</td><td>{}</td></tr>",
             short(point.value),
-            point
-                .superpixel_fraction
-                .map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+            point.superpixel_fraction.map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
             times(ratio(point, MethodKind::Superpixel, MethodKind::None)),
             times(ratio(point, MethodKind::Ssaa, MethodKind::Superpixel)),
         )
     };
     let rows = curve.points.iter().map(row);
-    let notes: String = curve
-        .notes
-        .iter()
-        .map(|note| format!("<p class=\"note\">{}</p>", escape(note)))
-        .collect();
+    let notes: String = curve.notes.iter().map(|note| format!("<p class=\"note\">{}</p>", escape(note))).collect();
     let name = escape(&curve.quantity);
     super::tables::table(
         &format!(
@@ -118,26 +92,12 @@ mod tests {
 
     #[test]
     fn a_method_that_ends_early_has_a_shorter_line() {
-        let time = |method, ms| Time {
-            method,
-            samples: 64,
-            gpu_ms: Spread::of([ms]),
-            wall_ms: Spread::of([ms]),
-        };
-        let point = |value, times| Point {
-            value,
-            size: [640, 360],
-            triangles: 2,
-            superpixel_fraction: None,
-            times,
-        };
+        let time = |method, ms| Time { method, samples: 64, gpu_ms: Spread::of([ms]), wall_ms: Spread::of([ms]) };
+        let point = |value, times| Point { value, size: [640, 360], triangles: 2, superpixel_fraction: None, times };
         let curve = ScalingCurve {
             quantity: "superpixels, %".to_owned(),
             points: vec![
-                point(
-                    0.0,
-                    vec![time(MethodKind::None, 2.0), time(MethodKind::Ssaa, 8.0)],
-                ),
+                point(0.0, vec![time(MethodKind::None, 2.0), time(MethodKind::Ssaa, 8.0)]),
                 point(50.0, vec![time(MethodKind::None, 3.0)]),
             ],
             notes: vec!["ssaa ends".to_owned()],

@@ -20,12 +20,8 @@ const STYLE: &str = include_str!("style.css");
 pub fn page(results: &Results, galleries: &[Gallery]) -> String {
     let [width, height] = results.size;
     let machine = &results.machine;
-    let sections: String = results
-        .scenes
-        .iter()
-        .zip(galleries)
-        .map(|(scene, gallery)| scene::section(scene, gallery))
-        .collect();
+    let sections: String =
+        results.scenes.iter().zip(galleries).map(|(scene, gallery)| scene::section(scene, gallery)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -66,11 +62,7 @@ fn summary(results: &Results) -> String {
         .summary
         .iter()
         .map(|of| {
-            let scenes: Vec<_> = results
-                .scenes
-                .iter()
-                .filter(|scene| scene.textured == of.textured)
-                .collect();
+            let scenes: Vec<_> = results.scenes.iter().filter(|scene| scene.textured == of.textured).collect();
             format!(
                 "<h3>{}</h3>\n{}{}{}",
                 of.about(),
@@ -117,10 +109,7 @@ fn method(results: &Results) -> String {
 
 /// Text with the special characters of HTML escaped.
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The ID that links within the page use for a scene.
@@ -162,10 +151,7 @@ mod tests {
 
     #[test]
     fn text_cannot_become_markup() {
-        assert_eq!(
-            escape("<a href=\"x\">&"),
-            "&lt;a href=&quot;x&quot;&gt;&amp;"
-        );
+        assert_eq!(escape("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
     }
 
     #[test]
@@ -177,10 +163,7 @@ mod tests {
 
     #[test]
     fn numbers_keep_three_digits() {
-        let shown: Vec<_> = [0.1234, 9.999, 12.34, 1234.5]
-            .into_iter()
-            .map(short)
-            .collect();
+        let shown: Vec<_> = [0.1234, 9.999, 12.34, 1234.5].into_iter().map(short).collect();
         assert_eq!(shown, ["0.12", "10.0", "12.3", "1234"]);
     }
 }

@@ -35,14 +35,7 @@ fn ratios(summary: &[MotionRatio]) -> String {
             escape(&ratio.worst_scene)
         )
     };
-    let row = |at: &MotionRatio| {
-        format!(
-            "<tr><th>{}</th>{}{}</tr>",
-            at.samples,
-            cells(&at.rmse),
-            cells(&at.flicker)
-        )
-    };
+    let row = |at: &MotionRatio| format!("<tr><th>{}</th>{}{}</tr>", at.samples, cells(&at.rmse), cells(&at.flicker));
     tables::table(
         "<th>samples</th><th class=\"group\">RMSE</th><th>at worst</th><th class=\"group\">flicker</th><th>at worst</th>",
         summary.iter().map(row),
@@ -55,10 +48,9 @@ fn table(scene: &SceneMotion) -> String {
     let methods = scene.rows.iter().filter(|row| Some(row.motion) == first);
     let rows = methods.map(|row| {
         let cells = |motion: Motion| match scene.row(motion, row.method, row.samples) {
-            Some(row) => format!(
-                "<td class=\"group\">{:.5}</td><td>{:.5}</td>",
-                row.steadiness.rmse, row.steadiness.flicker
-            ),
+            Some(row) => {
+                format!("<td class=\"group\">{:.5}</td><td>{:.5}</td>", row.steadiness.rmse, row.steadiness.flicker)
+            }
             None => "<td class=\"group\">–</td><td>–</td>".to_owned(),
         };
         format!(
@@ -68,23 +60,14 @@ fn table(scene: &SceneMotion) -> String {
             Motion::ALL.map(cells).concat()
         )
     });
-    let notes: String = scene
-        .notes
-        .iter()
-        .map(|note| format!("<p class=\"note\">{}</p>\n", escape(note)))
-        .collect();
-    let motions =
-        Motion::ALL.map(|motion| format!("<th colspan=\"2\" class=\"group\">{motion}</th>"));
+    let notes: String = scene.notes.iter().map(|note| format!("<p class=\"note\">{}</p>\n", escape(note))).collect();
+    let motions = Motion::ALL.map(|motion| format!("<th colspan=\"2\" class=\"group\">{motion}</th>"));
     let columns = "<th class=\"group\">RMSE</th><th>flicker</th>".repeat(Motion::ALL.len());
     let head = format!(
         "<th rowspan=\"2\" class=\"name\">method</th><th rowspan=\"2\">N</th>{}</tr><tr>{columns}",
         motions.concat()
     );
-    format!(
-        "<h3>{}</h3>\n{}{notes}",
-        escape(&scene.name),
-        tables::table(&head, rows, "")
-    )
+    format!("<h3>{}</h3>\n{}{notes}", escape(&scene.name), tables::table(&head, rows, ""))
 }
 
 #[cfg(test)]
@@ -101,10 +84,7 @@ mod tests {
             motion,
             method,
             samples: 64,
-            steadiness: Steadiness {
-                rmse,
-                flicker: 0.5 * rmse,
-            },
+            steadiness: Steadiness { rmse, flicker: 0.5 * rmse },
         };
         let scene = SceneMotion {
             name: "a < b".to_owned(),

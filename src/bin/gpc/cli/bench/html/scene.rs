@@ -32,11 +32,7 @@ pub fn section(scene: &SceneResults, gallery: &Gallery) -> String {
 
 fn part(part: &Part) -> String {
     let [x, y] = part.window.low;
-    let versions: String = part
-        .versions
-        .iter()
-        .map(|v| figure(" class=\"part\"", v))
-        .collect();
+    let versions: String = part.versions.iter().map(|v| figure(" class=\"part\"", v)).collect();
     format!(
         "<h3>{} <small>{} × {} pixels at ({x}, {y})</small></h3>\n<div class=\"parts\">{versions}</div>\n",
         escape(&part.title),
@@ -47,7 +43,5 @@ fn part(part: &Part) -> String {
 
 fn figure(class: &str, version: &Version) -> String {
     let Version { caption, data } = version;
-    format!(
-        "<figure{class}><img alt=\"{caption}\" src=\"{data}\"><figcaption>{caption}</figcaption></figure>"
-    )
+    format!("<figure{class}><img alt=\"{caption}\" src=\"{data}\"><figcaption>{caption}</figcaption></figure>")
 }

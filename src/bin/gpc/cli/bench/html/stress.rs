@@ -35,11 +35,7 @@ fn part(stress: &Stress) -> String {
         )
     };
     // A part with a failure is unfolded, so that nobody misses it.
-    let open = if stress.findings.iter().all(Finding::holds) {
-        ""
-    } else {
-        " open"
-    };
+    let open = if stress.findings.iter().all(Finding::holds) { "" } else { " open" };
     let checked: u64 = stress.findings.iter().map(|finding| finding.checked).sum();
     let table = super::tables::table(
         "<th class=\"name\">case</th><th>checked</th><th>found</th><th>allowed</th><th></th><th class=\"name\">what</th>",
@@ -68,20 +64,11 @@ mod tests {
             measured,
             allowed: Some(1.0),
         };
-        let stress = |measured| Stress {
-            about: "order",
-            seconds: 1.0,
-            findings: vec![finding(0.5), finding(measured)],
-        };
+        let stress =
+            |measured| Stress { about: "order", seconds: 1.0, findings: vec![finding(0.5), finding(measured)] };
         let [good, bad] = [0.0, 2.0].map(|measured| section(&[stress(measured)]));
-        assert!(
-            good.contains("0 exceeded") && !good.contains("FAILS"),
-            "{good}"
-        );
-        assert!(
-            bad.contains("1 exceeded") && bad.contains("<details open>"),
-            "{bad}"
-        );
+        assert!(good.contains("0 exceeded") && !good.contains("FAILS"), "{good}");
+        assert!(bad.contains("1 exceeded") && bad.contains("<details open>"), "{bad}");
         assert!(bad.contains("a &lt; b") && bad.contains("12,345"), "{bad}");
         assert_eq!(section(&[]), "");
     }

@@ -79,30 +79,19 @@ pub fn by_scene(scenes: &[&SceneResults]) -> String {
         ("time over one sample's", &counts, |scene, samples| {
             summary::over_none(scene, samples).map(|ratio| times(Some(ratio)))
         }),
-        (
-            "its error in a share of its time",
-            &TARGETS,
-            |scene, samples| time_to_error(scene, samples).map(share),
-        ),
+        ("its error in a share of its time", &TARGETS, |scene, samples| time_to_error(scene, samples).map(share)),
     ];
     // Figures that were not measured are left out.
     let figures: Vec<_> = figures
         .iter()
         .filter(|(_, counts, cell)| {
-            let mut each = scenes
-                .iter()
-                .flat_map(|s| counts.iter().map(move |c| (s, c)));
+            let mut each = scenes.iter().flat_map(|s| counts.iter().map(move |c| (s, c)));
             each.any(|(scene, count)| cell(scene, *count).is_some())
         })
         .collect();
     let head: String = figures
         .iter()
-        .map(|(what, counts, _)| {
-            format!(
-                "<th colspan=\"{}\" class=\"group\">{what}</th>",
-                counts.len()
-            )
-        })
+        .map(|(what, counts, _)| format!("<th colspan=\"{}\" class=\"group\">{what}</th>", counts.len()))
         .collect();
     let numbers: String = figures
         .iter()
@@ -119,15 +108,9 @@ pub fn by_scene(scenes: &[&SceneResults]) -> String {
                 })
             })
             .collect();
-        let superpixels = scene
-            .rows
-            .iter()
-            .map(|row| row.superpixel_fraction)
-            .fold(0.0, f64::max);
+        let superpixels = scene.rows.iter().map(|row| row.superpixel_fraction).fold(0.0, f64::max);
         let most = summary::most_of_what_is_left(scene)
-            .map_or_else(String::new, |(cause, share)| {
-                format!("{cause}, {}", percent(share))
-            });
+            .map_or_else(String::new, |(cause, share)| format!("{cause}, {}", percent(share)));
         format!(
             "<tr><th class=\"name\"><a href=\"#{}\">{}</a></th><td>{}</td>{cells}<td class=\"name\">{most}</td></tr>",
             anchor(&scene.name),
@@ -216,10 +199,7 @@ pub fn left(scene: &SceneResults) -> String {
                     None => "<td></td>".to_owned(),
                 })
                 .collect();
-            Some(format!(
-                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>",
-                row.method, row.samples,
-            ))
+            Some(format!("<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>", row.method, row.samples,))
         })
         .collect();
     if rows.is_empty() {
@@ -272,11 +252,7 @@ pub fn passes(scene: &SceneResults) -> String {
             names.push(pass.pass);
         }
     }
-    let head: String = scene
-        .rows
-        .iter()
-        .map(|row| format!("<th>{}<br>{}</th>", row.method, row.samples))
-        .collect();
+    let head: String = scene.rows.iter().map(|row| format!("<th>{}<br>{}</th>", row.method, row.samples)).collect();
     let line = |name: &str| {
         let cell = |row: &Row| {
             let found = row.cost.passes.iter().find(|pass| pass.pass == name);
@@ -286,16 +262,13 @@ pub fn passes(scene: &SceneResults) -> String {
         let cells: String = scene.rows.iter().map(cell).collect();
         format!("<tr><th class=\"name\">{name}</th>{cells}</tr>")
     };
-    let totals: String = scene
-        .rows
-        .iter()
-        .map(|row| format!("<td>{}</td>", short(row.cost.gpu_ms.median)))
-        .collect();
+    let totals: String = scene.rows.iter().map(|row| format!("<td>{}</td>", short(row.cost.gpu_ms.median))).collect();
     table(
         &format!("<th class=\"name\">ms</th>{head}"),
-        names.iter().map(|name| line(name)).chain([format!(
-            "<tr class=\"total\"><th class=\"name\">all but copy</th>{totals}</tr>"
-        )]),
+        names
+            .iter()
+            .map(|name| line(name))
+            .chain([format!("<tr class=\"total\"><th class=\"name\">all but copy</th>{totals}</tr>")]),
         "",
     )
 }
@@ -307,11 +280,7 @@ fn percent(share: f64) -> String {
 /// A table with the header `head` and these rows.
 pub fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
     let rows: Vec<_> = rows.collect();
-    let caption = if caption.is_empty() {
-        String::new()
-    } else {
-        format!("<caption>{caption}</caption>")
-    };
+    let caption = if caption.is_empty() { String::new() } else { format!("<caption>{caption}</caption>") };
     format!(
         "<div class=\"wide\"><table>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{}\n</tbody></table></div>\n",
         rows.join("\n")

@@ -9,10 +9,8 @@ pub fn section(scenes: &[SceneVariants]) -> String {
     if scenes.is_empty() {
         return String::new();
     }
-    let meanings: String = Variant::ALL
-        .iter()
-        .map(|variant| format!("<li><b>{variant}</b>: {}.</li>\n", variant.about()))
-        .collect();
+    let meanings: String =
+        Variant::ALL.iter().map(|variant| format!("<li><b>{variant}</b>: {}.</li>\n", variant.about())).collect();
     let tables: String = scenes.iter().map(table).collect();
     format!(
         "<section>\n<h2>Variants of the camera</h2>\n<p class=\"note\">Any set of sampling locations on one engine. A \
@@ -41,11 +39,7 @@ fn table(scene: &SceneVariants) -> String {
             times(Some(row.wall_ratio)),
         )
     };
-    let notes: String = scene
-        .notes
-        .iter()
-        .map(|note| format!("<p class=\"note\">{}</p>\n", escape(note)))
-        .collect();
+    let notes: String = scene.notes.iter().map(|note| format!("<p class=\"note\">{}</p>\n", escape(note))).collect();
     let columns = "<th class=\"group\">ms</th><th>least</th><th>ns a sample</th><th>of raster</th>";
     let head = format!(
         "<th rowspan=\"2\" class=\"name\">variant</th><th rowspan=\"2\">samples</th>\
