@@ -16,6 +16,7 @@ mod pipeline;
 mod plot;
 mod room;
 mod sets;
+mod snippets;
 mod superpixel_price;
 mod table;
 mod text;
