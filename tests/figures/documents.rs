@@ -33,7 +33,7 @@ const PARTS: [(&str, Make); 21] = [
 ];
 
 const PLOTS: [(&str, Make); 4] =
-    [("error-time", plot::error_time), ("growth", plot::growth), ("pipeline", pipeline::draw), ("sets", sets::draw)];
+    [("error-time", plot::error_time), ("growth", plot::growth), ("passes", pipeline::draw), ("sets", sets::draw)];
 
 const BEGIN: &str = "<!-- figures: ";
 const END: &str = "<!-- end -->";

@@ -106,18 +106,21 @@ pub fn draw() -> String {
     // Rounds, and the passes that run again after a growth.
     let find = |wanted: &str| superpixels.iter().position(|name| *name == wanted);
     let bottom = second + STEP[1] * below;
-    let turns =
-        [("resolve", "schedule", "next round, if not all tiles fit", 0), ("grow", "cull", "the added superpixels", 1)];
+    // The path to `schedule` runs outside of the path to `cull`.
+    let turns = [
+        ("grow", "cull", "the superpixels that growth added", 0),
+        ("resolve", "schedule", "the next round, if not all tiles fit", 1),
+    ];
     for (last, first, why, number) in turns {
         let [x, y] = place(second, find(last).unwrap());
         let [to_x, to_y] = place(second, find(first).unwrap());
-        let (down, side) = (bottom - 14 + 26 * number, 8 + 4 * number);
+        let down = bottom - 14 + 26 * number;
         let path = format!(
             "M{} {}V{down}H{}V{}H{}V{}",
-            x + BOX[0] / 2 + 6 * number,
+            x + BOX[0] / 2,
             y + 76,
-            28 - side,
-            to_y - 14,
+            21 - 7 * number,
+            to_y - 9 - 9 * number,
             to_x + BOX[0] / 2 - 12,
             to_y - 2,
         );

@@ -4,7 +4,7 @@ use crate::data::{self, Measurement, Row, spread};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-const SIZE: (u32, u32) = (720, 400);
+const SIZE: (u32, u32) = (800, 480);
 const FONT: (&str, u32) = ("sans-serif", 15);
 
 /// Colour of a method, the same in all plots.
@@ -82,33 +82,55 @@ pub fn error_time() -> String {
             .y_label_formatter(&|y| format!("{y:.0}"))
             .draw()
             .unwrap();
+        let mut named = Vec::new();
         for (method, points) in &curves {
             let colour = colour(method);
             let line = points.iter().map(|(time, error, _)| (*time, *error));
-            chart.draw_series(LineSeries::new(line, colour.stroke_width(2))).unwrap();
-            chart
-                .draw_series(points.iter().map(|(time, error, n)| {
-                    EmptyElement::at((*time, *error))
-                        + Circle::new((0, 0), 4, colour.filled())
-                        + Text::new(label(method, *n), beside(method), FONT.into_font().color(&colour))
-                }))
-                .unwrap();
+            chart.draw_series(LineSeries::new(line.clone(), colour.stroke_width(2))).unwrap();
+            chart.draw_series(line.map(|at| Circle::new(at, 4, colour.filled()))).unwrap();
+            let at =
+                |(time, error, n): &(f64, f64, u32)| (chart.backend_coord(&(*time, *error)), label(method, *n), colour);
+            named.extend(points.iter().map(at));
         }
+        names(area, &named);
     })
 }
 
-/// Offset of a point's label: above the upper curve, below the lower one.
-fn beside(method: &str) -> (i32, i32) {
-    match method {
-        "superpixel" => (-112, 6),
-        "msaa" => (-64, 4),
-        _ => (8, -14),
+/// Writes the names of points beside them, where they cover neither another point nor another name. A point without room around it
+/// stays without a name.
+fn names(area: &DrawingArea<SVGBackend<'_>, Shift>, points: &[((i32, i32), String, RGBColor)]) {
+    /// Left, upper, right and lower side.
+    type Area = [i32; 4];
+    let meets = |a: &Area, b: &Area| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+    let mut taken: Vec<Area> = points.iter().map(|((x, y), ..)| [x - 6, y - 6, x + 6, y + 6]).collect();
+    for &((x, y), ref name, colour) in points {
+        let [wide, high] = [8 * name.len() as i32, FONT.1 as i32];
+        let corners = [
+            (x + 9, y - high),
+            (x - 9 - wide, y),
+            (x + 9, y - high / 2),
+            (x - 9 - wide, y - high / 2),
+            (x - wide / 2, y + 9),
+        ];
+        let area_at = |(left, top): (i32, i32)| [left, top, left + wide, top + high];
+        let inside = [70, 12, SIZE.0 as i32 - 12, SIZE.1 as i32 - 60];
+        let is_free = |corner: &&(i32, i32)| {
+            let [left, top, right, bottom] = area_at(**corner);
+            let fits = left >= inside[0] && top >= inside[1] && right <= inside[2] && bottom <= inside[3];
+            fits && !taken.iter().any(|other| meets(other, &[left, top, right, bottom]))
+        };
+        let free = corners.iter().find(is_free).copied();
+        if let Some(corner) = free {
+            taken.push(area_at(corner));
+            area.draw(&Text::new(name.clone(), corner, FONT.into_font().color(&colour))).unwrap();
+        }
     }
 }
 
 fn label(method: &str, samples: u32) -> String {
     match (method, samples) {
         ("none", _) => "one sample".to_owned(),
+        ("msaa", _) => format!("msaa {samples} of the CPU driver"),
         _ => format!("{method} {samples}"),
     }
 }

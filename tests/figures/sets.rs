@@ -1,6 +1,7 @@
 //! Drawing of the camera's sampling sets.
 
 use plotters::prelude::*;
+use std::collections::HashSet;
 
 /// Side of a panel, and distance between panels, which leaves room for their names.
 const SIDE: i32 = 130;
@@ -41,18 +42,35 @@ fn superpixel() -> Vec<Place> {
     centres().flat_map(|pixel| if crossed(pixel) { many(pixel) } else { vec![in_pixel(pixel, (0.5, 0.5))] }).collect()
 }
 
-/// Offset set: a grid that is contracted around a focus.
+/// Number of cells along a panel's side in the offset set.
+const CELLS: i32 = 18;
+
+/// Offset set: locations that crowd around a focus, at most one in each cell of a grid.
 fn offset() -> Vec<Place> {
     let focus = (0.6, 0.45);
-    planar()
-        .into_iter()
-        .map(|(u, v)| {
-            let (du, dv) = (u - focus.0, v - focus.1);
-            let distance = du.hypot(dv);
-            let kept = (distance / 0.6).min(1.0).powf(0.8);
-            (focus.0 + du * kept, focus.1 + dv * kept)
-        })
-        .collect()
+    let crowded = (0..CELLS * CELLS).map(|index| {
+        let place = |number: i32| (f64::from(number) + 0.5) / f64::from(CELLS);
+        let (du, dv) = (place(index % CELLS) - focus.0, place(index / CELLS) - focus.1);
+        // Outside of the focus, distances are stretched.
+        let stretched = (du.hypot(dv) / 0.3).max(1.0).powf(1.6);
+        (focus.0 + du * stretched, focus.1 + dv * stretched)
+    });
+    let mut taken = HashSet::new();
+    let is_inside = |place: f64| (0.0..1.0).contains(&place);
+    crowded.filter(|(u, v)| is_inside(*u) && is_inside(*v) && taken.insert(cell((*u, *v)))).collect()
+}
+
+/// Cell of the offset set's grid in which a place lies.
+fn cell((u, v): Place) -> [i32; 2] {
+    [u, v].map(|t| (t * f64::from(CELLS)) as i32)
+}
+
+#[test]
+fn a_cell_of_the_offset_set_has_at_most_one_location() {
+    let cells: Vec<_> = offset().into_iter().map(cell).collect();
+    let different: HashSet<_> = cells.iter().collect();
+    assert_eq!(different.len(), cells.len());
+    assert!(cells.len() > 60, "{} locations", cells.len());
 }
 
 fn no_pattern() -> Vec<Place> {
@@ -92,7 +110,11 @@ pub fn draw() -> String {
         for (index, (name, places)) in panels.iter().enumerate() {
             let left = GAP + index as i32 * (SIDE + GAP);
             let lines = RGBColor(205, 205, 205);
-            let cells = if *name == "rig" { 3 } else { PIXELS };
+            let cells = match *name {
+                "rig" => 3,
+                "offset" => CELLS,
+                _ => PIXELS,
+            };
             if *name != "no pattern" {
                 for line in 0..=cells {
                     let at = SIDE * line / cells;

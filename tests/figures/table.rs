@@ -84,43 +84,48 @@ pub fn readme() -> String {
     )
 }
 
-/// Table of error and time of every method at every number of samples.
+/// Table of error and time of both methods at every number of samples at which both were measured, and of the others.
 pub fn choosing() -> String {
-    let mut text = String::new();
-    for of in &data::load("quality") {
-        let scenes = textured(of);
-        let mut table = Table::new(&cells(&[
-            "method",
-            "samples",
-            "time (worst)",
-            "RMSE",
-            "FLIP",
-            "RMSE / `ssaa`",
-            "FLIP / `ssaa`",
-        ]));
-        for method in ["none", "msaa", "ssaa", "superpixel"] {
-            for n in of.samples(method) {
-                let over = |column| match method {
-                    "superpixel" => with_worst(ratios(of, &scenes, column, (method, n), ("ssaa", n))),
-                    _ => String::new(),
-                };
-                table.row(&[
-                    format!("`{method}`"),
-                    grouped(u64::from(n)),
-                    with_worst(ratios(of, &scenes, MS, (method, n), ("none", 1))),
-                    or_none(median(of, &scenes, RMSE, method, n), error),
-                    or_none(median(of, &scenes, FLIP, method, n), error),
-                    over(RMSE),
-                    over(FLIP),
-                ]);
-            }
-        }
-        text += &format!("{}:\n\n{}\n", of.source(), table.finish());
+    let all = data::load("quality");
+    let of = quality(&all);
+    let scenes = textured(of);
+    let mut table = Table::new(&cells(&[
+        "samples",
+        "time: superpixel (worst)",
+        "`ssaa` (worst)",
+        "RMSE: superpixel",
+        "`ssaa`",
+        "FLIP: superpixel",
+        "`ssaa`",
+        "RMSE / RMSE of `ssaa` (worst)",
+        "FLIP / FLIP of `ssaa` (worst)",
+    ]));
+    let time = |method, n| with_worst(ratios(of, &scenes, MS, (method, n), ("none", 1)));
+    let typical = |column, method, n| or_none(median(of, &scenes, column, method, n), error);
+    for n in of.compared_samples() {
+        let over = |column| with_worst(ratios(of, &scenes, column, ("superpixel", n), ("ssaa", n)));
+        let both = ["superpixel", "ssaa"];
+        let times = both.map(|method| time(method, n));
+        let [rmse, flip] = [RMSE, FLIP].map(|column| both.map(|method| typical(column, method, n)));
+        let mut row = vec![grouped(u64::from(n))];
+        row.extend([times, rmse, flip].concat());
+        row.extend([over(RMSE), over(FLIP)]);
+        table.row(&row);
     }
-    text
+    let other = |method, n| {
+        let [rmse, flip] = [typical(RMSE, method, n), typical(FLIP, method, n)];
+        format!("time {}, RMSE {rmse}, FLIP {flip}", time(method, n))
+    };
+    format!(
+        "{}:\n\n{}\nOne sample a pixel (`none`): {}. `msaa` with 4 samples, of this driver: {}.",
+        of.source(),
+        table.finish(),
+        other("none", 1),
+        other("msaa", 4)
+    )
 }
 
-/// Table of the scenes on which supersampling is better.
+/// Table of the scenes on which each method is better.
 pub fn exceptions() -> String {
     let all = data::load("quality");
     let of = quality(&all);
@@ -130,25 +135,26 @@ pub fn exceptions() -> String {
         "`ssaa` is faster on",
         "`ssaa` has the smaller RMSE on",
         "`ssaa` has the smaller FLIP on",
+        "superpixels with a quarter of the samples are faster and have the smaller RMSE on",
     ]));
     for n in of.compared_samples() {
-        let better = |column: Column| {
-            let better: Vec<&str> = scenes
-                .iter()
-                .filter(|scene| {
-                    let of = |method| of.find(scene, method, n).map(column);
-                    of("ssaa") < of("superpixel")
-                })
-                .copied()
-                .collect();
-            let names = match better.len() {
-                0 => String::new(),
-                few if few <= 3 => format!(": {}", better.join(", ")),
-                _ => String::new(),
-            };
+        let count = |is_better: &dyn Fn(&str) -> bool| {
+            let better: Vec<&str> = scenes.iter().copied().filter(|scene| is_better(scene)).collect();
+            let names =
+                if (1..=3).contains(&better.len()) { format!(": {}", better.join(", ")) } else { String::new() };
             format!("{} of {}{names}", better.len(), scenes.len())
         };
-        table.row(&[grouped(u64::from(n)), better(MS), better(RMSE), better(FLIP)]);
+        let less = |column: Column, scene: &str, left: (&str, u32), right: (&str, u32)| {
+            let [left, right] = [left, right].map(|(method, n)| of.find(scene, method, n).map(column));
+            left.zip(right).is_some_and(|(left, right)| left < right)
+        };
+        let better = |column| count(&|scene| less(column, scene, ("ssaa", n), ("superpixel", n)));
+        let quarter = |scene: &str| {
+            let less = |column| less(column, scene, ("superpixel", n / 4), ("ssaa", n));
+            less(MS) && less(RMSE)
+        };
+        let quarter = if of.samples("superpixel").contains(&(n / 4)) { count(&quarter) } else { String::new() };
+        table.row(&[grouped(u64::from(n)), better(MS), better(RMSE), better(FLIP), quarter]);
     }
     format!("All {} scenes; {}:\n\n{}", scenes.len(), of.source(), table.finish())
 }
