@@ -1,8 +1,8 @@
 //! A renderer on Vulkan that antialiases only where an image aliases.
 //!
-//! The first pass renders one sample a pixel and marks the pixels that alias, called *superpixels*. The second pass takes up to
-//! 1,024 samples in the superpixels alone: it finds which triangle each sample sees, shades these visibility samples and averages
-//! them.
+//! The first pass renders one sample a pixel and marks the pixels that alias, called *superpixels*. The second pass samples the
+//! superpixels alone, at 512 to 4,096 places each: it finds which triangle each place sees, shades these visibility samples and
+//! averages them.
 //!
 //! <!-- figures: passes-in-short -->
 //!

@@ -14,18 +14,27 @@ out=docs/gallery
 work="$(mktemp -d)"
 trap 'rm -r "$work"' EXIT
 
-# A detailed scene (CC0): the whole frame, and a part of it without and with antialiasing, enlarged four times.
-ship="$shared/DutchShip/dutch_ship_medium_1k.gltf"
-if [ -f "$ship" ]; then
-    view=(--azimuth 10 --elevation 8 --zoom 1.45 --background '#b9cfe4' --quiet)
-    gpc render "$ship" -o docs/pictures/ship.png "${view[@]}"
-    for aa in none superpixel; do
-        gpc render "$ship" -o "$work/$aa.png" "${view[@]}" --aa $aa --region 480,290,180x120
-        ffmpeg -loglevel error -y -i "$work/$aa.png" -vf scale=iw*4:ih*4:flags=neighbor "docs/pictures/ship-$aa.png"
-    done
-else
-    echo "left out: $ship is not there" >&2
-fi
+# The picture of the README: a frame that the scene fills, and a part of it by three methods, enlarged three times. The times are kept.
+front=(assets/fence.glb --size 1920x1080 --background '#a8c0d8' --quiet --json)
+for method in none:1:5 ssaa:4:5 superpixel:64:5 ssaa:64:1; do
+    IFS=: read -r aa samples repeat <<<"$method"
+    image="$work/front-$aa-$samples.png"
+    gpc render "${front[@]}" -o "$image" --aa "$aa" --samples "$samples" --repeat "$repeat" >"$work/front.json"
+    echo "fence,$aa,$samples,$(sed -n '/"gpu_ms"/,/}/s/.*"total": *\([0-9.]*\).*/\1/p' "$work/front.json")" >>"$work/front.rows"
+done
+cp "$work/front-superpixel-64.png" docs/pictures/front.png
+for part in none-1 ssaa-4 superpixel-64; do
+    ffmpeg -loglevel error -y -i "$work/front-$part.png" -vf crop=160:120:1020:540,scale=iw*3:ih*3:flags=neighbor \
+        "docs/pictures/front-${part%-*}.png"
+done
+gpc bench assets/checker.glb --out "$work/head" --size 16x16 --methods none --samples 1 --reference 256 --repeat 1 >"$work/log"
+{
+    echo "# commit: $(git rev-parse --short HEAD)"
+    grep -E '^# (driver|machine|date): ' "$work/head/results.csv"
+    echo "# size: 1920x1080"
+    echo scene,method,samples,gpu_ms_median
+    cat "$work/front.rows"
+} >docs/bench/picture-lavapipe-22.3.csv
 
 # Planar and superpixel sets.
 gpc render assets/letters.glb -o $out/planar.png --size 480x300 --background '#708090' --aa none --quiet

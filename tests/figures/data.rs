@@ -21,8 +21,13 @@ pub fn root() -> &'static Path {
 
 /// All files `KIND-*.csv`, sorted by name.
 pub fn load(kind: &str) -> Vec<Measurement> {
-    let folder = root().join("docs/bench");
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder)
+    let paths = paths(kind);
+    assert!(!paths.is_empty(), "no docs/bench/{kind}-*.csv");
+    paths.iter().map(|path| Measurement::read(path)).collect()
+}
+
+fn paths(kind: &str) -> Vec<PathBuf> {
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(root().join("docs/bench"))
         .unwrap()
         .map(|entry| entry.unwrap().path())
         .filter(|path| {
@@ -31,8 +36,34 @@ pub fn load(kind: &str) -> Vec<Measurement> {
         })
         .collect();
     paths.sort();
-    assert!(!paths.is_empty(), "no {kind}-*.csv in {}", folder.display());
-    paths.iter().map(|path| Measurement::read(path)).collect()
+    paths
+}
+
+/// What the first page shows: views that fill a frame where these were measured, otherwise the textured objects in small images.
+pub struct Front {
+    pub of: Measurement,
+    has_views: bool,
+}
+
+pub fn front() -> Front {
+    let has_views = !paths("views").is_empty();
+    let all = load(if has_views { "views" } else { "quality" });
+    let of = all.into_iter().find(|of| !of.samples("superpixel").is_empty());
+    Front { of: of.expect("no measurement has superpixels"), has_views }
+}
+
+impl Front {
+    pub fn scenes(&self) -> Vec<&str> {
+        let mut scenes = self.of.scenes();
+        scenes.retain(|scene| self.has_views || self.of.textured(scene));
+        scenes
+    }
+
+    /// What the scenes are and the size of their images.
+    pub fn title(&self) -> String {
+        let kind = if self.has_views { "views that fill the frame" } else { "textured objects in small images" };
+        format!("{} {kind}, {} pixels", self.scenes().len(), self.of.size())
+    }
 }
 
 impl Measurement {
@@ -92,6 +123,17 @@ impl Measurement {
         samples.sort_unstable();
         samples.dedup();
         samples
+    }
+
+    /// Methods, in the order of the file.
+    pub fn methods(&self) -> Vec<&str> {
+        let mut methods: Vec<&str> = Vec::new();
+        for row in &self.rows {
+            if !methods.contains(&row.text("method")) {
+                methods.push(row.text("method"));
+            }
+        }
+        methods
     }
 
     /// Numbers of samples at which both superpixels and supersampling were measured, in ascending order.

@@ -18,7 +18,7 @@ const PURPOSES: [(&str, [&str; 2]); 16] = [
     ("setup", ["edges and", "depth planes"]),
     ("sample", ["nearest triangle", "of each sample"]),
     ("sort", ["samples in order", "of material"]),
-    ("resolve", ["mean, in", "linear light"]),
+    ("resolve", ["mean of the", "colours"]),
     ("grow", ["neighbours that", "now contrast"]),
 ];
 
@@ -74,7 +74,7 @@ pub fn draw() -> String {
          <rect width=\"960\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
     svg += &panel("Every pixel, one sample", "#e8f0f8", [10, STEP[1] * above + 38]);
-    let title = "Superpixels alone, up to 1,024 samples";
+    let title = "Superpixels alone";
     svg += &panel(title, "#f8efe4", [second - 42, STEP[1] * below + 86]);
     let place = |top: i32, index: usize| {
         let [column, row] = [index % COLUMNS, index / COLUMNS].map(|at| at as i32);

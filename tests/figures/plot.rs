@@ -13,7 +13,8 @@ fn colour(method: &str) -> RGBColor {
         "none" => RGBColor(110, 110, 110),
         "msaa" => RGBColor(60, 140, 60),
         "ssaa" => RGBColor(40, 90, 180),
-        _ => RGBColor(200, 70, 30),
+        "superpixel" => RGBColor(200, 70, 30),
+        _ => RGBColor(140, 60, 150),
     }
 }
 
@@ -28,10 +29,8 @@ fn drawn(draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>)) -> String {
     text
 }
 
-/// Points of a method over the textured scenes: median error, median time and number of samples.
-fn curve(of: &Measurement, method: &str) -> Vec<(f64, f64, u32)> {
-    let mut scenes = of.scenes();
-    scenes.retain(|scene| of.textured(scene));
+/// Points of a method over some scenes: median time, median error and number of samples.
+fn curve(of: &Measurement, scenes: &[&str], method: &str) -> Vec<(f64, f64, u32)> {
     let median = |value: &dyn Fn(&Row, &Row) -> f64, n: u32| {
         let values = scenes.iter().filter_map(|scene| {
             let (plain, row) = of.find(scene, "none", 1).zip(of.find(scene, method, n))?;
@@ -49,16 +48,12 @@ fn curve(of: &Measurement, method: &str) -> Vec<(f64, f64, u32)> {
         .collect()
 }
 
-/// Plot of error against time of every method, as medians over the textured scenes.
+/// Plot of error against time of every method that was measured.
 pub fn error_time() -> String {
-    let all = data::load("quality");
-    let curves: Vec<(&str, Vec<_>)> = ["none", "msaa", "ssaa", "superpixel"]
-        .into_iter()
-        .filter_map(|method| {
-            let points = all.iter().map(|of| curve(of, method)).find(|points| !points.is_empty())?;
-            Some((method, points))
-        })
-        .collect();
+    let front = data::front();
+    let scenes = front.scenes();
+    let curves: Vec<(&str, Vec<_>)> =
+        front.of.methods().into_iter().map(|method| (method, curve(&front.of, &scenes, method))).collect();
     let points = || curves.iter().flat_map(|(_, points)| points);
     let most = |value: fn(&(f64, f64, u32)) -> f64| points().map(value).fold(f64::MIN, f64::max);
     let least = points().map(|point| point.1).fold(f64::MAX, f64::min);
@@ -76,7 +71,7 @@ pub fn error_time() -> String {
             .configure_mesh()
             .light_line_style(WHITE)
             .label_style(FONT)
-            .x_desc("time of a frame / time of one sample a pixel (median of textured scenes)")
+            .x_desc(format!("time of a frame / time of one sample a pixel; medians of {}", front.title()))
             .y_desc("RMSE against the truth, times 100,000")
             .x_label_formatter(&|x| format!("{x:.0}"))
             .y_label_formatter(&|y| format!("{y:.0}"))
@@ -96,13 +91,19 @@ pub fn error_time() -> String {
     })
 }
 
-/// Writes the names of points beside them, where they cover neither another point nor another name. A point without room around it
+/// Writes the names of points beside them, where they cover no point, no line and no other name. A point without room around it
 /// stays without a name.
 fn names(area: &DrawingArea<SVGBackend<'_>, Shift>, points: &[((i32, i32), String, RGBColor)]) {
     /// Left, upper, right and lower side.
     type Area = [i32; 4];
     let meets = |a: &Area, b: &Area| a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
     let mut taken: Vec<Area> = points.iter().map(|((x, y), ..)| [x - 6, y - 6, x + 6, y + 6]).collect();
+    // Places on the lines between the points of a method.
+    for pair in points.windows(2).filter(|pair| pair[0].2 == pair[1].2) {
+        let ((x, y), (to_x, to_y)) = (pair[0].0, pair[1].0);
+        let places = (1..16).map(|step| (x + (to_x - x) * step / 16, y + (to_y - y) * step / 16));
+        taken.extend(places.map(|(x, y)| [x - 3, y - 3, x + 3, y + 3]));
+    }
     for &((x, y), ref name, colour) in points {
         let [wide, high] = [8 * name.len() as i32, FONT.1 as i32];
         let corners = [

@@ -53,34 +53,49 @@ fn quality(all: &[Measurement]) -> &Measurement {
     found.expect("docs/bench/quality-*.csv has no superpixels")
 }
 
-/// Table of the README: time and error relative to supersampling, in a few rows.
+/// Table of the README: the time of superpixels beside that of one sample, and beside that of supersampling with the same error.
 pub fn readme() -> String {
-    let all = data::load("quality");
-    let of = quality(&all);
-    let scenes = textured(of);
+    let front = data::front();
+    let (of, scenes) = (&front.of, front.scenes());
     let samples: Vec<u32> = of.compared_samples().into_iter().filter(|n| *n >= 16).collect();
-    let mut head = cells(&["samples in a superpixel"]);
-    head.extend(samples.iter().map(|n| grouped(u64::from(*n))));
+    let mut head = cells(&["median (worst)"]);
+    head.extend(samples.iter().map(|n| format!("N = {}", grouped(u64::from(*n)))));
     let mut table = Table::new(&head);
     let mut line = |name: &str, value: &dyn Fn(u32) -> String| {
         let mut row = cells(&[name]);
         row.extend(samples.iter().map(|n| value(*n)));
         table.row(&row);
     };
-    line("superpixel time / time of one sample", &|n| {
+    line("time with `--samples N` / time with one sample a pixel", &|n| {
         with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("none", 1)))
     });
-    line("superpixel time / `ssaa` time", &|n| with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n))));
-    line("superpixel time at the RMSE of `ssaa` / `ssaa` time", &|n| with_worst(time_to_error::shares(of, &scenes, n)));
-    line("superpixel RMSE / `ssaa` RMSE", &|n| with_worst(ratios(of, &scenes, RMSE, ("superpixel", n), ("ssaa", n))));
-    line("superpixel FLIP / `ssaa` FLIP", &|n| with_worst(ratios(of, &scenes, FLIP, ("superpixel", n), ("ssaa", n))));
+    line("time to the RMSE of supersampling with N samples / its time", &|n| {
+        with_worst(time_to_error::shares(of, &scenes, n))
+    });
+    format!("{}; {}:\n\n{}", front.title(), of.source(), table.finish())
+}
+
+/// The parts of the picture of the README, and the time that each method takes for it.
+pub fn picture() -> String {
+    let all = data::load("picture");
+    let of = &all[0];
+    let ms = |method: &str, samples| of.find("fence", method, samples).map_or_else(String::new, |row| short(row.ms()));
+    let image = |file: &str, alt: &str| format!("![{alt}](docs/pictures/front-{file}.png)");
+    let mut table = Table::new(&[
+        format!("one sample a pixel: {} ms", ms("none", 1)),
+        format!("supersampling, 4 samples: {} ms", ms("ssaa", 4)),
+        format!("`gpc`, `--samples 64`: {} ms", ms("superpixel", 64)),
+    ]);
+    table.row(&[
+        image("none", "The mesh of the fence as rings and dots that are not there"),
+        image("ssaa", "The mesh with stripes that are not there"),
+        image("superpixel", "The mesh as an even veil, which is denser far away"),
+    ]);
     format!(
-        "Medians (worst) of {} textured scenes at {}. Below 1, superpixels win, except in the first row. Row 3: 1.0 if they never reach the error. \
-         {}.\n\n{}",
-        scenes.len(),
-        of.size(),
-        of.source(),
-        table.finish()
+        "{}\nSupersampling with 64 samples takes {} ms. Driver: {}.",
+        table.finish(),
+        ms("ssaa", 64),
+        of.head("driver")
     )
 }
 
