@@ -44,33 +44,34 @@ cp "$work/superpixel.png" "$work/superpixel.superpixels.png" $out
 # An offset set: the zoom of a scene, and its steps.
 gpc zoom assets/letters.glb -o "$work/zoom.png" --size 480x300 --background '#708090' \
     --center 225,222 --radius 60 --multiplicity 0.3 --transition smooth --steps
-for step in '' .original .locations .resampled .transition .direct; do cp "$work/zoom$step.png" $out; done
+for step in '' .original .locations .direct; do cp "$work/zoom$step.png" $out; done
 
 # The zoomed image turned back to an ordinary image, without the scene.
 gpc unzoom "$work/zoom.png" -o $out/unzoom.png --reference "$work/zoom.direct.png"
 
-# An image file without its scene: two regions.
-gpc render assets/fence.glb -o "$work/view.jpg" --size 480x300 --background '#a8c0d8' --quiet
-gpc zoom "$work/view.jpg" -o $out/image-zoom.png --center 135,140 --radius 28 --multiplicity 0.4 \
-    --center 370,80 --radius 40,24 --multiplicity 0.5 --shape circle --shape rectangle
-
-# Locations without a pattern: a fence that recedes, sampled at equal steps along it.
+# Locations without a pattern: the mesh of a fence that recedes, sampled at equal steps along it.
 awk 'BEGIN { print "u,v,row,col"; for (row = 0; row < 160; row++) for (col = 0; col < 480; col++) {
-    d = 0.8 + 4 * col / 480
-    print 253 - 253 / d "," 156.8 + (30 + 195 * row / 160) / d "," row "," col } }' > "$work/fence.csv"
+    distance = 1.2 + 3 * col / 480
+    print 253 + 227 / distance "," 156.8 + (1.68125 * row - 13.6) / distance "," row "," col } }' > "$work/fence.csv"
 gpc sample assets/fence.glb --samples "$work/fence.csv" -o $out/no-pattern.png --size 480x300 --background '#a8c0d8' \
     --aa superpixel
 
-# Panoramas.
-for projection in equirectangular cylindrical fisheye; do
-    gpc panorama assets/fence.glb -o $out/$projection.png --projection $projection --size 480x240 \
-        --background '#a8c0d8'
-done
-# A rig of six pinholes. In a room (MIT), all faces of the cube map show something.
-room="$shared/GodotRoom/room.glb"
+# A room (CC-BY), in which every direction shows something: a rig of six pinholes, panoramas, an image file without its scene, and
+# edges of meshes as lines.
+room="$shared/WebXRGarage/garage.gltf"
 if [ -f "$room" ]; then
-    gpc panorama "$room" -o $out/cubemap.png --projection cubemap --size 960x480 --background '#202830' \
-        --eye 0,1.6,0 --target 1,1.6,0
+    eye=(--background '#202830' --eye 0,1.6,0)
+    gpc panorama "$room" -o $out/cubemap.png --projection cubemap --size 960x480 "${eye[@]}" --target 0,1.6,-1
+    for projection in equirectangular cylindrical fisheye; do
+        gpc panorama "$room" -o $out/$projection.png --projection $projection --size 480x240 "${eye[@]}" --target 0,1.5,-1
+    done
+    gpc render "$room" -o "$work/photo.jpg" --size 480x300 "${eye[@]}" --target 0,1.4,-1 --fov 70 --quiet
+    gpc zoom "$work/photo.jpg" -o $out/image-zoom.png --center 305,130 --radius 50,32 --multiplicity 0.5 --shape rectangle
+    for aa in none superpixel; do
+        gpc render "$room" -o "$work/edges-$aa.png" --size 480x300 "${eye[@]}" --target 0.5,1.2,-1 --fov 60 --edges 1.5 --aa $aa --quiet
+    done
+    cp "$work/edges-none.png" $out
+    cp "$work/edges-superpixel.png" $out/edges.png
 else
     echo "left out: $room is not there" >&2
 fi
@@ -81,17 +82,10 @@ gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300
     --weights --wall $out/wall.png
 cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
 
-# Lines: edges of meshes.
-for aa in none superpixel; do
-    gpc render assets/spheres.glb -o "$work/edges-$aa.png" --size 480x300 --background '#a8c0d8' --edges 1.5 --aa $aa --quiet
-done
-cp "$work/edges-none.png" $out
-cp "$work/edges-superpixel.png" $out/edges.png
-
 # Exact shadows.
 for scene in letters fence; do
     gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact --quiet
 done
 
-# What a host draws besides the triangles that it lends.
+# What an application draws besides the triangles that the library knows.
 GPC_PICTURES=write cargo test --release --test gpu host::besides

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes docs/window.png, the picture of the window in docs/viewer.md, and docs/window.webp, the animation in the gallery. Needs
-# ffmpeg, and the packages that `tools/setup.sh window display` installs.
+# Makes docs/window.png, the picture of the window in docs/viewer.md. Needs ffmpeg, and the packages that `tools/setup.sh window
+# display` installs. Nothing else should run on the machine: the picture shows times.
 set -eu
 cd "$(dirname "$0")/.."
 gpc=${GPC:-target/release/gpc}
@@ -50,66 +50,3 @@ sleep 7
 grab 960x540 docs/window.png
 xdotool key q
 wait "$viewer"
-
-# The animation: a picture for each step.
-frames=0
-frame() {
-    frames=$((frames + 1))
-    grab 640x400 "$work/$(printf %03d $frames).png"
-}
-# Repeats the current picture for a number of steps.
-hold() {
-    frame
-    last="$work/$(printf %03d $frames).png"
-    for _ in $(seq 2 "$1"); do
-        frames=$((frames + 1))
-        cp "$last" "$work/$(printf %03d $frames).png"
-    done
-}
-# Moves the pointer from a place in steps, with a picture for each step.
-move() { # X Y DX DY STEPS
-    for step in $(seq 1 "$5"); do
-        xdotool mousemove $(($1 + step * $3)) $(($2 + step * $4))
-        sleep 0.4
-        frame
-    done
-}
-open 640x400
-xdotool key p
-sleep 7
-hold 6
-# Zooms in along the fences; the picture is refined at the end.
-xdotool mousemove 320 210
-for _ in 1 2 3; do
-    settle click 4
-    frame
-done
-hold 5
-# Moves the line between superpixels and no antialiasing.
-settle key x
-xdotool mousemove 320 200 mousedown 1
-move 320 200 16 0 8
-move 448 200 -32 0 8
-move 192 200 28 0 8
-xdotool mouseup 1
-# Moves the magnifier along the line.
-xdotool key l
-move 416 150 0 10 10
-xdotool key l key l key l
-settle key x
-hold 4
-# A lens.
-xdotool mousemove 470 220
-settle key z
-hold 3
-for _ in 1 2 3 4; do
-    settle click 4
-    frame
-done
-for x in 450 430 410 390 370 350; do
-    settle mousemove $x 210 click 1
-    frame
-done
-hold 8
-ffmpeg -loglevel error -y -framerate 8 -i "$work/%03d.png" -c:v libwebp_anim -loop 0 -quality 75 -compression_level 6 \
-    docs/window.webp
