@@ -1,26 +1,22 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{choices, gpu, help, hosts, passes, pipeline, plot, room, sets, superpixel_price};
-use crate::{table, time_to_error};
+use crate::{choices, gpu, help, hosts, passes, pipeline, plot, room, sets, table};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 22] = [
+const PARTS: [(&str, Make); 19] = [
     ("picture", table::picture),
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
-    ("time-to-error", time_to_error::table),
-    ("superpixel-price", superpixel_price::table),
     ("quality", table::quality_by_scene),
     ("speed", table::speed),
     ("gpu", gpu::table),
     ("motion", table::motion),
     ("variants", table::variants),
-    ("growth", table::growth),
     ("hosts", hosts::table),
     ("room", room::table),
     ("contrast", choices::contrast),

@@ -3,7 +3,6 @@
 //!
 //! `make figures` writes them: it runs this test with `GPC_FIGURES=write`.
 
-mod by_scene;
 mod checks;
 mod choices;
 mod data;
@@ -17,7 +16,6 @@ mod plot;
 mod room;
 mod sets;
 mod snippets;
-mod superpixel_price;
 mod table;
 mod text;
 mod time_to_error;

@@ -174,189 +174,131 @@ pub fn exceptions() -> String {
     format!("All {} scenes; {}:\n\n{}", scenes.len(), of.source(), table.finish())
 }
 
-/// Table of error and time, scene by scene.
+/// Number of samples of the tables by scene.
+const SHOWN: u32 = 64;
+
+/// Table of error and time, scene by scene: of views that fill the frame, where they were measured, and of objects in small images.
 pub fn quality_by_scene() -> String {
     let mut text = String::new();
-    for of in &data::load("quality") {
-        text += &format!("{}, {}.\n\n", of.source(), of.size());
-        for n in of.compared_samples() {
-            let mut table = Table::new(&cells(&[
-                "scene",
-                "superpixels",
-                "one sample, ms",
-                "superpixel, ms",
-                "`ssaa`, ms",
-                "RMSE",
-                "`ssaa`",
-                "FLIP",
-                "`ssaa`",
-            ]));
-            for scene in of.scenes() {
-                let Some((fine, brute)) = of.find(scene, "superpixel", n).zip(of.find(scene, "ssaa", n)) else {
-                    continue;
-                };
-                let plain = of.find(scene, "none", 1).map(MS);
-                table.row(&[
-                    scene.to_owned(),
-                    format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
-                    or_none(plain, short),
-                    short(fine.ms()),
-                    short(brute.ms()),
-                    error(RMSE(fine)),
-                    error(RMSE(brute)),
-                    error(FLIP(fine)),
-                    error(FLIP(brute)),
-                ]);
-            }
-            text += &format!("**{} samples**\n\n{}\n", grouped(u64::from(n)), table.finish());
-        }
-        for n in of.samples("msaa") {
-            let mut table = Table::new(&cells(&[
-                "scene",
-                "one sample, ms",
-                "`msaa`, ms",
-                "RMSE of one sample",
-                "`msaa`",
-                "FLIP of one sample",
-                "`msaa`",
-            ]));
-            for scene in of.scenes() {
-                if let Some((plain, multi)) = of.find(scene, "none", 1).zip(of.find(scene, "msaa", n)) {
-                    table.row(&[
-                        scene.to_owned(),
-                        short(plain.ms()),
-                        short(multi.ms()),
-                        error(RMSE(plain)),
-                        error(RMSE(multi)),
-                        error(FLIP(plain)),
-                        error(FLIP(multi)),
-                    ]);
-                }
-            }
-            text += &format!("**`msaa`, {n} samples**\n\n{}\n", table.finish());
-        }
-    }
-    text
-}
-
-/// Table of times of larger images, driver by driver.
-pub fn speed() -> String {
-    let mut text = String::new();
-    for of in &data::load("speed") {
-        let samples = of.samples("superpixel");
-        let mut head = cells(&["scene", "one sample, ms"]);
-        for n in &samples {
-            let n = grouped(u64::from(*n));
-            head.extend([format!("{n} samples, ms"), "/ one sample".to_owned(), "`ssaa` / it".to_owned()]);
-        }
-        let mut table = Table::new(&head);
+    for of in data::load_any("views").iter().chain(&data::load("quality")) {
+        let mut table = Table::new(&cells(&[
+            "scene",
+            "superpixels",
+            "one sample, ms",
+            "superpixel, ms",
+            "`ssaa`, ms",
+            "RMSE",
+            "`ssaa`",
+            "FLIP",
+            "`ssaa`",
+            "time to the RMSE of `ssaa` / its time",
+        ]));
         for scene in of.scenes() {
-            let Some(plain) = of.find(scene, "none", 1) else {
+            let Some((fine, brute)) = of.find(scene, "superpixel", SHOWN).zip(of.find(scene, "ssaa", SHOWN)) else {
                 continue;
             };
-            let mut row = vec![scene.to_owned(), short(plain.ms())];
-            for n in &samples {
-                let fine = of.find(scene, "superpixel", *n).map(MS);
-                let brute = of.find(scene, "ssaa", *n).map(MS);
-                row.push(or_none(fine, short));
-                row.push(or_none(fine.map(|ms| ms / plain.ms()), short));
-                row.push(or_none(fine.zip(brute).map(|(fine, brute)| brute / fine), short));
-            }
-            table.row(&row);
+            table.row(&[
+                scene.to_owned(),
+                format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
+                or_none(of.find(scene, "none", 1).map(MS), short),
+                short(fine.ms()),
+                short(brute.ms()),
+                error(RMSE(fine)),
+                error(RMSE(brute)),
+                error(FLIP(fine)),
+                error(FLIP(brute)),
+                or_none(time_to_error::share(of, scene, SHOWN), short),
+            ]);
         }
-        let scenes = of.scenes();
-        let mut row = cells(&["**median**", ""]);
-        for n in &samples {
-            let over = |above, below| ratios(of, &scenes, MS, above, below).map(|spread| spread.median);
-            row.push(String::new());
-            row.push(or_none(over(("superpixel", *n), ("none", 1)), short));
-            row.push(or_none(over(("ssaa", *n), ("superpixel", *n)), short));
-        }
-        table.row(&row);
-        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
+        text += &format!("{}, {}, {SHOWN} samples:\n\n{}\n", of.source(), of.size(), table.finish());
     }
     text
 }
 
-/// Table of errors and flicker while the camera moves.
+/// Table of times of larger images.
+pub fn speed() -> String {
+    let all = data::load("speed");
+    let of = &all[0];
+    let samples = [64, 1024];
+    let mut head = cells(&["scene", "one sample, ms"]);
+    for n in samples {
+        let n = grouped(u64::from(n));
+        head.extend([
+            format!("superpixel, {n} samples, ms"),
+            "/ one sample".to_owned(),
+            format!("`ssaa`, {n} samples, ms"),
+            "/ superpixel".to_owned(),
+        ]);
+    }
+    let mut table = Table::new(&head);
+    let scenes = of.scenes();
+    for scene in &scenes {
+        let Some(plain) = of.find(scene, "none", 1).map(MS) else {
+            continue;
+        };
+        let mut row = vec![(*scene).to_owned(), short(plain)];
+        for n in samples {
+            let [fine, brute] = ["superpixel", "ssaa"].map(|method| of.find(scene, method, n).map(MS));
+            row.push(or_none(fine, short));
+            row.push(or_none(fine.map(|ms| ms / plain), short));
+            row.push(or_none(brute, short));
+            row.push(or_none(fine.zip(brute).map(|(fine, brute)| brute / fine), short));
+        }
+        table.row(&row);
+    }
+    let mut row = cells(&["**median**", ""]);
+    for n in samples {
+        let over = |above, below| or_none(ratios(of, &scenes, MS, above, below).map(|spread| spread.median), short);
+        row.extend([
+            String::new(),
+            over(("superpixel", n), ("none", 1)),
+            String::new(),
+            over(("ssaa", n), ("superpixel", n)),
+        ]);
+    }
+    table.row(&row);
+    format!("{}, {}:\n\n{}", of.source(), of.size(), table.finish())
+}
+
+/// Table of errors and flicker while the camera moves, over all scenes and motions.
 pub fn motion() -> String {
     let mut text = String::new();
     for of in &data::load("motion") {
-        let samples = of.samples("superpixel");
-        let mut head = cells(&["scene", "motion"]);
-        for n in &samples {
-            head.extend([format!("error, {n} samples"), "flicker".to_owned()]);
-        }
-        let mut table = Table::new(&head);
-        for scene in of.scenes() {
-            for motion in ["pan", "turn"] {
-                let find = |method: &str, n: u32| {
-                    of.rows.iter().find(|row| {
-                        row.scene() == scene
-                            && row.text("motion") == motion
-                            && row.text("method") == method
-                            && row.samples() == n
-                    })
+        let mut table = Table::new(&cells(&["samples", "error / error of `ssaa`", "flicker / flicker of `ssaa`"]));
+        for n in of.samples("superpixel") {
+            let ratio = |column: &str| {
+                let fine = of.rows.iter().filter(|row| row.text("method") == "superpixel" && row.samples() == n);
+                let of_row = |row: &'_ Row| {
+                    let same = |other: &&Row| {
+                        let is_same = |column| other.text(column) == row.text(column);
+                        other.text("method") == "ssaa" && ["scene", "motion", "samples"].into_iter().all(is_same)
+                    };
+                    Some((row.number(column) / of.rows.iter().find(same)?.number(column), ""))
                 };
-                let mut row = cells(&[scene, motion]);
-                for n in &samples {
-                    for column in ["rmse", "flicker"] {
-                        let pair = find("superpixel", *n).zip(find("ssaa", *n));
-                        let ratio = pair.map(|(fine, brute)| fine.number(column) / brute.number(column));
-                        row.push(or_none(ratio, |ratio| format!("{ratio:.2}")));
-                    }
-                }
-                table.row(&row);
-            }
+                with_worst(spread(fine.filter_map(of_row).collect()))
+            };
+            table.row(&[n.to_string(), ratio("rmse"), ratio("flicker")]);
         }
-        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
+        text += &format!("{} scenes, {}; {}:\n\n{}\n", of.scenes().len(), of.size(), of.source(), table.finish());
     }
     text
 }
 
-/// Table of the time per sample of the camera's variants.
+/// Table of the time per sample of the camera's variants, over all scenes.
 pub fn variants() -> String {
     let mut text = String::new();
     for of in &data::load("variants") {
-        let mut table =
-            Table::new(&cells(&["scene", "variant", "device, ns", "/ raster", "by the clock, ns", "/ raster"]));
-        for row in &of.rows {
-            table.row(&[
-                row.scene().to_owned(),
-                row.text("variant").to_owned(),
-                short(row.number("gpu_ns")),
-                short(row.number("gpu_ratio")),
-                short(row.number("wall_ns")),
-                short(row.number("wall_ratio")),
-            ]);
+        let mut table = Table::new(&cells(&["variant", "time on the device / raster", "wall time / raster"]));
+        let mut variants: Vec<&str> = of.rows.iter().map(|row| row.text("variant")).collect();
+        variants.truncate(
+            variants.iter().skip(1).position(|name| *name == variants[0]).map_or(variants.len(), |at| at + 1),
+        );
+        for variant in variants {
+            let rows = || of.rows.iter().filter(|row| row.text("variant") == variant);
+            let ratio = |column: &str| with_worst(spread(rows().map(|row| (row.number(column), "")).collect()));
+            table.row(&[variant.to_owned(), ratio("gpu_ratio"), ratio("wall_ratio")]);
         }
-        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
-    }
-    text
-}
-
-/// Table of time against the size of scenes and images.
-pub fn growth() -> String {
-    let mut text = String::new();
-    for of in &data::load("growth") {
-        let mut table = Table::new(&cells(&["quantity", "value", "one sample, ms", "superpixel, ms", "`ssaa`, ms"]));
-        let mut seen = Vec::new();
-        for row in &of.rows {
-            let key = (row.text("quantity"), row.text("value"));
-            if seen.contains(&key) {
-                continue;
-            }
-            seen.push(key);
-            let ms = |method: &str| {
-                let same = |other: &&Row| {
-                    (other.text("quantity"), other.text("value")) == key && other.text("method") == method
-                };
-                or_none(of.rows.iter().find(same).map(MS), short)
-            };
-            let (quantity, value) = (key.0, row.number("value"));
-            table.row(&[quantity.to_owned(), short(value), ms("none"), ms("superpixel"), ms("ssaa")]);
-        }
-        text += &format!("{}, {} where pixels do not grow:\n\n{}\n", of.source(), of.size(), table.finish());
+        text += &format!("{} scenes, {}; {}:\n\n{}\n", of.scenes().len(), of.size(), of.source(), table.finish());
     }
     text
 }

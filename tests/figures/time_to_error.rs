@@ -1,12 +1,10 @@
 //! The most important figure: how fast superpixels reach the error of supersampling.
 
-use crate::by_scene;
-use crate::data::{Measurement, Row, Spread};
-use crate::text::short;
+use crate::data::{Measurement, Row, Spread, spread};
 
 /// Time in which superpixels reach the RMSE of supersampling with `samples` samples, over the time of supersampling. Of the
 /// numbers of samples that reach it, the fastest counts; the share is 1 if none does.
-fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
+pub fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
     let target = of.find(scene, "ssaa", samples)?;
     let tried = of.samples("superpixel");
     let rows = tried.iter().filter_map(|n| of.find(scene, "superpixel", *n));
@@ -15,16 +13,8 @@ fn share(of: &Measurement, scene: &str, samples: u32) -> Option<f64> {
     Some((fastest / target.ms()).min(1.0))
 }
 
-/// The share of each scene.
-pub fn shares<'a>(of: &'a Measurement, scenes: &[&'a str], samples: u32) -> Option<Spread<'a>> {
-    by_scene::spread_of(share, of, scenes, samples)
-}
-
-/// Table of the shares, scene by scene and in the median.
-pub fn table() -> String {
-    by_scene::tables(&[], share, percent)
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
+/// Median and worst of the shares of some scenes.
+pub fn shares<'a>(of: &Measurement, scenes: &[&'a str], samples: u32) -> Option<Spread<'a>> {
+    let measured = |scene: &&'a str| Some((share(of, scene, samples)?, *scene));
+    spread(scenes.iter().filter_map(measured).collect())
 }
