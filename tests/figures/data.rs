@@ -98,15 +98,19 @@ impl Measurement {
 
     /// One line that says where the figures come from.
     pub fn source(&self) -> String {
-        let note = self.head.get("note");
         format!(
             "{}; {}; {}, commit `{}`{}",
             self.head("driver"),
             self.head("machine"),
             self.head("date"),
             self.head("commit"),
-            note.map_or_else(String::new, |note| format!("; {note}")),
+            self.note(),
         )
+    }
+
+    /// What the reader of the figures has to know besides, after a semicolon; empty if nothing.
+    pub fn note(&self) -> String {
+        self.head.get("note").map_or_else(String::new, |note| format!("; {note}"))
     }
 
     /// Names of the scenes, in the order of the file.

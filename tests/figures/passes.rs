@@ -18,7 +18,7 @@ const SHARED: [&str; 3] = ["frame", "counters", "arguments"];
 
 /// Passes of a frame.
 pub fn frame() -> String {
-    draw(&of_frame("letters"))
+    draw(&of_frame("checker"))
 }
 
 /// Passes of a frame of the scene in the file `asset`.

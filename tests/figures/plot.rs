@@ -29,7 +29,7 @@ fn drawn(draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>)) -> String {
     text
 }
 
-/// Points of a method over some scenes: median time, median error and number of samples.
+/// Points of a method over some scenes, whose numbers of samples are powers of four: median time, median error and number of samples.
 fn curve(of: &Measurement, scenes: &[&str], method: &str) -> Vec<(f64, f64, u32)> {
     let median = |value: &dyn Fn(&Row, &Row) -> f64, n: u32| {
         let values = scenes.iter().filter_map(|scene| {
@@ -40,6 +40,7 @@ fn curve(of: &Measurement, scenes: &[&str], method: &str) -> Vec<(f64, f64, u32)
     };
     of.samples(method)
         .into_iter()
+        .filter(|n| n.is_power_of_two() && n.trailing_zeros().is_multiple_of(2))
         .filter_map(|n| {
             let time = median(&|row, plain| row.ms() / plain.ms(), n)?;
             let error = median(&|row, _| row.number("rmse"), n)?;

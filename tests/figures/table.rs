@@ -91,12 +91,8 @@ pub fn picture() -> String {
         image("ssaa", "The mesh with stripes that are not there"),
         image("superpixel", "The mesh as an even veil, which is denser far away"),
     ]);
-    format!(
-        "{}\nSupersampling with 64 samples takes {} ms. Driver: {}.",
-        table.finish(),
-        ms("ssaa", 64),
-        of.head("driver")
-    )
+    let [rest, driver, note] = [ms("ssaa", 64), of.head("driver").to_owned(), of.note()];
+    format!("{}\nSupersampling with 64 samples takes {rest} ms. Driver: {driver}{note}.", table.finish())
 }
 
 /// Table of error and time of both methods at every number of samples at which both were measured, and of the others.
