@@ -14,6 +14,8 @@ struct Application {
     VkPipeline samples_pipeline;
     VkPipelineLayout samples_layout;
     VkDescriptorSet set;
+    PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering;
+    PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering;
 } application;
 
 VkInstance instance;
@@ -25,6 +27,10 @@ uint32_t vertex_count, index_count, triangle_count;
 VkImage color_image;
 VkImageView color_view;
 uint32_t width, height;
+VkViewport viewport;
 VkDescriptorSetLayout my_set_layout;
+const uint32_t *samples_spirv;
+size_t samples_spirv_size;
+VkBuffer command_buffer, count_buffer, instance_buffer;
 VkCommandBuffer commands;
 float model_view_projection[16], projection[16];
