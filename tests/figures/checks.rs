@@ -130,11 +130,12 @@ fn versions_agree() {
     }
 }
 
-/// Options that documents attribute to the command are options of a subcommand.
+/// Options that documents attribute to the command are options of a subcommand. In a command line, they are options of its own
+/// subcommand.
 #[test]
 fn options_exist() {
-    let known = help::every();
-    let known: Vec<&str> = options(&known).collect();
+    let help = help::every();
+    let every: Vec<&str> = options(&help).collect();
     let mut unknown = Vec::new();
     for path in markdown() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -142,17 +143,51 @@ fn options_exist() {
         if ["CHANGELOG.md", "decisions.md"].contains(&name.as_str()) {
             continue;
         }
-        let text = handwritten(&read(&path));
+        // A command line may go on after a backslash.
+        let text = handwritten(&read(&path)).replace("\\\n", " ");
         let spans = text.split('`').skip(1).step_by(2);
         let spans = spans.filter(|span| span.starts_with("--") || span.starts_with("gpc "));
-        let lines = text.lines().filter(|line| line.trim_start().starts_with("gpc "));
-        for option in spans.chain(lines).flat_map(options) {
-            if !known.contains(&option) && !["--help", "--version"].contains(&option) {
-                unknown.push(format!("{name}: {option}"));
+        for code in spans.chain(text.lines()) {
+            for option in unknown_options(code, &help, &every) {
+                unknown.push(format!("{name}: {option} in \"{code}\""));
             }
         }
     }
     assert!(unknown.is_empty(), "{unknown:#?}");
+}
+
+/// Options in a line or a span of code that the command does not have. `every` has those of all subcommands.
+fn unknown_options<'a>(code: &'a str, help: &str, every: &[&str]) -> Vec<&'a str> {
+    let code = code.trim_start();
+    if code.starts_with("--") {
+        return options(code).filter(|option| !every.contains(option)).collect();
+    }
+    let mut unknown = Vec::new();
+    // `$(gpc ...)`, `| gpc ...` and `parallel ... gpc ...` are command lines, too.
+    for call in code.match_indices("gpc ").map(|(at, _)| &code[at..]) {
+        let ends = ["|", ")", ";", "`", " # "].into_iter().filter_map(|end| call.find(end));
+        let line = &call[..ends.min().unwrap_or(call.len())];
+        let Some(subcommand) = line.split_whitespace().nth(1) else { continue };
+        let Some((_, section)) = help.split_once(&format!("## gpc {subcommand}\n")) else { continue };
+        let section = section.split("\n## ").next().unwrap();
+        let known: Vec<&str> = options(section).collect();
+        unknown.extend(options(line).filter(|option| !known.contains(option) && *option != "--help"));
+    }
+    unknown
+}
+
+#[test]
+fn an_option_of_another_subcommand_is_found() {
+    let help = "## gpc render\n--size\n## gpc zoom\n--center\n";
+    let every = ["--size", "--center"];
+    assert_eq!(unknown_options("gpc zoom a --center 1,2 --size 3x4", help, &every), ["--size"]);
+    assert_eq!(unknown_options("seq 8 | parallel gpc render --size {} --quiet", help, &every), ["--quiet"]);
+    assert_eq!(
+        unknown_options("gpc render --background '#aabbcc' --wrong # --no", help, &every),
+        ["--background", "--wrong"]
+    );
+    assert_eq!(unknown_options("--size", help, &every), [""; 0]);
+    assert_eq!(unknown_options("ffmpeg --wrong", help, &every), [""; 0]);
 }
 
 /// Long options in a text.
