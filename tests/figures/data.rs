@@ -183,6 +183,8 @@ impl Row {
     pub fn scene(&self) -> &str {
         match self.text("scene") {
             "dutch_ship_medium_1k" => "DutchShip",
+            "garage" => "WebXRGarage",
+            "room" => "GodotRoom",
             "MetalRoughSpheresNoTextures" => "MetalRoughSpheres",
             "vintageFan_animated" => "DeskFanAnimated",
             "zdm2" => "SauerbratenZdm2",

@@ -33,24 +33,12 @@ fn median(of: &Measurement, scenes: &[&str], column: Column, method: &str, sampl
     Some(spread(scenes.iter().filter_map(value).collect())?.median)
 }
 
-fn textured(of: &Measurement) -> Vec<&str> {
-    let mut scenes = of.scenes();
-    scenes.retain(|scene| of.textured(scene));
-    scenes
-}
-
 fn with_worst(spread: Option<Spread<'_>>) -> String {
     spread.map_or_else(String::new, |s| format!("{} ({})", short(s.median), short(s.worst.0)))
 }
 
 fn or_none(value: Option<f64>, write: fn(f64) -> String) -> String {
     value.map_or_else(String::new, write)
-}
-
-/// Measurement that the documents use for errors: the first one with superpixels.
-fn quality(all: &[Measurement]) -> &Measurement {
-    let found = all.iter().find(|of| !of.samples("superpixel").is_empty());
-    found.expect("docs/bench/quality-*.csv has no superpixels")
 }
 
 /// Table of the README: the time of superpixels beside that of one sample, and beside that of supersampling with the same error.
@@ -97,9 +85,8 @@ pub fn picture() -> String {
 
 /// Table of error and time of both methods at every number of samples at which both were measured, and of the others.
 pub fn choosing() -> String {
-    let all = data::load("quality");
-    let of = quality(&all);
-    let scenes = textured(of);
+    let front = data::front();
+    let (of, scenes) = (&front.of, front.scenes());
     let mut table = Table::new(&cells(&[
         "samples",
         "time: superpixel (worst)",
@@ -128,7 +115,8 @@ pub fn choosing() -> String {
         format!("time {}, RMSE {rmse}, FLIP {flip}", time(method, n))
     };
     format!(
-        "{}:\n\n{}\nOne sample a pixel (`none`): {}. `msaa` with 4 samples, of this driver: {}.",
+        "{}; {}:\n\n{}\nOne sample a pixel (`none`): {}. `msaa` with 4 samples, of this driver: {}.",
+        front.title(),
         of.source(),
         table.finish(),
         other("none", 1),
@@ -138,9 +126,8 @@ pub fn choosing() -> String {
 
 /// Table of the scenes on which each method is better.
 pub fn exceptions() -> String {
-    let all = data::load("quality");
-    let of = quality(&all);
-    let scenes = of.scenes();
+    let front = data::front();
+    let (of, scenes) = (&front.of, front.of.scenes());
     let mut table = Table::new(&cells(&[
         "samples",
         "`ssaa` is faster on",
@@ -167,7 +154,7 @@ pub fn exceptions() -> String {
         let quarter = if of.samples("superpixel").contains(&(n / 4)) { count(&quarter) } else { String::new() };
         table.row(&[grouped(u64::from(n)), better(MS), better(RMSE), better(FLIP), quarter]);
     }
-    format!("All {} scenes; {}:\n\n{}", scenes.len(), of.source(), table.finish())
+    format!("{} scenes, {} pixels; {}:\n\n{}", scenes.len(), of.size(), of.source(), table.finish())
 }
 
 /// Number of samples of the tables by scene.
