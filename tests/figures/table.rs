@@ -54,10 +54,8 @@ pub fn readme() -> String {
         row.extend(samples.iter().map(|n| value(*n)));
         table.row(&row);
     };
-    line("time with `--samples N` / time with one sample a pixel", &|n| {
-        with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("none", 1)))
-    });
-    line("time to the RMSE of supersampling with N samples / its time", &|n| {
+    line("time / time of one sample a pixel", &|n| with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("none", 1))));
+    line("time / time of supersampling with N samples, at equal RMSE", &|n| {
         with_worst(time_to_error::shares(of, &scenes, n))
     });
     format!("{}; {}:\n\n{}", front.title(), of.source(), table.finish())
@@ -174,7 +172,7 @@ pub fn quality_by_scene() -> String {
             "`ssaa`",
             "FLIP",
             "`ssaa`",
-            "time to the RMSE of `ssaa` / its time",
+            "time / time of `ssaa`, at equal RMSE",
         ]));
         for scene in of.scenes() {
             let Some((fine, brute)) = of.find(scene, "superpixel", SHOWN).zip(of.find(scene, "ssaa", SHOWN)) else {
