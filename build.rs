@@ -32,6 +32,14 @@ const VISIBILITY: &[Variant] = &[
     ("lens", "lens.comp", &[]),
 ];
 
+/// Shaders of the example `culling`, a host whose device decides what is drawn.
+const CULLING: &[Variant] = &[
+    ("cull", "cull.comp", &[]),
+    ("object_vertex", "object.vert", &[]),
+    ("object_fragment", "object.frag", &[]),
+    ("samples", "samples.comp", &[]),
+];
+
 /// The shader of the tests' host in C, which `tests/hosts/frozen` has a copy of.
 const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 
@@ -71,6 +79,7 @@ const VARIANTS: &[Variant] = &[
     ("crossings", "crossings.comp", &[]),
     ("distribute", "distribute.comp", &[]),
     ("groups", "groups.comp", &[]),
+    ("indirect", "indirect.comp", &[]),
     ("arguments", "arguments.comp", &[]),
     ("sample_1", "sample.comp", &[("ROWS", "1")]),
     ("sample_2", "sample.comp", &[("ROWS", "2")]),
@@ -128,6 +137,7 @@ struct Group {
 
 fn main() {
     println!("cargo:rerun-if-changed=shaders");
+    println!("cargo:rerun-if-changed=examples/culling/shaders");
     println!("cargo:rerun-if-changed=examples/forward/shaders");
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
@@ -140,6 +150,7 @@ fn main() {
     let out = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
     let group =
         |folder: &str, variants| Group { sources: root.join(folder), includes: root.join("shaders/include"), variants };
+    spirv(&group("examples/culling/shaders", CULLING), &out);
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);

@@ -10,8 +10,10 @@
 //   behind. Panics of the library do not cross this boundary.
 // - Before a struct is passed to the library, its gpc_init function fills it: with its size, its type and defaults. Later
 //   versions of the library may add members at its end, and accept structs without them. Members may also be added to GpcDraw,
-//   GpcMesh and GpcAlphaMap, which are elements of arrays: set members that an application does not use to 0. GpcImageState,
-//   GpcImage, GpcLocation and GpcMemory never change.
+//   GpcMesh, GpcAlphaMap and GpcIndirectDraws, which are elements of arrays: set members that an application does not use to 0.
+//   GpcImageState, GpcImage, GpcLocation, GpcInstance and GpcMemory never change.
+// - This header includes Vulkan's, without which it needs nothing. Applications that declare Vulkan's functions themselves define
+//   VK_NO_PROTOTYPES before.
 // - The comment of a uint32_t with only a few possible values names their enumeration.
 // - Pointers and handles must not be null unless their comments allow it. The library checks this. They must also be valid, of
 //   the right type, and of the device that is lent. This is not checked, as with Vulkan itself.
@@ -167,7 +169,8 @@ enum GpcPositionSpace
  {
     // Clip space, four floats: the same values as the vertex shader's gl_Position.
     GPC_POSITION_SPACE_CLIP = 0,
-    // Object space of the draw, three floats; GpcDraw.to_clip transforms them to clip space.
+    // Object space of the draw, three numbers, floats unless `position_format` says otherwise; GpcDraw.to_clip transforms
+    // them to clip space.
     GPC_POSITION_SPACE_OBJECT = 1,
 };
 #ifndef __cplusplus
@@ -449,7 +452,7 @@ typedef struct GpcOutcome {
     uint64_t left_over;
     // Number of superpixels.
     uint64_t superpixels;
-    // Number of triangles in all draws.
+    // Number of triangles in all draws, with the indirect ones that were not left out.
     uint64_t triangles;
     // Number of visibility samples that were shaded.
     uint64_t visibility_samples;
@@ -457,6 +460,14 @@ typedef struct GpcOutcome {
     uint64_t memory_bytes;
     // Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     double gpu_milliseconds;
+    // Number of draws of all GpcIndirectDraws that the device wrote.
+    uint64_t indirect_draws;
+    // Number of those that were left out because a capacity of a list was too small: all from the first one that did not
+    // fit.
+    uint64_t indirect_left_out;
+    // Number of those that were left out because they are not possible, such as draws with vertices or indices beyond the
+    // ends of the mesh, a shading key or an alpha map that does not exist, or an instance beyond the capacity.
+    uint64_t indirect_impossible;
 } GpcOutcome;
 
 // Alpha map of draws. A surface exists where the map's alpha is at least `cutoff`. Filters and address modes should
@@ -516,7 +527,61 @@ typedef struct GpcMesh {
     uint32_t coordinates_stride;
     // 0.
     uint32_t reserved;
+    // Format of positions; VK_FORMAT_UNDEFINED stands for floats.
+    VkFormat position_format;
+    // Format of texture coordinates; VK_FORMAT_UNDEFINED stands for floats.
+    VkFormat coordinates_format;
+    // Factor on each component of a position; three zeros stand for 1.
+    float position_scale[3];
+    // Summand of each component of a position.
+    float position_bias[3];
 } GpcMesh;
+
+// List of draws that the device writes, with the arguments of vkCmdDrawIndexedIndirect or, for a mesh without indices, of
+// vkCmdDrawIndirect, and with capacities. The library reads the list when a recording is executed, so that compute shaders
+// before, in the same command buffer, may decide what is drawn.
+//
+// Each instance of a command is a draw. Its number, firstInstance and on, which is gl_InstanceIndex of a vertex shader, is
+// the index of its GpcInstance. All draws of a list have the state of one pipeline. Set members that are not used to 0.
+typedef struct GpcIndirectDraws {
+    // Buffer of commands, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    VkBuffer commands;
+    // Offset of the first command in bytes: a multiple of 4.
+    uint64_t commands_offset;
+    // Buffer with the number of commands, a 32-bit word, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. With
+    // VK_NULL_HANDLE the number is `command_capacity`.
+    VkBuffer count;
+    // Offset of the number of commands in bytes: a multiple of 4.
+    uint64_t count_offset;
+    // Buffer of the instances, an array of GpcInstance, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    VkBuffer instances;
+    // Offset of the first instance in bytes: a multiple of 256, or of the device's minStorageBufferOffsetAlignment and 16.
+    uint64_t instances_offset;
+    // Distance in bytes from one command to the next: a multiple of 4, at least the size of a command.
+    uint32_t command_stride;
+    // Largest number of commands, up to 1,048,576.
+    uint32_t command_capacity;
+    // Number of instances in the buffer.
+    uint32_t instance_capacity;
+    // Largest number of draws: instances of all commands.
+    uint32_t draw_capacity;
+    // Largest number of triangles of all draws.
+    uint32_t triangle_capacity;
+    // Largest number of vertices of all draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
+    uint32_t position_capacity;
+    // Mesh whose buffers the draws read: see GpcDraw.mesh.
+    uint32_t mesh;
+    // Topology of the draws: a GpcTopology.
+    uint32_t topology;
+    // Orientation of front faces in the image: see GpcDraw.front_face.
+    VkFrontFace front_face;
+    // VK_TRUE if back faces are visible.
+    VkBool32 double_sided;
+    // VK_TRUE if the draws have alpha maps.
+    VkBool32 alpha_tested;
+    // VK_TRUE if the draws are blended.
+    VkBool32 blended;
+} GpcIndirectDraws;
 
 // Buffers and capacities of the application. The contents of the buffers may change in every frame: the library reads
 // them when a recording is executed.
@@ -531,15 +596,17 @@ typedef struct GpcGeometry {
     // the draw.
     uint32_t vertex_capacity;
     // Buffer of vertex positions, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, and with
-    // VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes.
+    // VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes. With 16-bit
+    // components, its size is a multiple of 4 bytes.
     VkBuffer positions;
-    // Offset of the first position in bytes: a multiple of 4.
+    // Offset of the first position in bytes: a multiple of the size of a component, 4 bytes for floats.
     uint64_t positions_offset;
-    // Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
+    // Distance in bytes from one position to the next: a multiple of the size of a component, and at least the size of a
+    // position.
     uint32_t position_stride;
     // Space and format of positions: a GpcPositionSpace.
     uint32_t position_space;
-    // Largest total number of vertices of a frame's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
+    // Largest total number of vertices of a recording's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
     // that several draws share count once for each draw.
     uint32_t position_capacity;
     // Type of the indices: VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR without indices, so
@@ -552,9 +619,9 @@ typedef struct GpcGeometry {
     uint64_t indices_offset;
     // Largest number of indices.
     uint32_t index_capacity;
-    // Largest total number of triangles of a frame's draws.
+    // Largest total number of triangles of a recording's draws. 0 is possible if there are indirect draws.
     uint32_t triangle_capacity;
-    // Largest number of draws of a frame.
+    // Largest number of draws of a recording. 0 is possible if there are indirect draws.
     uint32_t draw_capacity;
     // Number of shading keys, 1 to 16,383.
     uint32_t keys;
@@ -563,12 +630,12 @@ typedef struct GpcGeometry {
     VkBool32 y_up;
     // VK_TRUE if depth is reversed: from 1 at the near plane to 0 at the far plane; VK_FALSE if it runs from 0 to 1.
     VkBool32 reversed_depth;
-    // Buffer of the vertices' texture coordinates, two floats each, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    // ignored without alpha maps.
+    // Buffer of the vertices' texture coordinates, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; ignored without alpha
+    // maps. With 16-bit components, its size is a multiple of 4 bytes.
     VkBuffer coordinates;
-    // Offset of the first vertex's coordinates in bytes: a multiple of 4.
+    // Offset of the first vertex's coordinates in bytes: a multiple of the size of a component, 4 bytes for floats.
     uint64_t coordinates_offset;
-    // Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
+    // Distance in bytes from one vertex to the next: a multiple of the size of a component, at least two components.
     uint32_t coordinates_stride;
     // Number of alpha maps.
     uint32_t alpha_map_count;
@@ -594,6 +661,23 @@ typedef struct GpcGeometry {
     // Value in the depth image for the clip-space depth 1: maxDepth of the application's VkViewport. gpc_init_geometry
     // sets 1.
     float max_depth;
+    // Lists of draws that the device writes, in addition to the draws of a recording, with capacities of their own. Read
+    // during the call only; may be NULL if there are none.
+    const struct GpcIndirectDraws *indirect_draws;
+    // Number of elements of `indirect_draws`.
+    uint32_t indirect_draws_count;
+    // sizeof(GpcIndirectDraws), if there are lists of indirect draws.
+    uint32_t indirect_draws_stride;
+    // Format of positions with GPC_POSITION_SPACE_OBJECT: three components or more, of 32-bit SFLOAT, or of 16-bit SFLOAT,
+    // UNORM or SNORM. VK_FORMAT_UNDEFINED, as gpc_init_geometry sets it, stands for floats.
+    VkFormat position_format;
+    // Format of texture coordinates: two components or more, of these types. VK_FORMAT_UNDEFINED stands for floats.
+    VkFormat coordinates_format;
+    // Factor on each component of a position; three zeros, as gpc_init_geometry sets them, stand for 1. A component is
+    // bias + scale * number, where UNORM and SNORM divide the integer by 65,535 and 32,767.
+    float position_scale[3];
+    // Summand of each component of a position.
+    float position_bias[3];
 } GpcGeometry;
 
 // Kinds of images with which a frame is recorded.
@@ -682,6 +766,12 @@ typedef struct GpcOptions {
     // VK_TRUE if the memory of a frame or list stays as it is; VK_FALSE if gpc_frame_record and gpc_list_record make
     // more after a recording that was left unfinished.
     VkBool32 fixed_memory;
+    // VK_TRUE if the alpha of the colour image stays as it is. With VK_FALSE, each pixel that the library draws gets the
+    // mean opacity of its samples: 1 where a triangle that is not blended is seen, whatever the shading stores, and the
+    // drawn alpha, or that of the background, where none is. With `shade_all`, the image has to hold something before.
+    VkBool32 keep_alpha;
+    // 0.
+    uint32_t reserved;
 } GpcOptions;
 
 // State of an image, as in VkImageMemoryBarrier2.
@@ -694,12 +784,11 @@ typedef struct GpcImageState {
     VkAccessFlags2 access;
 } GpcImageState;
 
-// Image of the application: single-sampled, with one level and one layer, and at least as large as the size in
-// GpcOptions.
+// Image of the application: single-sampled, with one level, and at least as large as the size in GpcOptions.
 typedef struct GpcImage {
     // Handle of the image.
     VkImage image;
-    // Two-dimensional view of the image, with a single aspect.
+    // Two-dimensional view of the image, with a single aspect and a single layer.
     VkImageView view;
     // All aspects of the image's format, including stencil, which the library does not read.
     VkImageAspectFlags aspects;
@@ -731,6 +820,10 @@ typedef struct GpcImages {
     // Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
     // reads nor writes pixels outside of it.
     uint32_t corner[2];
+    // Array layer of the images that the views show, of which the library changes the layout.
+    uint32_t layer;
+    // 0.
+    uint32_t reserved;
 } GpcImages;
 
 // Visibility samples of a round, sorted by shading key, on the device.
@@ -846,6 +939,26 @@ typedef struct GpcLocation {
     float jacobian[2][2];
 } GpcLocation;
 
+// What a draw of a GpcIndirectDraws has besides its command: an element of a buffer that the device reads, and never
+// changes. gpc_instance.glsl declares the same structure for shaders.
+typedef struct GpcInstance {
+    // Matrix from object space to clip space, by columns, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
+    float to_clip[4][4];
+    // Number of vertices from the command's vertexOffset or firstVertex on, with GPC_POSITION_SPACE_OBJECT.
+    uint32_t vertex_count;
+    // Shading key.
+    uint32_t key;
+    // Number of the application's choice, which its shaders can read. Triangles with the same lower 16 bits are assumed to
+    // look alike: see GpcDraw.material.
+    uint32_t material;
+    // 1 + the index of the alpha map, if the draws of the list have alpha maps; otherwise 0.
+    uint32_t alpha_map;
+    // 1 if the colour may vary within a pixel, otherwise 0.
+    uint32_t detailed;
+    // 0.
+    uint32_t reserved[3];
+} GpcInstance;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -896,10 +1009,11 @@ VkDescriptorSetLayout gpc_antialiaser_samples_layout(const struct GpcAntialiaser
 void gpc_antialiaser_destroy(struct GpcAntialiaser *antialiaser);
 
 // Message of the calling thread's last call that failed: UTF-8, in English, for logs. Never NULL; empty if no call has
-// failed.
+// failed. The pointer is the same in all calls of a thread, so printf("%u %s", gpc_frame_record(...), gpc_last_error())
+// prints the message of that call, whichever argument is computed first.
 //
 // Threads: any. Each thread has its own message.
-// Lifetime: until the thread's next call of this library that fails, or its end.
+// Lifetime: the text is that of the thread's last failure; the pointer is valid until the thread ends.
 const char *gpc_last_error(void);
 
 // Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery), without draws.

@@ -18,6 +18,7 @@ layout(std430, set = SET_OWN, binding = ADOPT_BINDING_DRAW_OF_OUT) writeonly buf
 layout(push_constant) uniform Push {
     uint first_triangle;    // among the triangles of all draws
     uint triangle_count;
+    uint first_draw;        // first of the draws whose triangles these are
     uint draw_count;
     uint first_index;       // first index of the mesh in the buffer
     uint index_count;       // indices of the mesh
@@ -47,7 +48,7 @@ uvec3 corners(uint triangle) {
 void main() {
     uint i = invocation_number();
     if (i >= push.triangle_count) return;
-    uint t = push.first_triangle + i, d = draw_of(t, push.draw_count);
+    uint t = push.first_triangle + i, d = draw_of(t, push.first_draw, push.draw_count);
     Draw draw = draws[d];
     uvec3 numbers = corners(t - draw.first_triangle);
     // The first corner, whose attributes flat inputs have, stays the first.

@@ -18,7 +18,16 @@ install -m 644 include/gpc.h "$root/include/"
 install -m 755 "$built/libgpc.so" "$root/lib/libgpc.so.$version"
 ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
-install -m 644 docs/embedding.md docs/swapchains.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
+install -m 644 LICENSE-MIT LICENSE-APACHE "$root/share/doc/gpc/"
+# Links of the manual lead to where its pages, the example and the includes are installed. Links to anything else become text.
+pages='embedding|embedding-reference|fits|swapchains|CHANGELOG'
+for page in docs/embedding.md docs/embedding-reference.md docs/fits.md docs/swapchains.md CHANGELOG.md; do
+    sed -Ez -e 's#\]\(\.\./examples/forward#](../../gpc/examples/forward#g' \
+        -e 's#\]\(\.\./shaders/include/#](../../gpc/shaders/#g' \
+        -e "s%\]\((https?:|#|($pages)\.md|pictures/|\.\./\.\./gpc/)%]\x01(\1%g" \
+        -e 's#\[([^]]*)\]\([^)]*\)#\1#g' -e 's#\x01##g' "$page" >"$work/page.md"
+    install -m 644 "$work/page.md" "$root/share/doc/gpc/${page##*/}"
+done
 install -d "$root/share/doc/gpc/pictures"
 install -m 644 docs/pictures/besides-*.png "$root/share/doc/gpc/pictures/"
 
@@ -32,7 +41,7 @@ ar rcs "$root/lib/libgpc.a" "$work/gpc.o"
 chmod 644 "$root/lib/libgpc.a"
 
 # The files that an application's shaders include, and the files that these include.
-for name in gpc_visibility gpc_texture gpc_position place place_in_tile barycentric finite; do
+for name in gpc_visibility gpc_texture gpc_position gpc_instance place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
 done
 

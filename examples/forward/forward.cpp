@@ -517,6 +517,8 @@ class Renderer {
         scenery.draw_stride = sizeof(GpcDraw);
         scenery.draws = draws.data();
         std::memcpy(scenery.projection, projection.data(), sizeof scenery.projection);
+        scenery.viewport[2] = float(size.width);
+        scenery.viewport[3] = float(size.height);
         GpcImages images;
         check(gpc_init_images(&images, sizeof images));
         const Image &ids = targets->ids, &depth = targets->depth, &color = canvas();

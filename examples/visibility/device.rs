@@ -57,8 +57,11 @@ impl Device {
             if conditional_rendering {
                 extensions.push(ash::ext::conditional_rendering::NAME.as_ptr());
             }
-            // The host's own fragment shader needs this feature for gl_PrimitiveID.
-            let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
+            // A host's fragment shader needs the first feature for gl_PrimitiveID; the others are for draws from buffers.
+            let features = vk::PhysicalDeviceFeatures::default()
+                .geometry_shader(true)
+                .multi_draw_indirect(true)
+                .draw_indirect_first_instance(true);
             let priorities = [1.0];
             let queues =
                 [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];

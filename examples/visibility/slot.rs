@@ -8,7 +8,7 @@ use ash::vk;
 use glam::Mat4;
 use gpc::host::{
     Antialiaser, ClipSpace, Coordinates, Frame, Geometry, ImageKinds, ImageState, Images, Indices, LentImage, Mesh,
-    Options, PositionSpace, Scenery,
+    Options, PositionSpace, Scenery, VertexFormat,
 };
 
 /// The library's frame for a slot.
@@ -196,8 +196,14 @@ impl<'a> Slot<'a> {
             positions: self.positions.raw,
             positions_offset: 0,
             position_stride: 16,
+            position_format: VertexFormat::FLOAT,
             vertex_capacity: world.posed_count,
-            coordinates: Some(Coordinates { buffer: world.coordinates.raw, offset: 0, stride: 8 }),
+            coordinates: Some(Coordinates {
+                buffer: world.coordinates.raw,
+                offset: 0,
+                stride: 8,
+                format: VertexFormat::FLOAT,
+            }),
             indices: Some(Indices {
                 buffer: world.indices.raw,
                 offset: 0,
@@ -208,6 +214,7 @@ impl<'a> Slot<'a> {
         Geometry {
             meshes: vec![mesh],
             position_space: PositionSpace::Clip,
+            indirect: Vec::new(),
             triangle_capacity: world.triangle_count,
             draw_capacity: world.draws.len() as u32,
             keys: KEYS,
@@ -231,6 +238,7 @@ impl<'a> Slot<'a> {
             depth: Some(lent(&self.targets.depth, DEPTH_DRAWN, SHOWN)),
             color: lent(&self.targets.color, COLOR_DRAWN, COPIED),
             corner: [0, 0],
+            layer: 0,
         }
     }
 

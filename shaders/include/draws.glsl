@@ -1,4 +1,4 @@
-// A host's draws, and a search for the draw of a triangle or of a position.
+// A host's draws, and a search for the draw of a triangle or of a position. With DRAWS_ARE_WRITTEN, the structure alone.
 #ifndef DRAWS_GLSL
 #define DRAWS_GLSL
 #include "interface.glsl"
@@ -14,14 +14,16 @@ struct Draw {
     uint material;          // the host's number of its material
 };
 
+#ifndef DRAWS_ARE_WRITTEN
 layout(std430, set = SET_OWN, binding = BINDING_DRAWS) readonly buffer Draws { Draw draws[]; };
 
-// Binary search: of the `count` draws, the last one that begins at triangle `at` or before it. BY_POSITION: at position `at`.
-uint draw_of(uint at, uint count) {
+// Binary search: of `count` draws from the first on, the last one that begins at triangle `at` or before it. BY_POSITION: at
+// position `at`.
+uint draw_of(uint at, uint first, uint count) {
     uint d = 0u, step_ = 1u << uint(findMSB(count));
     do {
         uint next = d + step_;
-        Draw draw = draws[min(next, count - 1u)];
+        Draw draw = draws[first + min(next, count - 1u)];
 #ifdef BY_POSITION
         bool begins = next < count && draw.first_position <= at;
 #else
@@ -30,7 +32,8 @@ uint draw_of(uint at, uint count) {
         d = begins ? next : d;
         step_ >>= 1;
     } while (step_ > 0u);
-    return d;
+    return first + d;
 }
+#endif
 
 #endif

@@ -130,8 +130,8 @@ GpcSample gpc_part(GpcSample s, uint i, uint side) {
     return s;
 }
 
-// Writes the colour of a sample: light, in the linear space in which the image's colours are averaged, and opacity, which is 1
-// if the draw is not blended. Light is not premultiplied by the opacity.
+// Writes the colour of a sample: light, in the linear space in which the image's colours are averaged, and opacity. Light is not
+// premultiplied by the opacity. If the draw is not blended, the opacity is ignored, and the sample's alpha is 1.
 void gpc_store(GpcSample s, vec4 light) {
     gpc_shaded[s.record] = light;
 }

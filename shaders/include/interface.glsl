@@ -86,7 +86,7 @@
 #define ADOPT_BINDING_DRAW_OF_OUT 3
 #define ALPHA_MAP_BINDING_MAP 0
 #define ALPHA_MAP_BINDING_ATLAS 1
-#define COORDINATES_BINDING_VERTICES 1
+#define BINDING_VERTICES 1
 #define COORDINATES_BINDING_COORDINATES_OUT 2
 #define CROSSINGS_BINDING_LOADS 0
 #define CROSSINGS_BINDING_SEEN 1
@@ -101,6 +101,14 @@
 #define DISTRIBUTE_BINDING_COUNTERS 7
 #define DISTRIBUTE_BINDING_LOCATIONS 8
 #define DISTRIBUTE_BINDING_ORDER 9
+#define INDIRECT_BINDING_COMMANDS 0
+#define INDIRECT_BINDING_COUNT 1
+#define INDIRECT_BINDING_INSTANCES 2
+#define INDIRECT_BINDING_DRAWS_OUT 3
+#define INDIRECT_BINDING_MATRICES_OUT 4
+#define INDIRECT_BINDING_FIRST_DRAWS 5
+#define INDIRECT_BINDING_BLOCKS 6
+#define INDIRECT_BINDING_TOTALS 7
 #define OCCLUDE_BINDING_WORDS 0
 #define OCCLUDE_BINDING_LEFT 1
 #define OCCLUDE_BINDING_MARKS_OF_PIXELS 2
@@ -111,7 +119,6 @@
 #define SHADOW_BINDING_WORDS 0
 #define SHADOW_BINDING_LEFT 1
 #define SHADOW_BINDING_MARKS_OF_PIXELS 2
-#define TRANSFORM_BINDING_VERTICES 1
 #define TRANSFORM_BINDING_MATRICES 2
 #define TRANSFORM_BINDING_POSITIONS_OUT 3
 
@@ -154,6 +161,7 @@
 #define CONSTANT_TRANSMISSION_TEXTURE 57
 #define CONSTANT_THICKNESS_TEXTURE 58
 #define CONSTANT_SPECULAR_GLOSSINESS_TEXTURE 59
+#define CONSTANT_VERTEX_FORMAT 60
 
 // IDs of specialisation constants of one shader. `sample_lines` shares those of `sample`.
 #define ADOPT_CONSTANT_SHORT 0
@@ -174,6 +182,7 @@
 #define DISTRIBUTE_CONSTANT_POINTS 1
 #define ENCODE_CONSTANT_FORMAT 0
 #define GROW_CONSTANT_BEYOND 0
+#define INDIRECT_CONSTANT_STEP 0
 #define OCCLUDE_CONSTANT_HAS_MASK 2
 #define PATCH_CONSTANT_ENCODED 0
 #define PATCH_CONSTANT_GROWN 1
@@ -316,6 +325,27 @@
 #define DISTRIBUTE_ARRANGE 2u
 #define DISTRIBUTE_ENCLOSE 3u
 
+// Steps of `indirect`, in their order.
+#define INDIRECT_COMMANDS 0u
+#define INDIRECT_BLOCKS 1u
+#define INDIRECT_SUMS 2u
+#define INDIRECT_PLACE 3u
+// Draws of a block, which a workgroup takes.
+#define INDIRECT_BLOCK 64u
+// Flags of a list of draws.
+#define INDIRECT_COUNTED 1u
+#define INDIRECT_INDEXED 2u
+#define INDIRECT_OBJECT 4u
+#define INDIRECT_ALPHA_TESTED 8u
+#define INDIRECT_DOUBLE_SIDED 16u
+// What `indirect` counts, a word each: draws of the list, draws that fit, those of the latter that are not possible, and the
+// triangles and the positions of the draws that fit.
+#define TOTAL_FOUND 0
+#define TOTAL_PLACED 1
+#define TOTAL_IMPOSSIBLE 2
+#define TOTAL_TRIANGLES 3
+#define TOTAL_POSITIONS 4
+
 // Steps of `scatter`, in their order.
 #define SCATTER_CLEAR 0u
 #define SCATTER_DEPTHS 1u
@@ -341,6 +371,12 @@
 #define TILE_LIST_BLENDED 2u
 #define TILE_LIST_UNLISTED 3u
 #define TILE_LISTS 4u
+
+// Formats of the components of a host's vertices: floats of 32 and of 16 bits, and unsigned and signed integers of 16 bits.
+#define VERTEX_FLOAT 0u
+#define VERTEX_HALF 1u
+#define VERTEX_UNORM 2u
+#define VERTEX_SNORM 3u
 
 // How the vertices of a host's draw make triangles.
 #define TOPOLOGY_LIST 0u

@@ -8,7 +8,7 @@ use crate::vulkan::{Missing, VulkanError};
 use ash::vk;
 use std::any::Any;
 use std::cell::RefCell;
-use std::ffi::{CString, c_char};
+use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Result of a function.
@@ -146,7 +146,7 @@ impl Error {
 
     fn of_host(error: &HostError) -> GpcResult {
         match error {
-            HostError::Mesh { error, .. } => Self::of_host(error),
+            HostError::Mesh { error, .. } | HostError::IndirectList { error, .. } => Self::of_host(error),
             HostError::NullHandle(_) | HostError::NoCoordinates => GpcResult::Null,
             HostError::Capacity { .. }
             | HostError::Indices { .. }
@@ -169,19 +169,38 @@ impl Error {
     }
 }
 
+/// Message of a thread. It has a fixed place, so that a pointer to it stays valid when a later call fails.
+struct Message([u8; Self::BYTES]);
+
+impl Message {
+    /// Longest message, with the zero at its end.
+    const BYTES: usize = 4096;
+
+    /// Stores a text, cut at the end of a character if it is too long.
+    fn set(&mut self, text: &str) {
+        let fits = |end: &usize| text.is_char_boundary(*end);
+        let end = (0..=text.len().min(Self::BYTES - 1)).rev().find(fits).unwrap_or(0);
+        let bytes = &text.as_bytes()[..end];
+        self.0[..end].copy_from_slice(bytes);
+        // A zero within the text would hide the rest of it.
+        self.0[..end].iter_mut().filter(|byte| **byte == 0).for_each(|byte| *byte = b' ');
+        self.0[end] = 0;
+    }
+}
+
 thread_local! {
-    static LAST: RefCell<CString> = RefCell::default();
+    static LAST: RefCell<Message> = const { RefCell::new(Message([0; Message::BYTES])) };
 }
 
 /// Message of the calling thread's last call that failed: UTF-8, in English, for logs. Never NULL; empty if no call has
-/// failed.
+/// failed. The pointer is the same in all calls of a thread, so printf("%u %s", gpc_frame_record(...), gpc_last_error())
+/// prints the message of that call, whichever argument is computed first.
 ///
 /// Threads: any. Each thread has its own message.
-/// Lifetime: until the thread's next call of this library that fails, or its end.
+/// Lifetime: the text is that of the thread's last failure; the pointer is valid until the thread ends.
 #[unsafe(no_mangle)]
 pub extern "C" fn gpc_last_error() -> *const c_char {
-    let text = LAST.try_with(|last| last.borrow().as_ptr());
-    text.unwrap_or(c"".as_ptr())
+    LAST.with(|last| last.as_ptr().cast_const().cast())
 }
 
 /// Runs the body of a function of the API. Panics end here, and the message of an error is stored for gpc_last_error.
@@ -191,9 +210,8 @@ pub(super) fn answer(body: impl FnOnce() -> Result<(), Error>) -> GpcResult {
     let Err(error) = done.unwrap_or_else(|payload| Err(Error::Panic(said(payload.as_ref())))) else {
         return GpcResult::Success;
     };
-    let text = error.to_string().replace('\0', " ");
-    // A thread that is ending can't store messages any more.
-    let _ = LAST.try_with(|last| *last.borrow_mut() = CString::new(text).unwrap_or_default());
+    let text = error.to_string();
+    LAST.with_borrow_mut(|last| last.set(&text));
     error.result()
 }
 

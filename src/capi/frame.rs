@@ -134,7 +134,7 @@ pub struct GpcOutcome {
     pub left_over: u64,
     /// Number of superpixels.
     pub superpixels: u64,
-    /// Number of triangles in all draws.
+    /// Number of triangles in all draws, with the indirect ones that were not left out.
     pub triangles: u64,
     /// Number of visibility samples that were shaded.
     pub visibility_samples: u64,
@@ -142,12 +142,20 @@ pub struct GpcOutcome {
     pub memory_bytes: u64,
     /// Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     pub gpu_milliseconds: f64,
+    /// Number of draws of all GpcIndirectDraws that the device wrote.
+    pub indirect_draws: u64,
+    /// Number of those that were left out because a capacity of a list was too small: all from the first one that did not
+    /// fit.
+    pub indirect_left_out: u64,
+    /// Number of those that were left out because they are not possible, such as draws with vertices or indices beyond the
+    /// ends of the mesh, a shading key or an alpha map that does not exist, or an instance beyond the capacity.
+    pub indirect_impossible: u64,
 }
 
 // SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
 unsafe impl Element for GpcOutcome {
     const NAME: &'static str = "GpcOutcome";
-    const SIZES: &'static [usize] = sizes!(GpcOutcome, gpu_milliseconds);
+    const SIZES: &'static [usize] = sizes!(GpcOutcome, gpu_milliseconds, indirect_impossible);
 }
 
 // SAFETY: the struct begins with size, type and next.
@@ -261,7 +269,7 @@ pub unsafe extern "C" fn gpc_frame_record(
         // SAFETY: passed on to the caller.
         let (frame, images, scenery) = unsafe {
             let frame = place(frame, "frame")?;
-            (frame, read(images)?.images(), read(scenery)?)
+            (frame, read(images)?.images()?, read(scenery)?)
         };
         if commands == vk::CommandBuffer::null() {
             return Err(Error::Null("commands"));
@@ -308,6 +316,9 @@ pub unsafe extern "C" fn gpc_frame_outcome(frame: *const GpcFrame, outcome: *mut
                     visibility_samples: statistics.records,
                     memory_bytes: statistics.memory_bytes,
                     gpu_milliseconds: statistics.gpu_ms(),
+                    indirect_draws: found.indirect.draws,
+                    indirect_left_out: found.indirect.left_out,
+                    indirect_impossible: found.indirect.impossible,
                     ..GpcOutcome::defaults()
                 })
             })

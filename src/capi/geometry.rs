@@ -2,7 +2,10 @@
 
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes, unused};
-use crate::host::{AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, Mesh, PositionSpace, Topology};
+use crate::host::{
+    AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, IndirectDraws, Mesh, PositionSpace, Topology,
+    VertexFormat,
+};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -12,7 +15,8 @@ use std::ffi::c_void;
 pub enum GpcPositionSpace {
     /// Clip space, four floats: the same values as the vertex shader's gl_Position.
     Clip = 0,
-    /// Object space of the draw, three floats; GpcDraw.to_clip transforms them to clip space.
+    /// Object space of the draw, three numbers, floats unless `position_format` says otherwise; GpcDraw.to_clip transforms
+    /// them to clip space.
     Object = 1,
 }
 
@@ -83,12 +87,29 @@ pub struct GpcMesh {
     pub coordinates_stride: u32,
     /// 0.
     pub reserved: u32,
+    /// Format of positions; VK_FORMAT_UNDEFINED stands for floats.
+    pub position_format: vk::Format,
+    /// Format of texture coordinates; VK_FORMAT_UNDEFINED stands for floats.
+    pub coordinates_format: vk::Format,
+    /// Factor on each component of a position; three zeros stand for 1.
+    pub position_scale: [f32; 3],
+    /// Summand of each component of a position.
+    pub position_bias: [f32; 3],
 }
 
 // SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
 unsafe impl Element for GpcMesh {
     const NAME: &'static str = "GpcMesh";
-    const SIZES: &'static [usize] = sizes!(GpcMesh, reserved);
+    const SIZES: &'static [usize] = sizes!(GpcMesh, reserved, position_bias);
+}
+
+/// Format of a vertex attribute. In C, 0 stands for floats, and for a scale of 1.
+fn vertex_format(format: vk::Format, scale: [f32; 3], bias: [f32; 3]) -> VertexFormat {
+    VertexFormat {
+        format: if format == vk::Format::UNDEFINED { VertexFormat::FLOAT.format } else { format },
+        scale: if scale == [0.0; 3] { [1.0; 3] } else { scale },
+        bias,
+    }
 }
 
 impl GpcMesh {
@@ -98,11 +119,13 @@ impl GpcMesh {
             positions: self.positions,
             positions_offset: self.positions_offset,
             position_stride: self.position_stride,
+            position_format: vertex_format(self.position_format, self.position_scale, self.position_bias),
             vertex_capacity: self.vertex_capacity,
             coordinates: (self.coordinates != vk::Buffer::null()).then_some(Coordinates {
                 buffer: self.coordinates,
                 offset: self.coordinates_offset,
                 stride: self.coordinates_stride,
+                format: vertex_format(self.coordinates_format, [1.0; 3], [0.0; 3]),
             }),
             indices: (self.index_type != vk::IndexType::NONE_KHR).then_some(Indices {
                 buffer: self.indices,
@@ -129,15 +152,17 @@ pub struct GpcGeometry {
     /// the draw.
     pub vertex_capacity: u32,
     /// Buffer of vertex positions, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, and with
-    /// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes.
+    /// VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too if positions are in clip space with a stride of 16 bytes. With 16-bit
+    /// components, its size is a multiple of 4 bytes.
     pub positions: vk::Buffer,
-    /// Offset of the first position in bytes: a multiple of 4.
+    /// Offset of the first position in bytes: a multiple of the size of a component, 4 bytes for floats.
     pub positions_offset: u64,
-    /// Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
+    /// Distance in bytes from one position to the next: a multiple of the size of a component, and at least the size of a
+    /// position.
     pub position_stride: u32,
     /// Space and format of positions: a GpcPositionSpace.
     pub position_space: u32,
-    /// Largest total number of vertices of a frame's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
+    /// Largest total number of vertices of a recording's draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored. Vertices
     /// that several draws share count once for each draw.
     pub position_capacity: u32,
     /// Type of the indices: VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32; VK_INDEX_TYPE_NONE_KHR without indices, so
@@ -150,9 +175,9 @@ pub struct GpcGeometry {
     pub indices_offset: u64,
     /// Largest number of indices.
     pub index_capacity: u32,
-    /// Largest total number of triangles of a frame's draws.
+    /// Largest total number of triangles of a recording's draws. 0 is possible if there are indirect draws.
     pub triangle_capacity: u32,
-    /// Largest number of draws of a frame.
+    /// Largest number of draws of a recording. 0 is possible if there are indirect draws.
     pub draw_capacity: u32,
     /// Number of shading keys, 1 to 16,383.
     pub keys: u32,
@@ -161,12 +186,12 @@ pub struct GpcGeometry {
     pub y_up: vk::Bool32,
     /// VK_TRUE if depth is reversed: from 1 at the near plane to 0 at the far plane; VK_FALSE if it runs from 0 to 1.
     pub reversed_depth: vk::Bool32,
-    /// Buffer of the vertices' texture coordinates, two floats each, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    /// ignored without alpha maps.
+    /// Buffer of the vertices' texture coordinates, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; ignored without alpha
+    /// maps. With 16-bit components, its size is a multiple of 4 bytes.
     pub coordinates: vk::Buffer,
-    /// Offset of the first vertex's coordinates in bytes: a multiple of 4.
+    /// Offset of the first vertex's coordinates in bytes: a multiple of the size of a component, 4 bytes for floats.
     pub coordinates_offset: u64,
-    /// Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
+    /// Distance in bytes from one vertex to the next: a multiple of the size of a component, at least two components.
     pub coordinates_stride: u32,
     /// Number of alpha maps.
     pub alpha_map_count: u32,
@@ -192,12 +217,29 @@ pub struct GpcGeometry {
     /// Value in the depth image for the clip-space depth 1: maxDepth of the application's VkViewport. gpc_init_geometry
     /// sets 1.
     pub max_depth: f32,
+    /// Lists of draws that the device writes, in addition to the draws of a recording, with capacities of their own. Read
+    /// during the call only; may be NULL if there are none.
+    pub indirect_draws: *const GpcIndirectDraws,
+    /// Number of elements of `indirect_draws`.
+    pub indirect_draws_count: u32,
+    /// sizeof(GpcIndirectDraws), if there are lists of indirect draws.
+    pub indirect_draws_stride: u32,
+    /// Format of positions with GPC_POSITION_SPACE_OBJECT: three components or more, of 32-bit SFLOAT, or of 16-bit SFLOAT,
+    /// UNORM or SNORM. VK_FORMAT_UNDEFINED, as gpc_init_geometry sets it, stands for floats.
+    pub position_format: vk::Format,
+    /// Format of texture coordinates: two components or more, of these types. VK_FORMAT_UNDEFINED stands for floats.
+    pub coordinates_format: vk::Format,
+    /// Factor on each component of a position; three zeros, as gpc_init_geometry sets them, stand for 1. A component is
+    /// bias + scale * number, where UNORM and SNORM divide the integer by 65,535 and 32,767.
+    pub position_scale: [f32; 3],
+    /// Summand of each component of a position.
+    pub position_bias: [f32; 3],
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcGeometry {
     const NAME: &'static str = "GpcGeometry";
-    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps, max_depth);
+    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps, max_depth, position_bias);
 
     fn defaults() -> Self {
         Self {
@@ -256,12 +298,16 @@ impl GpcGeometry {
             coordinates_offset: self.coordinates_offset,
             coordinates_stride: self.coordinates_stride,
             reserved: 0,
+            position_format: self.position_format,
+            coordinates_format: self.coordinates_format,
+            position_scale: self.position_scale,
+            position_bias: self.position_bias,
         };
         mesh.mesh()
     }
 
     /// # Safety
-    /// `alpha_maps` and `more_meshes` point to as many elements as their counts say.
+    /// `alpha_maps`, `more_meshes` and `indirect_draws` point to as many elements as their counts say.
     pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
         // SAFETY: passed on to the caller.
         let maps = unsafe {
@@ -287,11 +333,20 @@ impl GpcGeometry {
                 ("GpcGeometry.more_meshes", "GpcGeometry.more_mesh_stride"),
             )
         }?;
+        // SAFETY: passed on to the caller.
+        let indirect = unsafe {
+            elements(
+                self.indirect_draws,
+                (self.indirect_draws_count, self.indirect_draws_stride),
+                ("GpcGeometry.indirect_draws", "GpcGeometry.indirect_draws_stride"),
+            )
+        }?;
         Ok(Geometry {
             meshes: std::iter::once(self.own_mesh())
                 .chain(more_meshes.iter().map(GpcMesh::mesh))
                 .collect::<Result<_, _>>()?,
             position_space: choice("GpcGeometry.position_space", self.position_space, &spaces)?,
+            indirect: indirect.iter().map(GpcIndirectDraws::list).collect::<Result<_, _>>()?,
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
             keys: self.keys,
@@ -318,6 +373,118 @@ pub enum GpcTopology {
     /// As VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN: each corner from the third on forms a triangle with the one before it and
     /// the first.
     Fan = 2,
+}
+
+/// Topology for its number in C, which the member `name` has.
+fn topology(name: &'static str, found: u32) -> Result<Topology, Error> {
+    let topologies = [
+        (GpcTopology::List as u32, "GPC_TOPOLOGY_LIST", Topology::List),
+        (GpcTopology::Strip as u32, "GPC_TOPOLOGY_STRIP", Topology::Strip),
+        (GpcTopology::Fan as u32, "GPC_TOPOLOGY_FAN", Topology::Fan),
+    ];
+    choice(name, found, &topologies)
+}
+
+/// List of draws that the device writes, with the arguments of vkCmdDrawIndexedIndirect or, for a mesh without indices, of
+/// vkCmdDrawIndirect, and with capacities. The library reads the list when a recording is executed, so that compute shaders
+/// before, in the same command buffer, may decide what is drawn.
+///
+/// Each instance of a command is a draw. Its number, firstInstance and on, which is gl_InstanceIndex of a vertex shader, is
+/// the index of its GpcInstance. All draws of a list have the state of one pipeline. Set members that are not used to 0.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcIndirectDraws {
+    /// Buffer of commands, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    pub commands: vk::Buffer,
+    /// Offset of the first command in bytes: a multiple of 4.
+    pub commands_offset: u64,
+    /// Buffer with the number of commands, a 32-bit word, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. With
+    /// VK_NULL_HANDLE the number is `command_capacity`.
+    pub count: vk::Buffer,
+    /// Offset of the number of commands in bytes: a multiple of 4.
+    pub count_offset: u64,
+    /// Buffer of the instances, an array of GpcInstance, created with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    pub instances: vk::Buffer,
+    /// Offset of the first instance in bytes: a multiple of 256, or of the device's minStorageBufferOffsetAlignment and 16.
+    pub instances_offset: u64,
+    /// Distance in bytes from one command to the next: a multiple of 4, at least the size of a command.
+    pub command_stride: u32,
+    /// Largest number of commands, up to 1,048,576.
+    pub command_capacity: u32,
+    /// Number of instances in the buffer.
+    pub instance_capacity: u32,
+    /// Largest number of draws: instances of all commands.
+    pub draw_capacity: u32,
+    /// Largest number of triangles of all draws.
+    pub triangle_capacity: u32,
+    /// Largest number of vertices of all draws, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
+    pub position_capacity: u32,
+    /// Mesh whose buffers the draws read: see GpcDraw.mesh.
+    pub mesh: u32,
+    /// Topology of the draws: a GpcTopology.
+    pub topology: u32,
+    /// Orientation of front faces in the image: see GpcDraw.front_face.
+    pub front_face: vk::FrontFace,
+    /// VK_TRUE if back faces are visible.
+    pub double_sided: vk::Bool32,
+    /// VK_TRUE if the draws have alpha maps.
+    pub alpha_tested: vk::Bool32,
+    /// VK_TRUE if the draws are blended.
+    pub blended: vk::Bool32,
+}
+
+// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
+unsafe impl Element for GpcIndirectDraws {
+    const NAME: &'static str = "GpcIndirectDraws";
+    const SIZES: &'static [usize] = sizes!(GpcIndirectDraws, blended);
+}
+
+/// What a draw of a GpcIndirectDraws has besides its command: an element of a buffer that the device reads, and never
+/// changes. gpc_instance.glsl declares the same structure for shaders.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcInstance {
+    /// Matrix from object space to clip space, by columns, with GPC_POSITION_SPACE_OBJECT; otherwise ignored.
+    pub to_clip: [[f32; 4]; 4],
+    /// Number of vertices from the command's vertexOffset or firstVertex on, with GPC_POSITION_SPACE_OBJECT.
+    pub vertex_count: u32,
+    /// Shading key.
+    pub key: u32,
+    /// Number of the application's choice, which its shaders can read. Triangles with the same lower 16 bits are assumed to
+    /// look alike: see GpcDraw.material.
+    pub material: u32,
+    /// 1 + the index of the alpha map, if the draws of the list have alpha maps; otherwise 0.
+    pub alpha_map: u32,
+    /// 1 if the colour may vary within a pixel, otherwise 0.
+    pub detailed: u32,
+    /// 0.
+    pub reserved: [u32; 3],
+}
+
+const _: () = assert!(size_of::<GpcInstance>() == size_of::<crate::host::Instance>());
+
+impl GpcIndirectDraws {
+    fn list(&self) -> Result<IndirectDraws, Error> {
+        Ok(IndirectDraws {
+            commands: self.commands,
+            commands_offset: self.commands_offset,
+            command_stride: self.command_stride,
+            command_capacity: self.command_capacity,
+            count: (self.count != vk::Buffer::null()).then_some((self.count, self.count_offset)),
+            instances: self.instances,
+            instances_offset: self.instances_offset,
+            instance_capacity: self.instance_capacity,
+            draw_capacity: self.draw_capacity,
+            triangle_capacity: self.triangle_capacity,
+            position_capacity: self.position_capacity,
+            mesh: self.mesh,
+            topology: topology("GpcIndirectDraws.topology", self.topology)?,
+            front_face: self.front_face,
+            double_sided: flag("GpcIndirectDraws.double_sided", self.double_sided)?,
+            alpha_tested: flag("GpcIndirectDraws.alpha_tested", self.alpha_tested)?,
+            blended: flag("GpcIndirectDraws.blended", self.blended)?,
+        })
+    }
 }
 
 /// A run of triangles that are shaded alike.
@@ -385,16 +552,11 @@ impl GpcDraw {
     }
 
     fn draw(&self) -> Result<Draw, Error> {
-        let topologies = [
-            (GpcTopology::List as u32, "GPC_TOPOLOGY_LIST", Topology::List),
-            (GpcTopology::Strip as u32, "GPC_TOPOLOGY_STRIP", Topology::Strip),
-            (GpcTopology::Fan as u32, "GPC_TOPOLOGY_FAN", Topology::Fan),
-        ];
         Ok(Draw {
             mesh: self.mesh,
             first_index: self.first_index,
             triangle_count: self.triangle_count,
-            topology: choice("GpcDraw.topology", self.topology, &topologies)?,
+            topology: topology("GpcDraw.topology", self.topology)?,
             vertex_offset: self.vertex_offset,
             vertex_count: self.vertex_count,
             to_clip: self.to_clip,

@@ -1,7 +1,7 @@
 //! Images that the application lends.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, flag, init, sizes};
+use super::input::{Element, GpcStructType, Struct, flag, init, sizes, unused};
 use crate::host::{ImageKinds, ImageState, Images, LentImage};
 use ash::vk;
 use std::ffi::c_void;
@@ -18,14 +18,13 @@ pub struct GpcImageState {
     pub access: vk::AccessFlags2,
 }
 
-/// Image of the application: single-sampled, with one level and one layer, and at least as large as the size in
-/// GpcOptions.
+/// Image of the application: single-sampled, with one level, and at least as large as the size in GpcOptions.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImage {
     /// Handle of the image.
     pub image: vk::Image,
-    /// Two-dimensional view of the image, with a single aspect.
+    /// Two-dimensional view of the image, with a single aspect and a single layer.
     pub view: vk::ImageView,
     /// All aspects of the image's format, including stencil, which the library does not read.
     pub aspects: vk::ImageAspectFlags,
@@ -113,12 +112,16 @@ pub struct GpcImages {
     /// Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
     /// reads nor writes pixels outside of it.
     pub corner: [u32; 2],
+    /// Array layer of the images that the views show, of which the library changes the layout.
+    pub layer: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcImages {
     const NAME: &'static str = "GpcImages";
-    const SIZES: &'static [usize] = sizes!(GpcImages, corner);
+    const SIZES: &'static [usize] = sizes!(GpcImages, corner, reserved);
 }
 
 // SAFETY: the struct begins with size, type and next.
@@ -159,12 +162,14 @@ impl GpcImage {
 }
 
 impl GpcImages {
-    pub(super) fn images(&self) -> Images {
-        Images {
+    pub(super) fn images(&self) -> Result<Images, Error> {
+        unused("GpcImages.reserved", self.reserved)?;
+        Ok(Images {
             ids: self.ids.lent_if_there(),
             depth: self.depth.lent_if_there(),
             color: self.color.lent(),
             corner: self.corner,
-        }
+            layer: self.layer,
+        })
     }
 }

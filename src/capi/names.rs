@@ -15,6 +15,9 @@ pub(super) fn in_c(error: &HostError) -> String {
             function,
             remedy,
         })) => format!("GpcDevice.{member} is VK_TRUE and there is no {function}: {remedy}"),
+        HostError::Engine(EngineError::Vulkan(VulkanError::Pipeline { call, result })) => {
+            format!("{call} failed: {result}; was the device created with the features of gpc_require_features?")
+        }
         HostError::NoDepth => {
             "thin triangles are found by depth: set GpcImageKinds.depth and lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
         }
@@ -43,6 +46,28 @@ pub(super) fn in_c(error: &HostError) -> String {
             mesh - 1,
             in_c(error).replace("GpcGeometry.", "GpcMesh.")
         ),
+        HostError::VertexFormat { what, found, least } => format!(
+            "{} is VK_FORMAT_{found:?}; it can have 32-bit SFLOAT components, or 16-bit SFLOAT, UNORM or SNORM components, {least} or more of them",
+            c_name(what)
+        ),
+        HostError::VertexScale { .. } => {
+            "GpcGeometry.position_scale or GpcGeometry.position_bias has a number that is not finite".to_owned()
+        }
+        HostError::ClipFormat { .. } => {
+            "GpcGeometry.position_format, position_scale or position_bias is set; positions in clip space are four floats".to_owned()
+        }
+        HostError::IndirectList { list, error } => {
+            let message = match &**error {
+                HostError::IndirectMesh { mesh, meshes } => {
+                    format!("mesh is {mesh}; it can be 0 to {}, as GpcGeometry.more_mesh_count is {0}", meshes.saturating_sub(1))
+                }
+                error => error.to_string(),
+            };
+            format!("GpcGeometry.indirect_draws[{list}]: {message}")
+        }
+        HostError::IndirectIds => {
+            "GpcImageKinds.ids with GpcGeometry.indirect_draws: the library has to draw the IDs, so set ids to VK_FALSE".to_owned()
+        }
         HostError::DepthRange([least, most]) => format!(
             "GpcGeometry.min_depth is {least} and GpcGeometry.max_depth is {most}; they have to be finite numbers that differ"
         ),
@@ -105,10 +130,11 @@ pub(super) fn in_c(error: &HostError) -> String {
             alignment: *alignment,
         }
         .to_string(),
-        HostError::Stride { what, found, least } => HostError::Stride {
+        HostError::Stride { what, found, least, unit } => HostError::Stride {
             what: c_name(what),
             found: *found,
             least: *least,
+            unit: *unit,
         }
         .to_string(),
         HostError::Capacity {
@@ -207,12 +233,14 @@ fn image_name(what: &str) -> &str {
 }
 
 /// Names of members in the engine's errors, each with its name in C.
-const NAMES: [(&str, &str); 32] = [
+const NAMES: [(&str, &str); 34] = [
     ("the buffer of positions", "GpcGeometry.positions"),
     ("the buffer of indices", "GpcGeometry.indices"),
     ("the buffer of coordinates", "GpcGeometry.coordinates"),
     ("positions_offset", "GpcGeometry.positions_offset"),
     ("position_stride", "GpcGeometry.position_stride"),
+    ("Mesh::position_format", "GpcGeometry.position_format"),
+    ("Coordinates::format", "GpcGeometry.coordinates_format"),
     ("indices_offset", "GpcGeometry.indices_offset"),
     ("coordinates_offset", "GpcGeometry.coordinates_offset"),
     ("coordinates_stride", "GpcGeometry.coordinates_stride"),

@@ -1,7 +1,7 @@
 //! Options of antialiasing.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
+use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes, unused};
 use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
 use crate::sampling::Pattern;
@@ -131,12 +131,18 @@ pub struct GpcOptions {
     /// VK_TRUE if the memory of a frame or list stays as it is; VK_FALSE if gpc_frame_record and gpc_list_record make
     /// more after a recording that was left unfinished.
     pub fixed_memory: vk::Bool32,
+    /// VK_TRUE if the alpha of the colour image stays as it is. With VK_FALSE, each pixel that the library draws gets the
+    /// mean opacity of its samples: 1 where a triangle that is not blended is seen, whatever the shading stores, and the
+    /// drawn alpha, or that of the background, where none is. With `shade_all`, the image has to hold something before.
+    pub keep_alpha: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcOptions {
     const NAME: &'static str = "GpcOptions";
-    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory);
+    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory, reserved);
 
     fn defaults() -> Self {
         let defaults = Options::new(0, 0);
@@ -187,6 +193,7 @@ impl GpcOptions {
             (GpcDetection::Exact as u32, "GPC_DETECTION_EXACT", Detection::Exact),
             (GpcDetection::Every as u32, "GPC_DETECTION_EVERY", Detection::Every),
         ];
+        unused("GpcOptions.reserved", self.reserved)?;
         let has_background = flag("GpcOptions.has_background", self.has_background)?;
         Ok(Options {
             size: [self.width, self.height],
@@ -219,6 +226,7 @@ impl GpcOptions {
             background: has_background.then_some(self.background),
             flat_background: flag("GpcOptions.flat_background", self.flat_background)?,
             high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,
+            keep_alpha: flag("GpcOptions.keep_alpha", self.keep_alpha)?,
             sharp: flag("GpcOptions.sharp", self.sharp)?,
             shade_all: flag("GpcOptions.shade_all", self.shade_all)?,
             max_memory: (self.max_memory != 0).then_some(self.max_memory),

@@ -1,10 +1,12 @@
 //! Tests of cases that programs in C can't provoke.
 
-use super::error::{Error, GpcResult, answer, last_error};
+use super::error::{Error, GpcResult, answer, gpc_last_error, last_error};
 use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
 use super::options::GpcOptions;
 use super::version::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
 use crate::host::{Antialiaser, Frame, List, ListOptions};
+use crate::vulkan::VulkanError;
+use ash::vk;
 use std::ffi::c_void;
 
 #[test]
@@ -28,6 +30,32 @@ fn each_thread_has_its_own_message() {
     assert_eq!(last_error(), "here is NULL");
     assert_eq!(answer(|| Ok(())), GpcResult::Success);
     assert_eq!(last_error(), "here is NULL");
+}
+
+/// A program may ask for the message before the call that fails, as in the arguments of a printf.
+#[test]
+fn the_message_of_a_thread_stays_where_it_is() {
+    let text = gpc_last_error();
+    let long = format!("{}é", "x".repeat(4094));
+    answer(|| panic!("{long}"));
+    // SAFETY: the pointer is that of this thread, which lives.
+    let found = || unsafe { std::ffi::CStr::from_ptr(text) }.to_str().unwrap();
+    assert_eq!(found(), &format!("a defect of the library: {long}")[..4095]);
+    answer(|| panic!("{}", &long["a defect of the library: ".len()..]));
+    assert_eq!(found().len(), 4094, "a character that does not fit is left out");
+    answer(|| Err(Error::Null("it")));
+    assert_eq!(found(), "it is NULL");
+}
+
+#[test]
+fn a_refused_pipeline_is_told_with_the_features_that_it_may_lack() {
+    let result = vk::Result::ERROR_FEATURE_NOT_PRESENT;
+    let refused = VulkanError::of_pipeline("vkCreateComputePipelines")(result);
+    assert_eq!(answer(|| Err(refused.into())), GpcResult::Vulkan);
+    let end = "was the device created with the features of gpc_require_features?";
+    assert_eq!(last_error(), format!("vkCreateComputePipelines failed: {result}; {end}"));
+    let lost = VulkanError::of_pipeline("vkCreateComputePipelines")(vk::Result::ERROR_DEVICE_LOST);
+    assert_eq!(answer(|| Err(lost.into())), GpcResult::DeviceLost);
 }
 
 #[test]

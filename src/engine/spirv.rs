@@ -93,6 +93,7 @@ pub struct Draw {
 pub struct AdoptPush {
     pub first_triangle: u32,
     pub triangle_count: u32,
+    pub first_draw: u32,
     pub draw_count: u32,
     pub first_index: u32,
     pub index_count: u32,
@@ -138,7 +139,7 @@ impl Specialized for Adopt {
             Use { set: 0, binding: adopt_set::TRIANGLES_OUT, access: Access::Write },
             Use { set: 0, binding: adopt_set::DRAW_OF_OUT, access: Access::Write },
         ],
-        push_bytes: 28,
+        push_bytes: 32,
         invocations: Invocations::Fixed(64),
         by_teams: false,
     };
@@ -568,10 +569,13 @@ impl Compiled for Composite {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct CoordinatesPush {
+    pub scale: [f32; 4],
+    pub bias: [f32; 4],
     pub first_position: u32,
     pub position_count: u32,
+    pub first_draw: u32,
     pub draw_count: u32,
-    pub first_word: u32,
+    pub first_half: u32,
     pub stride: u32,
 }
 
@@ -588,12 +592,14 @@ pub mod coordinates_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinates {
     pub object: bool,
+    pub vertex_format: u32,
 }
 
 impl Default for Coordinates {
     fn default() -> Self {
         Self {
             object: false,
+            vertex_format: 0,
         }
     }
 }
@@ -609,7 +615,7 @@ impl Specialized for Coordinates {
             Use { set: 0, binding: coordinates_set::VERTICES, access: Access::Read },
             Use { set: 0, binding: coordinates_set::COORDINATES_OUT, access: Access::Write },
         ],
-        push_bytes: 20,
+        push_bytes: 56,
         invocations: Invocations::Fixed(64),
         by_teams: false,
     };
@@ -617,6 +623,7 @@ impl Specialized for Coordinates {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.object)
+            .with(60, self.vertex_format)
     }
 }
 
@@ -1217,6 +1224,105 @@ impl Specialized for Grow {
 impl Compiled for Grow {
     fn code() -> &'static [u8] {
         GROW
+    }
+}
+
+/// An element of the buffer `instances`, as in `shaders/indirect.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GpcInstance {
+    pub to_clip: [f32; 16],
+    pub vertex_count: u32,
+    pub key: u32,
+    pub material: u32,
+    pub alpha_map: u32,
+    pub detailed: u32,
+    pub reserved_0: u32,
+    pub reserved_1: u32,
+    pub reserved_2: u32,
+}
+
+/// What is pushed to `shaders/indirect.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct IndirectPush {
+    pub first_command: u32,
+    pub command_stride: u32,
+    pub command_capacity: u32,
+    pub count_word: u32,
+    pub instance_capacity: u32,
+    pub draw_capacity: u32,
+    pub triangle_capacity: u32,
+    pub position_capacity: u32,
+    pub first_draw: u32,
+    pub first_triangle: u32,
+    pub first_position: u32,
+    pub vertex_capacity: u32,
+    pub index_capacity: u32,
+    pub topology: u32,
+    pub keys: u32,
+    pub alpha_maps: u32,
+    pub flags: u32,
+}
+
+/// The set of its own that `shaders/indirect.comp` binds.
+pub mod indirect_set {
+    use super::{Binding, Kind};
+
+    pub const COMMANDS: Binding = Binding::new(0, "commands", Kind::STORAGE_BUFFER, 1);
+    pub const COUNT: Binding = Binding::new(1, "count", Kind::STORAGE_BUFFER, 1);
+    pub const INSTANCES: Binding = Binding::new(2, "instances", Kind::STORAGE_BUFFER, 1);
+    pub const DRAWS_OUT: Binding = Binding::new(3, "draws_out", Kind::STORAGE_BUFFER, 1);
+    pub const MATRICES_OUT: Binding = Binding::new(4, "matrices_out", Kind::STORAGE_BUFFER, 1);
+    pub const FIRST_DRAWS: Binding = Binding::new(5, "first_draws", Kind::STORAGE_BUFFER, 1);
+    pub const BLOCKS: Binding = Binding::new(6, "blocks", Kind::STORAGE_BUFFER, 1);
+    pub const TOTALS: Binding = Binding::new(7, "totals", Kind::STORAGE_BUFFER, 1);
+}
+
+/// Constants of `shaders/indirect.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Indirect {
+    pub step: u32,
+}
+
+impl Default for Indirect {
+    fn default() -> Self {
+        Self {
+            step: 0,
+        }
+    }
+}
+
+impl Specialized for Indirect {
+    type Push = IndirectPush;
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "indirect",
+        in_frame: false,
+        uses: &[
+            Use { set: 0, binding: indirect_set::COMMANDS, access: Access::Read },
+            Use { set: 0, binding: indirect_set::COUNT, access: Access::Read },
+            Use { set: 0, binding: indirect_set::INSTANCES, access: Access::Read },
+            Use { set: 0, binding: indirect_set::DRAWS_OUT, access: Access::Write },
+            Use { set: 0, binding: indirect_set::MATRICES_OUT, access: Access::Write },
+            Use { set: 0, binding: indirect_set::FIRST_DRAWS, access: Access::ReadWrite },
+            Use { set: 0, binding: indirect_set::BLOCKS, access: Access::ReadWrite },
+            Use { set: 0, binding: indirect_set::TOTALS, access: Access::ReadWrite },
+        ],
+        push_bytes: 68,
+        invocations: Invocations::Fixed(64),
+        by_teams: false,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.step)
+    }
+}
+
+impl Compiled for Indirect {
+    fn code() -> &'static [u8] {
+        INDIRECT
     }
 }
 
@@ -2978,12 +3084,14 @@ pub mod transform_set {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transform {
     pub object: bool,
+    pub vertex_format: u32,
 }
 
 impl Default for Transform {
     fn default() -> Self {
         Self {
             object: false,
+            vertex_format: 0,
         }
     }
 }
@@ -3000,7 +3108,7 @@ impl Specialized for Transform {
             Use { set: 0, binding: transform_set::MATRICES, access: Access::Read },
             Use { set: 0, binding: transform_set::POSITIONS_OUT, access: Access::Write },
         ],
-        push_bytes: 20,
+        push_bytes: 56,
         invocations: Invocations::Fixed(64),
         by_teams: false,
     };
@@ -3008,6 +3116,7 @@ impl Specialized for Transform {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.object)
+            .with(60, self.vertex_format)
     }
 }
 
@@ -3018,7 +3127,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 44] = [
+pub const INTERFACES: [&Interface; 45] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3037,6 +3146,7 @@ pub const INTERFACES: [&Interface; 44] = [
     Filter::INTERFACE,
     Groups::INTERFACE,
     Grow::INTERFACE,
+    Indirect::INTERFACE,
     Multisample::INTERFACE,
     Neighbours::INTERFACE,
     Occlude::INTERFACE,
@@ -3237,6 +3347,21 @@ pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;
 pub const DISTRIBUTE_ENCLOSE: u32 = 3;
+pub const INDIRECT_COMMANDS: u32 = 0;
+pub const INDIRECT_BLOCKS: u32 = 1;
+pub const INDIRECT_SUMS: u32 = 2;
+pub const INDIRECT_PLACE: u32 = 3;
+pub const INDIRECT_BLOCK: u32 = 64;
+pub const INDIRECT_COUNTED: u32 = 1;
+pub const INDIRECT_INDEXED: u32 = 2;
+pub const INDIRECT_OBJECT: u32 = 4;
+pub const INDIRECT_ALPHA_TESTED: u32 = 8;
+pub const INDIRECT_DOUBLE_SIDED: u32 = 16;
+pub const TOTAL_FOUND: u32 = 0;
+pub const TOTAL_PLACED: u32 = 1;
+pub const TOTAL_IMPOSSIBLE: u32 = 2;
+pub const TOTAL_TRIANGLES: u32 = 3;
+pub const TOTAL_POSITIONS: u32 = 4;
 pub const SCATTER_CLEAR: u32 = 0;
 pub const SCATTER_DEPTHS: u32 = 1;
 pub const SCATTER_IDS: u32 = 2;
@@ -3254,6 +3379,10 @@ pub const TILE_LIST_MASKED: u32 = 1;
 pub const TILE_LIST_BLENDED: u32 = 2;
 pub const TILE_LIST_UNLISTED: u32 = 3;
 pub const TILE_LISTS: u32 = 4;
+pub const VERTEX_FLOAT: u32 = 0;
+pub const VERTEX_HALF: u32 = 1;
+pub const VERTEX_UNORM: u32 = 2;
+pub const VERTEX_SNORM: u32 = 3;
 pub const TOPOLOGY_LIST: u32 = 0;
 pub const TOPOLOGY_STRIP: u32 = 1;
 pub const TOPOLOGY_FAN: u32 = 2;

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Structs that never change: they are members of other structs, or elements of arrays without a stride.
-const FIXED: [&str; 4] = ["GpcImageState", "GpcImage", "GpcLocation", "GpcMemory"];
+const FIXED: [&str; 5] = ["GpcImageState", "GpcImage", "GpcLocation", "GpcInstance", "GpcMemory"];
 
 /// Struct and function of a line `GpcResult gpc_init_device(struct GpcDevice *device,`.
 fn initialiser(line: &str) -> Option<(&str, &str)> {

@@ -1,18 +1,10 @@
 //! Draws of a host, on the device.
 
-use super::TriangleWord;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// A draw, laid out as in `shaders/include/draws.glsl`.
 pub(crate) use crate::engine::spirv::Draw as HostDraw;
-
-impl HostDraw {
-    /// Whether back faces are visible.
-    pub fn is_double_sided(&self) -> bool {
-        self.word & TriangleWord::DOUBLE_SIDED != 0
-    }
-}
 
 /// Table of draws, and a matrix for each if positions are in object space.
 pub(crate) struct Draws {
@@ -25,12 +17,11 @@ impl Draws {
     ///
     /// # Errors
     /// If memory runs out or a limit of the device is exceeded.
-    pub fn new(memory: &Memory, capacity: u32, has_matrices: bool) -> Result<Self, VulkanError> {
+    pub fn new(memory: &Memory, capacity: u64, has_matrices: bool) -> Result<Self, VulkanError> {
         let storage = |name, bytes| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
             memory.storage_buffer(name, bytes, usage, MemoryUse::Device)
         };
-        let capacity = u64::from(capacity);
         Ok(Self {
             table: storage("draws", capacity * size_of::<HostDraw>() as u64)?,
             matrices: has_matrices.then(|| storage("matrices of draws", capacity * 64)).transpose()?,

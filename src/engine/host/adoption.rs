@@ -2,7 +2,8 @@
 
 use super::content::HostContent;
 use super::draw::{DrawRun, PlacedDraws};
-use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared};
+use super::indirect::IndirectPlacing;
+use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared, Topology, VertexFormat};
 use crate::engine::data::Draws;
 use crate::engine::passes::adopt::{self, AdoptedCounts};
 use crate::engine::passes::coordinates;
@@ -16,8 +17,10 @@ use std::sync::Arc;
 /// Passes that read a host's buffers, and the draws of a frame.
 pub(super) struct Adoption {
     pub draws: Draws,
-    transform: Option<Kernel<spirv::Transform>>,
-    coordinates: Option<Kernel<spirv::Coordinates>>,
+    pub indirect: Option<IndirectPlacing>,
+    /// Kernels of `transform` and of `coordinates`, for each type of components.
+    transform: [Option<Kernel<spirv::Transform>>; VERTEX_KINDS],
+    coordinates: [Option<Kernel<spirv::Coordinates>>; VERTEX_KINDS],
     /// Kernels of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
     adopt: [Option<Kernel<spirv::Adopt>>; 3],
     /// Descriptor sets of each mesh.
@@ -31,6 +34,23 @@ struct MeshSets {
     transform: Option<DescriptorSets>,
     coordinates: Option<DescriptorSets>,
     adopt: DescriptorSets,
+}
+
+/// Number of types of the components of vertices.
+const VERTEX_KINDS: usize = spirv::VERTEX_SNORM as usize + 1;
+
+/// Draws of a recording whose triangles and positions are made by the same dispatches: of a run of the CPU's draws, or of a
+/// list of indirect draws.
+struct DrawGroup {
+    mesh: usize,
+    topology: Topology,
+    front_face: vk::FrontFace,
+    /// First draw and number of draws among which those of the triangles are searched.
+    draws: [u32; 2],
+    /// First triangle and number of triangles.
+    triangles: [u32; 2],
+    /// First position and number of positions, if positions are in object space.
+    positions: [u32; 2],
 }
 
 /// Index into `adopt` of the kernel that reads these indices.
@@ -82,7 +102,9 @@ impl Adoption {
     ) -> Result<Self, HostError> {
         let layout = &*shared.frame;
         let has_matrices = geometry.position_space != PositionSpace::Clip;
-        let draws = Draws::new(memory, geometry.draw_capacity, has_matrices)?;
+        let draws = Draws::new(memory, geometry.all_draws(), has_matrices)?;
+        // SAFETY: passed on to the caller.
+        let indirect = unsafe { IndirectPlacing::new(layout, memory, geometry, &draws) }?;
         let sets = geometry.meshes.iter().map(|mesh| {
             // SAFETY: passed on to the caller.
             unsafe { MeshSets::new(shared, &draws, (geometry, mesh), content) }
@@ -96,14 +118,27 @@ impl Adoption {
                 *kernel = Some(adopt::kernel(layout, are_short)?);
             }
         }
-        let transform = || transform::kernel(layout, &draws);
-        let coordinates = || coordinates::kernel(layout, &draws);
-        let transforms = content.made_positions().is_some();
+        let (mut transform, mut coordinates) = ([const { None }; VERTEX_KINDS], [const { None }; VERTEX_KINDS]);
+        for mesh in &geometry.meshes {
+            let kind = mesh.position_format.kind();
+            let kernel = &mut transform[kind as usize];
+            if kernel.is_none() && content.made_positions().is_some() {
+                *kernel = Some(transform::kernel(layout, &draws, kind)?);
+            }
+            let Some(lent) = mesh.coordinates.filter(|_| content.alpha().is_some()) else {
+                continue;
+            };
+            let kernel = &mut coordinates[lent.format.kind() as usize];
+            if kernel.is_none() {
+                *kernel = Some(coordinates::kernel(layout, &draws, lent.format.kind())?);
+            }
+        }
         Ok(Self {
-            transform: transforms.then(transform).transpose()?,
-            coordinates: content.alpha().is_some().then(coordinates).transpose()?,
+            transform,
+            coordinates,
             adopt,
             sets,
+            indirect,
             draws,
             geometry: geometry.clone(),
             shared: shared.clone(),
@@ -116,75 +151,124 @@ impl Adoption {
             return;
         }
         self.draws.record_upload(recorder, &placed.draws, &placed.matrices);
-        self.record_vertices(recorder, placed);
+        if let Some(indirect) = &self.indirect {
+            indirect.record(recorder, &self.geometry, &placed.indirect);
+        }
+        let groups = self.groups(placed);
+        self.record_vertices(recorder, &groups);
         let limits = self.shared.gpu.limits();
-        for run in &placed.runs {
-            let indices = self.geometry.meshes[run.mesh].indices;
+        for group in &groups {
+            let indices = self.geometry.meshes[group.mesh].indices;
             let Some(adopt) = &self.adopt[kernel(indices)] else {
                 continue;
             };
             let counts = AdoptedCounts {
-                first_triangle: run.triangles[0],
-                triangle_count: run.triangles[1],
-                draw_count: placed.draws.len() as u32,
+                first_triangle: group.triangles[0],
+                triangle_count: group.triangles[1],
+                first_draw: group.draws[0],
+                draw_count: group.draws[1],
                 first_index: indices.map_or(0, |indices| indices.first_lent(limits)),
                 index_count: indices.map_or(0, |indices| indices.capacity),
-                topology: run.topology as u32,
-                clockwise: u32::from(run.front_face == vk::FrontFace::CLOCKWISE),
+                topology: group.topology as u32,
+                clockwise: u32::from(group.front_face == vk::FrontFace::CLOCKWISE),
             };
-            recorder.show(&self.sets[run.mesh].adopt);
+            recorder.show(&self.sets[group.mesh].adopt);
             adopt.record(recorder, &counts, counts.triangle_count);
         }
     }
 
-    fn record_vertices(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
+    /// Runs of the CPU's draws, and lists of indirect draws.
+    fn groups(&self, placed: &PlacedDraws) -> Vec<DrawGroup> {
+        let drawn = placed.runs.iter().map(|run: &DrawRun| DrawGroup {
+            mesh: run.mesh,
+            topology: run.topology,
+            front_face: run.front_face,
+            draws: [0, placed.draws.len() as u32],
+            triangles: run.triangles,
+            positions: run.positions,
+        });
+        let indirect = placed.indirect.iter().map(|part| {
+            let list = &self.geometry.indirect[part.list];
+            DrawGroup {
+                mesh: list.mesh as usize,
+                topology: list.topology,
+                front_face: list.front_face,
+                draws: [part.first_draw, list.draws() as u32],
+                triangles: [part.first_triangle, list.triangle_capacity],
+                positions: [part.first_position, list.positions(self.geometry.position_space) as u32],
+            }
+        });
+        drawn.chain(indirect).collect()
+    }
+
+    fn record_vertices(&self, recorder: &Recorder<'_>, groups: &[DrawGroup]) {
         let limits = self.shared.gpu.limits();
-        let parts = self.vertex_parts(placed);
-        let counts = |[first, count]: [u32; 2], before: u32, stride: u32| VertexCounts {
-            first_position: first,
-            position_count: count,
-            draw_count: placed.draws.len() as u32,
-            first_word: before / 4,
-            stride: stride / 4,
+        let parts = self.vertex_parts(groups);
+        let counts = |part: &VertexPart, format: VertexFormat, before: u32, stride: u32| {
+            let [x, y, z] = format.bias;
+            VertexCounts {
+                scale: format.factor(),
+                bias: [x, y, z, 0.0],
+                first_position: part.positions[0],
+                position_count: part.positions[1],
+                first_draw: part.draws[0],
+                draw_count: part.draws[1],
+                first_half: before / 2,
+                stride: stride / 2,
+            }
         };
-        if let Some(coordinates) = &self.coordinates {
-            for &(mesh, positions) in &parts {
-                let lent = self.geometry.meshes[mesh].lent_coordinates(limits);
-                if let Some((set, (lent, bytes))) = self.sets[mesh].coordinates.as_ref().zip(lent) {
-                    let counts = counts(positions, bytes.before, lent.stride);
-                    recorder.show(set);
-                    coordinates.record(recorder, &counts, counts.position_count);
-                }
+        for part in &parts {
+            let lent = self.geometry.meshes[part.mesh].lent_coordinates(limits);
+            if let Some((set, (lent, bytes))) = self.sets[part.mesh].coordinates.as_ref().zip(lent)
+                && let Some(kernel) = &self.coordinates[lent.format.kind() as usize]
+            {
+                let counts = counts(part, lent.format, bytes.before, lent.stride);
+                recorder.show(set);
+                kernel.record(recorder, &counts, counts.position_count);
             }
         }
-        if let Some(transform) = &self.transform {
-            for &(mesh, positions) in &parts {
-                let lent = &self.geometry.meshes[mesh];
-                let before = lent.lent_positions(self.geometry.position_space, limits).before;
-                if let Some(set) = &self.sets[mesh].transform {
-                    let counts = counts(positions, before, lent.position_stride);
-                    recorder.show(set);
-                    transform.record(recorder, &counts, counts.position_count);
-                }
+        for part in &parts {
+            let lent = &self.geometry.meshes[part.mesh];
+            let before = lent.lent_positions(self.geometry.position_space, limits).before;
+            if let Some(set) = &self.sets[part.mesh].transform
+                && let Some(kernel) = &self.transform[lent.position_format.kind() as usize]
+            {
+                let counts = counts(part, lent.position_format, before, lent.position_stride);
+                recorder.show(set);
+                kernel.record(recorder, &counts, counts.position_count);
             }
         }
     }
 
-    /// Parts of meshes to transform: the index of a mesh, and the first index and the number of the positions in clip
-    /// space that are made from it. With positions in object space, each run of draws is a part; with positions in clip
+    /// Parts of meshes to transform. With positions in object space, each group of draws is a part; with positions in clip
     /// space, each mesh that is drawn.
-    fn vertex_parts(&self, placed: &PlacedDraws) -> Vec<(usize, [u32; 2])> {
+    fn vertex_parts(&self, groups: &[DrawGroup]) -> Vec<VertexPart> {
         if self.geometry.position_space != PositionSpace::Clip {
-            let part = |run: &DrawRun| (run.mesh, run.positions);
-            return placed.runs.iter().map(part).collect();
+            let part =
+                |group: &DrawGroup| VertexPart { mesh: group.mesh, draws: group.draws, positions: group.positions };
+            return groups.iter().map(part).collect();
         }
         let mut is_drawn = vec![false; self.geometry.meshes.len()];
-        for run in &placed.runs {
-            is_drawn[run.mesh] = true;
+        for group in groups {
+            is_drawn[group.mesh] = true;
         }
         let meshes = self.geometry.meshes.iter().enumerate();
         let parts = meshes.zip(self.geometry.first_positions());
-        let parts = parts.map(|((number, mesh), first)| (number, [first, mesh.vertex_capacity]));
-        parts.filter(|(number, _)| is_drawn[*number]).collect()
+        // Positions in clip space are not those of a draw.
+        let part = |((mesh, lent), first): ((usize, &Mesh), u32)| VertexPart {
+            mesh,
+            draws: [0, 0],
+            positions: [first, lent.vertex_capacity],
+        };
+        parts.map(part).filter(|part| is_drawn[part.mesh]).collect()
     }
+}
+
+/// Positions in clip space that are made from a mesh.
+struct VertexPart {
+    mesh: usize,
+    /// First draw and number of draws among which those of the positions are searched.
+    draws: [u32; 2],
+    /// First position and number of positions.
+    positions: [u32; 2],
 }

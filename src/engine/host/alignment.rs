@@ -41,18 +41,18 @@ pub(super) fn descriptor_alignment(limits: &Limits) -> u64 {
     limits.buffer_alignment.max(16)
 }
 
-/// Checks the layout of a lent buffer: `offset` is a multiple of `alignment`, `stride` a multiple of 4 and not below
-/// its minimum, and the range `lent` within the device's limits.
+/// Checks the layout of a lent buffer: `offset` is a multiple of `alignment`, `stride` a multiple of its unit and not below
+/// its minimum, and the range `lent` within the device's limits. A stride comes with its name, minimum and unit.
 pub(super) fn check_layout(
     limits: &Limits,
     (offset_name, offset, alignment): (&'static str, u64, u64),
-    stride: Option<(&'static str, u32, u32)>,
+    stride: Option<(&'static str, u32, u32, u32)>,
     (buffer_name, lent): (&'static str, LentBytes),
 ) -> Result<(), HostError> {
-    if let Some((what, found, least)) = stride
-        && (found % 4 != 0 || found < least)
+    if let Some((what, found, least, unit)) = stride
+        && (found % unit != 0 || found < least)
     {
-        return Err(HostError::Stride { what, found, least });
+        return Err(HostError::Stride { what, found, least, unit });
     }
     if offset % alignment != 0 {
         return Err(HostError::Alignment { what: offset_name, offset, alignment });

@@ -181,7 +181,7 @@ impl Alpha {
         let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
         let limit = memory.gpu().limits().max_storage_bytes;
         VulkanError::check_limit("alpha maps", 4 * places.words, "bytes", limit)?;
-        let positions = u64::from(geometry.position_capacity());
+        let positions = geometry.all_positions();
         Ok(Self {
             atlas: texels("alpha maps", places.words, vk::Format::R32_UINT)?,
             rows: texels("rows of alpha maps", places.rows.len() as u64, vk::Format::R32G32B32A32_UINT)?,

@@ -1,8 +1,8 @@
 //! One sample a pixel: what the host has drawn, and what is drawn in its stead.
 
-use super::draw::PlacedDraws;
+use super::draw::{PlacedDraws, TrianglePart};
 use super::{HostError, Shared};
-use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, HostImage, Resources};
+use crate::engine::data::{ColorConstants, Content, FrameUniform, HostImage, Resources};
 use crate::engine::passes::{Centres, Raster, RasterPush, RasterRun, RasterTargets, sort, take};
 use crate::engine::pipelines::Pass;
 use crate::engine::sampler::RecordShading;
@@ -83,17 +83,16 @@ impl Base {
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let push = RasterPush { matrix: *transform, instance: [0, placed.triangles, 0, 0] };
     let mut runs: Vec<RasterRun> = Vec::new();
-    let solid = |draw: &HostDraw| draw.first_triangle < placed.solid;
-    for (draw, triangle_count) in placed.counted().filter(|(draw, _)| solid(draw)) {
-        let double_sided = draw.is_double_sided();
-        let masked = draw.first_triangle >= placed.opaque;
+    for part in placed.parts.iter().filter(|part| part.first_triangle < placed.solid) {
+        let &TrianglePart { first_triangle, triangle_count, double_sided } = part;
+        let masked = first_triangle >= placed.opaque;
         match runs.last_mut() {
             Some(run) if (run.double_sided, run.masked) == (double_sided, masked) => {
                 run.triangle_count += triangle_count;
             }
             _ => runs.push(RasterRun {
                 push,
-                first_index: draw.first_triangle,
+                first_index: first_triangle,
                 triangle_count,
                 double_sided,
                 masked,

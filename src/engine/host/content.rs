@@ -38,7 +38,7 @@ impl HostContent {
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
         let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
-        let triangles = u64::from(geometry.triangle_capacity);
+        let triangles = geometry.all_triangles();
         let limits = gpu.limits();
         let read_in_place = geometry.meshes.first();
         let read_in_place = read_in_place.filter(|_| geometry.is_read_in_place(limits));
@@ -51,7 +51,7 @@ impl HostContent {
                 info,
             }
         } else {
-            let positions = u64::from(geometry.position_capacity());
+            let positions = geometry.all_positions();
             Positions::Made(texels("positions", positions, float4)?)
         };
         Ok(Self {
@@ -61,7 +61,7 @@ impl HostContent {
             alpha: (!geometry.alpha_maps.is_empty()).then(|| Alpha::new(memory, geometry)).transpose()?,
             unread_floats: texels("unread vectors", 1, float4)?,
             unread_words: texels("unread words", 1, uint4)?,
-            triangle_capacity: geometry.triangle_capacity,
+            triangle_capacity: triangles as u32,
             keys: geometry.keys,
             blended: geometry.blended,
         })

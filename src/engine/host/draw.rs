@@ -1,6 +1,7 @@
 //! Draws of a host.
 
-use super::{Geometry, HostError, Mesh, PositionSpace, Topology};
+use super::indirect::IndirectPart;
+use super::{Geometry, HostError, IndirectDraws, Mesh, PositionSpace, Topology};
 use crate::engine::data::{HostDraw, TriangleWord};
 use ash::vk;
 
@@ -78,6 +79,22 @@ pub(super) struct DrawRun {
     pub positions: [u32; 2],
 }
 
+/// Consecutive triangles of a draw, or of a list of indirect draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct TrianglePart {
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    pub double_sided: bool,
+}
+
+/// Order of triangles: opaque, with alpha maps, blended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Class {
+    Opaque,
+    AlphaTested,
+    Blended,
+}
+
 /// Draws of a frame, with their places in the device's buffers.
 #[derive(Default)]
 pub(super) struct PlacedDraws {
@@ -86,7 +103,13 @@ pub(super) struct PlacedDraws {
     pub matrices: Vec<[[f32; 4]; 4]>,
     /// Runs of the draws that have triangles.
     pub runs: Vec<DrawRun>,
-    /// Number of triangles of all draws.
+    /// Parts of the lists of indirect draws.
+    pub indirect: Vec<IndirectPart>,
+    /// Triangles of each draw and of each list of indirect draws, in their order.
+    pub parts: Vec<TrianglePart>,
+    /// Number of triangles of the draws.
+    pub drawn_triangles: u32,
+    /// Number of places for triangles: those of the draws, and as many as lists of indirect draws may have.
     pub triangles: u32,
     /// Number of triangles of opaque draws without alpha maps; these triangles come first.
     pub opaque: u32,
@@ -107,21 +130,26 @@ impl PlacedDraws {
         }
         let in_clip = geometry.position_space == PositionSpace::Clip;
         let mut placed = Self { draws: Vec::with_capacity(draws.len()), ..Self::default() };
+        let mut lists = Lists::new(geometry);
         // First positions of the meshes, if positions are in clip space.
         let firsts: Vec<u32> = geometry.first_positions().collect();
         let mut made = 0;
         for (number, draw) in draws.iter().enumerate() {
             let mesh = draw.check(geometry, number)?;
             let vertices = if in_clip || draw.triangle_count == 0 { 0 } else { draw.vertex_count };
-            let triangles = u64::from(placed.triangles) + u64::from(draw.triangle_count);
+            let drawn = u64::from(placed.drawn_triangles) + u64::from(draw.triangle_count);
             let positions = u64::from(made) + u64::from(vertices);
-            if triangles > u64::from(geometry.triangle_capacity) {
-                return Err(capacity("triangles", triangles, geometry.triangle_capacity));
+            if drawn > u64::from(geometry.triangle_capacity) {
+                return Err(capacity("triangles", drawn, geometry.triangle_capacity));
             }
             if !in_clip && positions > u64::from(geometry.position_capacity()) {
                 let most = geometry.position_capacity();
                 return Err(capacity("vertices", positions, most));
             }
+            if draw.triangle_count > 0 {
+                lists.place(&mut placed, |class| class < draw.class());
+            }
+            let triangles = placed.triangles + draw.triangle_count;
             let offset = draw.vertex_offset.cast_unsigned();
             let common = HostDraw {
                 first_triangle: placed.triangles,
@@ -154,17 +182,24 @@ impl PlacedDraws {
                 if comes_late(placed.solid) {
                     return Err(HostError::BlendedOrder { draw: number });
                 }
-                placed.solid = triangles as u32;
+                placed.solid = triangles;
             }
             if !draw.blended && draw.alpha_map.is_none() {
                 if comes_late(placed.opaque) {
                     return Err(HostError::Order { draw: number });
                 }
-                placed.opaque = triangles as u32;
+                placed.opaque = triangles;
             }
-            placed.triangles = triangles as u32;
+            placed.parts.push(TrianglePart {
+                first_triangle: placed.triangles,
+                triangle_count: draw.triangle_count,
+                double_sided: draw.double_sided,
+            });
+            placed.drawn_triangles = drawn as u32;
+            placed.triangles = triangles;
             made = positions as u32;
         }
+        lists.place(&mut placed, |_| true);
         Ok(placed)
     }
 
@@ -175,7 +210,11 @@ impl PlacedDraws {
         }
         let kind = (draw.mesh as usize, draw.topology, draw.front_face);
         match self.runs.last_mut() {
-            Some(run) if (run.mesh, run.topology, run.front_face) == kind => {
+            // Indirect draws may come between.
+            Some(run)
+                if (run.mesh, run.topology, run.front_face) == kind
+                    && run.triangles.iter().sum::<u32>() == self.triangles =>
+            {
                 run.triangles[1] += draw.triangle_count;
                 run.positions[1] += vertices;
             }
@@ -190,13 +229,59 @@ impl PlacedDraws {
     }
 }
 
-impl PlacedDraws {
-    /// Draws, each with its number of triangles.
-    pub fn counted(&self) -> impl Iterator<Item = (&HostDraw, u32)> {
-        let next = self.draws.iter().skip(1).map(|draw| draw.first_triangle);
-        let ends = next.chain([self.triangles]);
-        let draws = self.draws.iter().zip(ends);
-        draws.map(|(draw, end)| (draw, end - draw.first_triangle))
+/// Lists of indirect draws that are placed among the draws.
+struct Lists<'a> {
+    /// Lists that are not placed yet, in the order of their classes, with their parts as far as these are known.
+    left: std::iter::Peekable<std::vec::IntoIter<(&'a IndirectDraws, IndirectPart)>>,
+}
+
+impl<'a> Lists<'a> {
+    fn new(geometry: &'a Geometry) -> Self {
+        let mut first_draw = geometry.draw_capacity;
+        let mut first_made = u64::from(geometry.position_capacity());
+        let firsts: Vec<u32> = geometry.first_positions().collect();
+        let mut lists = Vec::new();
+        for (number, list) in geometry.indirect.iter().enumerate() {
+            let first_position = match geometry.position_space {
+                PositionSpace::Clip => firsts.get(list.mesh as usize).copied().unwrap_or_default(),
+                PositionSpace::Object { .. } => first_made as u32,
+            };
+            lists.push((list, IndirectPart { list: number, first_triangle: 0, first_draw, first_position }));
+            first_draw += list.draws() as u32;
+            first_made += list.positions(geometry.position_space);
+        }
+        lists.sort_by_key(|(list, _)| list.class());
+        Self { left: lists.into_iter().peekable() }
+    }
+
+    /// Places the next lists, as far as their classes are `due`.
+    fn place(&mut self, placed: &mut PlacedDraws, due: impl Fn(Class) -> bool) {
+        while let Some((list, part)) = self.left.next_if(|(list, _)| due(list.class())) {
+            let first_triangle = placed.triangles;
+            placed.indirect.push(IndirectPart { first_triangle, ..part });
+            placed.parts.push(TrianglePart {
+                first_triangle,
+                triangle_count: list.triangle_capacity,
+                double_sided: list.double_sided,
+            });
+            placed.triangles += list.triangle_capacity;
+            if list.class() < Class::Blended {
+                placed.solid = placed.triangles;
+            }
+            if list.class() == Class::Opaque {
+                placed.opaque = placed.triangles;
+            }
+        }
+    }
+}
+
+impl IndirectDraws {
+    fn class(&self) -> Class {
+        match (self.blended, self.alpha_tested) {
+            (true, _) => Class::Blended,
+            (false, true) => Class::AlphaTested,
+            (false, false) => Class::Opaque,
+        }
     }
 }
 
@@ -267,6 +352,14 @@ impl Draw {
         Ok(mesh)
     }
 
+    fn class(&self) -> Class {
+        match (self.blended, self.alpha_map) {
+            (true, _) => Class::Blended,
+            (false, Some(_)) => Class::AlphaTested,
+            (false, None) => Class::Opaque,
+        }
+    }
+
     fn word(&self) -> u32 {
         let word = TriangleWord {
             // The alpha test finds the map's row by this number.
@@ -281,7 +374,7 @@ impl Draw {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AlphaMap, ClipSpace, Coordinates, Indices};
+    use super::super::{AlphaMap, ClipSpace, Coordinates, Indices, VertexFormat};
     use super::*;
     use ash::vk::Handle;
 
@@ -290,6 +383,7 @@ mod tests {
             positions: vk::Buffer::from_raw(1),
             positions_offset: 0,
             position_stride: 16,
+            position_format: VertexFormat::FLOAT,
             vertex_capacity: 100,
             coordinates: None,
             indices: Some(Indices {
@@ -305,6 +399,7 @@ mod tests {
         Geometry {
             meshes: vec![mesh()],
             position_space: PositionSpace::Clip,
+            indirect: Vec::new(),
             triangle_capacity: 12,
             draw_capacity: 3,
             keys: 2,
@@ -334,7 +429,7 @@ mod tests {
         let firsts: Vec<_> = placed.draws.iter().map(|d| (d.first_triangle, d.first_index)).collect();
         assert_eq!(firsts, [(0, 30), (4, 0), (4, 0)]);
         assert_eq!(placed.draws[0].word, 1 << 16);
-        let counts: Vec<_> = placed.counted().map(|(_, triangles)| triangles).collect();
+        let counts: Vec<_> = placed.parts.iter().map(|part| part.triangle_count).collect();
         assert_eq!(counts, [4, 0, 7]);
         assert!(placed.matrices.is_empty());
     }
@@ -397,8 +492,15 @@ mod tests {
             address: [vk::SamplerAddressMode::REPEAT; 2],
             cutoff: 0.5,
         };
-        let with_coordinates =
-            Mesh { coordinates: Some(Coordinates { buffer: vk::Buffer::from_raw(4), offset: 0, stride: 8 }), ..mesh() };
+        let with_coordinates = Mesh {
+            coordinates: Some(Coordinates {
+                buffer: vk::Buffer::from_raw(4),
+                offset: 0,
+                stride: 8,
+                format: VertexFormat::FLOAT,
+            }),
+            ..mesh()
+        };
         let geometry = Geometry { meshes: vec![with_coordinates, mesh()], alpha_maps: vec![map; 2], ..geometry() };
         let masked = |alpha_map| Draw { alpha_map: Some(alpha_map), material: 7, ..draw(0, 2, 0) };
         let placed = PlacedDraws::new(&geometry, &[draw(0, 3, 0), masked(1)]).unwrap();

@@ -34,8 +34,8 @@ pub enum HostError {
         /// Required divisor of the offset.
         alignment: u64,
     },
-    /// Stride that is smaller than an element, or no multiple of 4 bytes.
-    #[error("{what} is {found} bytes; it can be any multiple of 4 from {least} on")]
+    /// Stride that is smaller than an element, or no multiple of its unit.
+    #[error("{what} is {found} bytes; it can be any multiple of {unit} from {least} on")]
     Stride {
         /// Name of the stride.
         what: &'static str,
@@ -43,7 +43,71 @@ pub enum HostError {
         found: u32,
         /// Smallest possible stride in bytes.
         least: u32,
+        /// Required divisor of the stride.
+        unit: u32,
     },
+    /// Format of a vertex attribute that shaders of the library can't read.
+    #[error(
+        "{what} is {found:?}; it can have 32-bit SFLOAT components, or 16-bit SFLOAT, UNORM or SNORM components, {least} or more of them"
+    )]
+    VertexFormat {
+        /// Name of the format.
+        what: &'static str,
+        /// Format that was given.
+        found: vk::Format,
+        /// Smallest number of components.
+        least: u32,
+    },
+    /// Scale or bias of a vertex attribute that is not finite.
+    #[error("{what} has a scale or a bias that is not finite")]
+    VertexScale {
+        /// Name of the format.
+        what: &'static str,
+    },
+    /// Format of positions in clip space that are not floats.
+    #[error(
+        "Mesh::position_format is {found:?} with a scale and a bias; positions in clip space are four floats, as VertexFormat::FLOAT says"
+    )]
+    ClipFormat {
+        /// Format that was given.
+        found: vk::Format,
+    },
+    /// Error in a list of indirect draws.
+    #[error("list {list} of indirect draws: {error}")]
+    IndirectList {
+        /// Index of the list.
+        list: usize,
+        /// Error in this list.
+        #[source]
+        error: Box<HostError>,
+    },
+    /// List of indirect draws whose mesh does not exist.
+    #[error("mesh is {mesh}, and there are {meshes}, from 0")]
+    IndirectMesh {
+        /// Index of the mesh that was given.
+        mesh: u32,
+        /// Number of meshes.
+        meshes: usize,
+    },
+    /// Orientation of front faces of indirect draws that Vulkan 1.3 does not have.
+    #[error("front_face is {found:?}; it can be COUNTER_CLOCKWISE or CLOCKWISE")]
+    IndirectFrontFace {
+        /// Orientation that was given.
+        found: vk::FrontFace,
+    },
+    /// State of indirect draws for which the rest of the geometry lacks something.
+    #[error("the draws are {what}: {remedy}")]
+    IndirectState {
+        /// State that the draws have.
+        what: &'static str,
+        /// Advice.
+        remedy: &'static str,
+    },
+    /// Lent IDs with indirect draws, whose triangles' numbers the host does not know.
+    #[error(
+        "the host lends IDs and there are indirect draws: the library has to draw the IDs, so set ImageKinds::ids to false"
+    )]
+    IndirectIds,
     /// Error in one of several meshes.
     #[error("mesh {mesh}: {error}")]
     Mesh {

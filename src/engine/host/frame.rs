@@ -8,7 +8,7 @@ use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
-use super::{Draw, Geometry, HostError, ImageKinds, Images, LentImage, Options, Shared};
+use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Options, Shared};
 use crate::engine::data::{Content, FrameUniform, HostImage, IdViews, Offsets, Resources};
 use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
 use crate::engine::sampler::Capacity;
@@ -59,6 +59,8 @@ pub struct Outcome {
     /// Number of superpixels and tiles for which memory or [`Options::max_rounds`] did not suffice; these keep the colours that
     /// they had. The frame's next recording has more memory, unless [`Options::fixed_memory`] is set.
     pub left_over: u64,
+    /// Counts of [`IndirectDraws`](super::IndirectDraws).
+    pub indirect: IndirectCounts,
 }
 
 /// Pipelines and memory to antialias one frame in flight of a host.
@@ -167,7 +169,7 @@ impl Work {
         };
         Ok(Self {
             base: Base::new(shared, content, drawn.as_ref(), (!kinds.ids).then_some(filters), &output)?,
-            patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, patched)?,
+            patch: Patch::new(layout, (kinds.color_format, kinds.color_encoded), options.keep_alpha, patched)?,
             timings: Timings::new(gpu),
             settings,
             plan,
@@ -237,6 +239,9 @@ impl Frame {
             return Err(HostError::BlendedBackground);
         }
         kinds.check(options)?;
+        if kinds.ids && !geometry.indirect.is_empty() {
+            return Err(HostError::IndirectIds);
+        }
         let memory = Memory::new(gpu.clone(), options.max_memory);
         // SAFETY: passed on to the caller.
         let lending = unsafe { Lending::new(shared, memory, geometry) }?;
@@ -387,7 +392,7 @@ impl Frame {
         let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &recorder;
         let lending = &mut self.lending;
-        lending.record_begin(recorder, placed.triangles, &mut work.is_uploaded, |recorder| {
+        lending.record_begin(recorder, placed.drawn_triangles, &mut work.is_uploaded, |recorder| {
             resources.record_upload(recorder);
         });
         let lending = &self.lending;

@@ -1,8 +1,8 @@
 //! Geometry of a host: buffers and capacities for the draws of all frames.
 
 use super::alpha::{AlphaMap, MOST_MAPS};
-use super::{HostError, Mesh};
-use crate::vulkan::{Gpu, Limits};
+use super::{HostError, IndirectDraws, Mesh};
+use crate::vulkan::{Gpu, Limits, VulkanError};
 
 /// Conventions of the host's clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,10 +38,10 @@ impl ClipSpace {
 pub enum PositionSpace {
     /// Clip space, four floats: the same values that the host's vertex shader outputs.
     Clip,
-    /// Object space of the draw, three floats; [`Draw::to_clip`](super::Draw::to_clip) transforms them to clip space.
+    /// Object space of the draw, three numbers; [`Draw::to_clip`](super::Draw::to_clip) transforms them to clip space.
     Object {
-        /// Largest total number of vertices of a frame's draws. Vertices that several draws share count once for each
-        /// draw.
+        /// Largest total number of vertices of a recording's [draws](super::Draw). Vertices that several draws share count
+        /// once for each draw.
         capacity: u32,
     },
 }
@@ -59,9 +59,12 @@ pub struct Geometry {
     pub alpha_maps: Vec<AlphaMap>,
     /// Whether draws may be [blended](super::Draw::blended).
     pub blended: bool,
-    /// Largest total number of triangles of a frame's draws.
+    /// Lists of draws that the device writes, in addition to the [draws](super::Draw) of a recording. They have
+    /// capacities of their own.
+    pub indirect: Vec<IndirectDraws>,
+    /// Largest total number of triangles of a recording's draws. 0 is possible if there are indirect draws.
     pub triangle_capacity: u32,
-    /// Largest number of draws of a frame.
+    /// Largest number of a recording's draws. 0 is possible if there are indirect draws.
     pub draw_capacity: u32,
     /// Number of shading keys, 1 to 16,383.
     pub keys: u32,
@@ -94,13 +97,27 @@ impl Geometry {
             PositionSpace::Clip => "vertices of all meshes",
             PositionSpace::Object { .. } => "the capacity of positions in object space",
         };
-        for (what, found, most) in [
-            (positions, self.position_capacity(), texels),
-            ("triangle_capacity", self.triangle_capacity, texels.min(MOST_TRIANGLES)),
-            ("draw_capacity", self.draw_capacity, 1 << 24),
-            ("keys", self.keys, MOST_KEYS),
+        // Without draws of the CPU there may be draws of the device.
+        let may_lack = !self.indirect.is_empty();
+        for (what, found, most, may_be_0) in [
+            (positions, self.position_capacity(), texels, may_lack),
+            ("triangle_capacity", self.triangle_capacity, texels.min(MOST_TRIANGLES), may_lack),
+            ("draw_capacity", self.draw_capacity, 1 << 24, may_lack),
+            ("keys", self.keys, MOST_KEYS, false),
         ] {
-            HostError::check_count(what, found, most)?;
+            if !(may_be_0 && found == 0) {
+                HostError::check_count(what, found, most)?;
+            }
+        }
+        for (number, list) in self.indirect.iter().enumerate() {
+            list.check(self, number, limits)?;
+        }
+        for (what, needed, limit) in [
+            ("triangles of all draws", self.all_triangles(), texels.min(MOST_TRIANGLES)),
+            ("positions of all draws", self.all_positions(), texels),
+            ("draws and indirect draws", self.all_draws(), 1 << 25),
+        ] {
+            VulkanError::check_limit(what, needed, "elements", u64::from(limit))?;
         }
         let [least, most] = self.clip.depth_range;
         if !(least.is_finite() && most.is_finite() && least != most) {
@@ -153,7 +170,24 @@ impl Geometry {
         })
     }
 
-    /// Largest number of positions in clip space.
+    /// Places for triangles of all draws.
+    pub(super) fn all_triangles(&self) -> u64 {
+        let lists = self.indirect.iter().map(|list| u64::from(list.triangle_capacity));
+        u64::from(self.triangle_capacity) + lists.sum::<u64>()
+    }
+
+    /// Places for draws.
+    pub(super) fn all_draws(&self) -> u64 {
+        u64::from(self.draw_capacity) + self.indirect.iter().map(IndirectDraws::draws).sum::<u64>()
+    }
+
+    /// Places for positions in clip space.
+    pub(super) fn all_positions(&self) -> u64 {
+        let lists = self.indirect.iter().map(|list| list.positions(self.position_space));
+        u64::from(self.position_capacity()) + lists.sum::<u64>()
+    }
+
+    /// Largest number of positions in clip space, without those of indirect draws.
     pub(super) fn position_capacity(&self) -> u32 {
         match self.position_space {
             PositionSpace::Clip => {

@@ -5,13 +5,13 @@ use crate::engine::sampler::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// Image of a host: single-sampled, with one level and one layer, and at least as large as
+/// Image of a host: single-sampled, with one level, and at least as large as
 /// [`Options::size`](super::Options::size).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LentImage {
     /// Handle of the image.
     pub image: vk::Image,
-    /// Two-dimensional view of the image, with a single aspect.
+    /// Two-dimensional view of the image, with a single aspect and a single layer.
     pub view: vk::ImageView,
     /// All aspects of the image's format, including stencil, which the library does not read.
     pub aspects: vk::ImageAspectFlags,
@@ -50,6 +50,8 @@ pub struct Images {
     /// Upper left pixel of the frame's part of these images. The part has the size
     /// [`Options::size`](super::Options::size); the library neither reads nor writes pixels outside of it.
     pub corner: [u32; 2],
+    /// Array layer of the images that the views show, of which the library changes the layout.
+    pub layer: u32,
 }
 
 /// Colour formats that shaders can read as floats and that can be drawn to.
@@ -111,8 +113,8 @@ impl LentImage {
         }
     }
 
-    fn record(&self, recorder: &Recorder<'_>, from: ImageState, to: ImageState) {
-        from.change(recorder, self.image, self.aspects, to);
+    fn record(&self, recorder: &Recorder<'_>, layer: u32, from: ImageState, to: ImageState) {
+        from.change(recorder, self.image, (self.aspects, layer), to);
     }
 }
 
@@ -158,7 +160,7 @@ impl Images {
             }
         }
         let names = ("the image of colours", "the view of colours");
-        self.color.check(names, !options.shade_all, &COLOR)
+        self.color.check(names, !options.shade_all || options.keep_alpha, &COLOR)
     }
 
     fn read(&self) -> impl Iterator<Item = &LentImage> {
@@ -168,7 +170,7 @@ impl Images {
     /// Records the barriers that ready all images for reading.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         for image in self.read().chain([&self.color]) {
-            image.record(recorder, image.before, ImageState::READ);
+            image.record(recorder, self.layer, image.before, ImageState::READ);
         }
     }
 
@@ -180,15 +182,15 @@ impl Images {
 
     /// Records the barrier that readies the colour image for drawing.
     pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
-        self.color.record(recorder, ImageState::READ, ImageState::DRAWN);
+        self.color.record(recorder, self.layer, ImageState::READ, ImageState::DRAWN);
     }
 
     /// Records the barriers that change all images to their final states.
     pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
         for image in self.read() {
-            image.record(recorder, ImageState::READ, image.after);
+            image.record(recorder, self.layer, ImageState::READ, image.after);
         }
-        self.color.record(recorder, ImageState::DRAWN, self.color.after);
+        self.color.record(recorder, self.layer, ImageState::DRAWN, self.color.after);
     }
 }
 
@@ -211,6 +213,7 @@ mod tests {
             depth: Some(LentImage { aspects: vk::ImageAspectFlags::DEPTH, ..lent }),
             color: lent,
             corner: [0, 0],
+            layer: 0,
         }
     }
 
@@ -254,6 +257,7 @@ mod tests {
         shaded.color.before.layout = vk::ImageLayout::UNDEFINED;
         let options = Options { shade_all: true, ..Options::new(64, 32) };
         assert!(shaded.check(&KINDS, &options, 1024).is_ok());
+        assert!(shaded.check(&KINDS, &options.keep_alpha(true), 1024).is_err(), "there is no alpha to keep");
         let aspects = refused(&|images| images.color.aspects = vk::ImageAspectFlags::DEPTH);
         assert_eq!(aspects, "the image of colours has the aspects DEPTH; it can have COLOR");
         let none = refused(&|images| {

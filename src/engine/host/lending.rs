@@ -6,7 +6,7 @@ use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
-use super::{Geometry, HostError, Outcome, Shared};
+use super::{Geometry, HostError, IndirectCounts, Outcome, Shared};
 use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
 use crate::engine::sampler::{Capacity, Sampler, Shortfall, Statistics};
 use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
@@ -24,7 +24,7 @@ pub(super) struct Lending {
     /// Whether the device has executed a recording that reads the alpha maps.
     has_alpha: bool,
     memory: Memory,
-    /// Number of triangles of the last recording.
+    /// Number of triangles of the last recording, without those of indirect draws.
     triangles: u32,
 }
 
@@ -184,11 +184,13 @@ impl Lending {
     ) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall(sampler, sizes.tiles())?;
         let mut statistics = Statistics { regions: 1, memory_bytes, ..Statistics::default() };
-        statistics.triangles.total = u64::from(self.triangles);
+        let indirect = self.adoption.indirect.as_ref();
+        let indirect = indirect.map_or(Ok(IndirectCounts::default()), |placing| placing.counts())?;
+        statistics.triangles.total = u64::from(self.triangles) + indirect.triangles;
         sampler.add_statistics([sizes.tiles()], &mut statistics)?;
         for time in timings.read()? {
             statistics.add_time(time);
         }
-        Ok(Outcome { statistics, left_over: shortfall.left() })
+        Ok(Outcome { statistics, left_over: shortfall.left(), indirect })
     }
 }

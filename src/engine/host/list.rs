@@ -6,7 +6,7 @@ use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
-use super::{Draw, Geometry, HostError, ListOptions, Outcome, Shared};
+use super::{Draw, Geometry, HostError, IndirectCounts, ListOptions, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
 use crate::engine::passes::{ListLength, RasterTargets};
 use crate::engine::sampler::Capacity;
@@ -60,6 +60,8 @@ pub struct ListOutcome {
     /// Number of cells and tiles for which memory or [`ListOptions::max_rounds`] did not suffice; these show the
     /// background. The list's next recording has more memory, unless [`ListOptions::fixed_memory`] is set.
     pub left_over: u64,
+    /// Counts of [`IndirectDraws`](super::IndirectDraws).
+    pub indirect: IndirectCounts,
     /// Number of locations that lie outside of the image or are not finite; these show the background.
     pub left_out: u32,
 }
@@ -349,7 +351,7 @@ impl List {
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
         let recorder = &recorder;
-        self.lending.record_begin(recorder, placed.triangles, &mut work.is_uploaded, |recorder| {
+        self.lending.record_begin(recorder, placed.drawn_triangles, &mut work.is_uploaded, |recorder| {
             resources.record_upload(recorder);
             work.targets.record_unused(recorder);
         });
@@ -380,10 +382,10 @@ impl List {
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
     /// or timestamps can't be read.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let Outcome { statistics, left_over } = self
+        let Outcome { statistics, left_over, indirect } = self
             .lending
             .outcome((&self.work.sampler, self.work.resources.sizes()), (&self.work.timings, self.memory_bytes()))?;
-        Ok(ListOutcome { statistics, left_over, left_out: self.work.sampler.left_out()? })
+        Ok(ListOutcome { statistics, left_over, indirect, left_out: self.work.sampler.left_out()? })
     }
 
     fn footprints(&self) -> Footprints {

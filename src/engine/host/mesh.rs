@@ -1,19 +1,21 @@
 //! Buffers of a mesh, which a host's draws read.
 
 use super::alignment::{LentBytes, check_layout, descriptor_alignment};
-use super::{HostError, PositionSpace};
+use super::{HostError, PositionSpace, VertexFormat};
 use crate::vulkan::Limits;
 use ash::vk;
 
-/// Texture coordinates of vertices, two floats each, for alpha maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Texture coordinates of vertices, for alpha maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates {
-    /// Buffer, created with `STORAGE_BUFFER`.
+    /// Buffer, created with `STORAGE_BUFFER`. With 16-bit components, its size is a multiple of 4 bytes.
     pub buffer: vk::Buffer,
-    /// Offset of the first vertex's coordinates in bytes: a multiple of 4.
+    /// Offset of the first vertex's coordinates in bytes: a multiple of the size of a component.
     pub offset: u64,
-    /// Distance in bytes from one vertex to the next: a multiple of 4, at least 8.
+    /// Distance in bytes from one vertex to the next: a multiple of the size of a component, at least two components.
     pub stride: u32,
+    /// Format of the coordinates, with two components or more.
+    pub format: VertexFormat,
 }
 
 /// An index buffer.
@@ -30,15 +32,19 @@ pub struct Indices {
 }
 
 /// Buffers that draws read, bound together: those of one mesh, or of many meshes that share buffers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mesh {
     /// Buffer of vertex positions, created with `STORAGE_BUFFER`, and with `UNIFORM_TEXEL_BUFFER` too if positions are
-    /// in clip space with a stride of 16 bytes.
+    /// in clip space with a stride of 16 bytes. With 16-bit components, its size is a multiple of 4 bytes.
     pub positions: vk::Buffer,
-    /// Offset of the first position in bytes: a multiple of 4.
+    /// Offset of the first position in bytes: a multiple of the size of a component.
     pub positions_offset: u64,
-    /// Distance in bytes from one position to the next: a multiple of 4, and at least the size of a position.
+    /// Distance in bytes from one position to the next: a multiple of the size of a component, and at least the size of a
+    /// position.
     pub position_stride: u32,
+    /// Format of positions in object space, with three components or more. Positions in clip space are four floats, and
+    /// this is [`VertexFormat::FLOAT`].
+    pub position_format: VertexFormat,
     /// Largest number of vertices. A larger index is clamped to the last vertex; in object space, to the last vertex of
     /// the draw.
     pub vertex_capacity: u32,
@@ -52,11 +58,11 @@ pub struct Mesh {
 const CLIP_BYTES: u64 = 16;
 
 impl PositionSpace {
-    /// Size of a position in bytes.
-    fn bytes(self) -> u64 {
+    /// Size of a position in bytes, in a buffer with this format.
+    fn bytes(self, format: VertexFormat) -> u64 {
         match self {
             Self::Clip => CLIP_BYTES,
-            Self::Object { .. } => 12,
+            Self::Object { .. } => 3 * u64::from(format.component_bytes()),
         }
     }
 }
@@ -99,18 +105,21 @@ impl Indices {
 
 impl Coordinates {
     fn lent(&self, vertex_steps: u64, limits: &Limits) -> LentBytes {
-        let bytes = vertex_steps * u64::from(self.stride) + 8;
-        LentBytes::new(self.buffer, self.offset, bytes, limits)
+        let bytes = vertex_steps * u64::from(self.stride) + 2 * u64::from(self.format.component_bytes());
+        // Shaders read whole words.
+        LentBytes::new(self.buffer, self.offset, bytes, limits).in_words()
     }
 
     fn check(&self, vertex_steps: u64, limits: &Limits) -> Result<(), HostError> {
         if self.buffer == vk::Buffer::null() {
             return Err(HostError::NullHandle("the buffer of coordinates"));
         }
+        self.format.check("Coordinates::format", 2)?;
+        let unit = self.format.component_bytes();
         check_layout(
             limits,
-            ("coordinates_offset", self.offset, 4),
-            Some(("coordinates_stride", self.stride, 8)),
+            ("coordinates_offset", self.offset, u64::from(unit)),
+            Some(("coordinates_stride", self.stride, 2 * unit, unit)),
             ("the buffer of coordinates", self.lent(vertex_steps, limits)),
         )
     }
@@ -123,10 +132,16 @@ impl Mesh {
             return Err(HostError::NullHandle("the buffer of positions"));
         }
         HostError::check_count("vertex_capacity", self.vertex_capacity, most_vertices)?;
+        let format = self.position_format;
+        format.check("Mesh::position_format", 3)?;
+        if space == PositionSpace::Clip && format != VertexFormat::FLOAT {
+            return Err(HostError::ClipFormat { found: format.format });
+        }
+        let unit = format.component_bytes();
         check_layout(
             limits,
-            ("positions_offset", self.positions_offset, 4),
-            Some(("position_stride", self.position_stride, space.bytes() as u32)),
+            ("positions_offset", self.positions_offset, u64::from(unit)),
+            Some(("position_stride", self.position_stride, space.bytes(format) as u32, unit)),
             ("the buffer of positions", self.lent_positions(space, limits)),
         )?;
         self.indices.map_or(Ok(()), |indices| indices.check(limits))
@@ -143,8 +158,9 @@ impl Mesh {
     }
 
     pub(super) fn lent_positions(&self, space: PositionSpace, limits: &Limits) -> LentBytes {
-        let bytes = self.vertex_steps() * u64::from(self.position_stride) + space.bytes();
-        LentBytes::new(self.positions, self.positions_offset, bytes, limits)
+        let bytes = self.vertex_steps() * u64::from(self.position_stride) + space.bytes(self.position_format);
+        // Shaders read whole words.
+        LentBytes::new(self.positions, self.positions_offset, bytes, limits).in_words()
     }
 
     /// Texture coordinates and the range of their buffer, if there are any.

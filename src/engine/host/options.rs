@@ -42,6 +42,10 @@ pub struct Options {
     pub flat_background: bool,
     /// Whether the image holds radiance that is tone-mapped later; detection then compares tone-mapped colours.
     pub high_dynamic_range: bool,
+    /// Whether the alpha of the colour image stays as it is. Otherwise each pixel that the library draws gets the mean
+    /// opacity of its samples: 1 where a triangle that is not blended is seen, whatever the shading stores, and the drawn
+    /// alpha, or that of the background, where none is. With [`Self::shade_all`], the image has to hold something before.
+    pub keep_alpha: bool,
     /// Whether textures are filtered over the area that each sample represents, so that the image converges to the
     /// unfiltered scene; otherwise over the whole pixel.
     pub sharp: bool,
@@ -78,6 +82,7 @@ impl Options {
             background: None,
             flat_background: false,
             high_dynamic_range: false,
+            keep_alpha: false,
             sharp: true,
             shade_all: false,
             max_memory: None,
@@ -210,6 +215,7 @@ setters! {
         background: Option<[f32; 3]> = "the background as linear light; `None` for transparent",
         flat_background: bool = "whether the background is visible wherever there is no triangle",
         high_dynamic_range: bool = "whether the image holds radiance that is tone-mapped later",
+        keep_alpha: bool = "whether the alpha of the colour image stays as it is",
         sharp: bool = "whether textures are filtered over the area that each sample represents",
         shade_all: bool = "whether the host's shading computes the colours of all pixels",
         max_memory: Option<u64> = "the largest number of bytes of device memory for a frame",

@@ -6,12 +6,14 @@ use crate::vulkan::{PassTime, Recorder};
 use ash::vk;
 
 /// Names and texts of the GLSL includes for a host's shaders. `gpc_visibility.glsl` defines visibility samples and the
-/// functions that read and store them, `gpc_texture.glsl` filters textures over a sample's footprint, and
-/// `gpc_position.glsl` transforms vertices as the library does. The other files are included by these three.
-pub const SHADER_INCLUDES: [(&str, &str); 7] = [
+/// functions that read and store them, `gpc_texture.glsl` filters textures over a sample's footprint,
+/// `gpc_position.glsl` transforms vertices as the library does, and `gpc_instance.glsl` defines what a shader writes about
+/// an indirect draw. The other files are included by these.
+pub const SHADER_INCLUDES: [(&str, &str); 8] = [
     ("gpc_visibility.glsl", include_str!("../../../shaders/include/gpc_visibility.glsl")),
     ("gpc_texture.glsl", include_str!("../../../shaders/include/gpc_texture.glsl")),
     ("gpc_position.glsl", include_str!("../../../shaders/include/gpc_position.glsl")),
+    ("gpc_instance.glsl", include_str!("../../../shaders/include/gpc_instance.glsl")),
     ("place.glsl", include_str!("../../../shaders/include/place.glsl")),
     ("place_in_tile.glsl", include_str!("../../../shaders/include/place_in_tile.glsl")),
     ("barycentric.glsl", include_str!("../../../shaders/include/barycentric.glsl")),

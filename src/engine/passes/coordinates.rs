@@ -6,13 +6,17 @@ use crate::engine::spirv::{self, coordinates_set};
 use crate::vulkan::{Buffer, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 
-/// Makes the kernel. If draws have matrices, each draw has its own positions.
+/// Makes the kernel for numbers of the type `vertex_format`. If draws have matrices, each draw has its own positions.
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(crate) fn kernel(layout: &FrameLayout, draws: &Draws) -> Result<Kernel<spirv::Coordinates>, VulkanError> {
+pub(crate) fn kernel(
+    layout: &FrameLayout,
+    draws: &Draws,
+    vertex_format: u32,
+) -> Result<Kernel<spirv::Coordinates>, VulkanError> {
     let object = draws.matrices.is_some();
-    layout.kernel(&spirv::Coordinates { object })
+    layout.kernel(&spirv::Coordinates { object, vertex_format })
 }
 
 /// Makes a set with the draws, the host's vertices and the coordinates.

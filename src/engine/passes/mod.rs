@@ -28,6 +28,7 @@ mod enlist;
 mod filter;
 pub(crate) mod groups;
 pub(crate) mod grow;
+pub(crate) mod indirect;
 mod patch;
 pub(crate) mod points;
 mod raster;

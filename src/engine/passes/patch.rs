@@ -25,15 +25,22 @@ pub(crate) struct Patch {
 
 impl Patch {
     /// Makes the pipeline for images of a format, which hold linear light or, if `encoded`, sRGB codes as plain
-    /// numbers.
+    /// numbers. With `keep_alpha`, the image keeps its alpha.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, format: vk::Format, encoded: bool, patched: Patched) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        (format, encoded): (vk::Format, bool),
+        keep_alpha: bool,
+        patched: Patched,
+    ) -> Result<Self, VulkanError> {
         let shader = spirv::PatchFragment { encoded, grown: patched == Patched::Grown, all: patched == Patched::All };
         let (code, interface) = (spirv::PatchFragment::code(), spirv::PatchFragment::INTERFACE);
         let constants = &shader.constants();
-        let variant = format.as_raw() as u32;
+        // The numbers of formats are below 2^31.
+        let variant = format.as_raw() as u32 | u32::from(keep_alpha) << 31;
+        let all = vk::ColorComponentFlags::RGBA;
         let pipeline = layout.cached(code, constants, variant, || {
             let pipeline = GraphicsPipeline {
                 vertex: spirv::PatchVertex::code(),
@@ -42,6 +49,7 @@ impl Patch {
                 constants,
                 samples: vk::SampleCountFlags::TYPE_1,
                 color: format,
+                channels: if keep_alpha { all & !vk::ColorComponentFlags::A } else { all },
                 depth: None,
                 dynamic: &[],
             };

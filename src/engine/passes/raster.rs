@@ -145,6 +145,7 @@ impl Raster {
                     constants,
                     samples,
                     color: id_format(samples),
+                    channels: vk::ColorComponentFlags::RGBA,
                     depth: Some(DEPTH),
                     dynamic: &[vk::DynamicState::CULL_MODE],
                 };

@@ -6,18 +6,22 @@ use crate::engine::spirv::{self, transform_set};
 use crate::vulkan::{Buffer, DescriptorSets, Specialized, VulkanError};
 use ash::vk;
 
-/// Push constants: the range of positions, the number of draws, and the first word and stride, in words of 4 bytes, of
-/// a vertex attribute in the host's buffer.
+/// Push constants: scale and bias of a vertex attribute, ranges of positions and of draws, and where the attribute begins in the
+/// host's buffer and how far apart two are, in units of 2 bytes.
 pub(crate) use spirv::TransformPush as VertexCounts;
 
-/// Makes the kernel. If the draws have matrices, a position has three floats in object space; otherwise, four
-/// floats in clip space.
+/// Makes the kernel. If the draws have matrices, a position has three numbers in object space, whose type is
+/// `vertex_format`; otherwise, four floats in clip space.
 ///
 /// # Errors
 /// If the driver refuses it.
-pub(crate) fn kernel(layout: &FrameLayout, draws: &Draws) -> Result<Kernel<spirv::Transform>, VulkanError> {
+pub(crate) fn kernel(
+    layout: &FrameLayout,
+    draws: &Draws,
+    vertex_format: u32,
+) -> Result<Kernel<spirv::Transform>, VulkanError> {
     let object = draws.matrices.is_some();
-    layout.kernel(&spirv::Transform { object })
+    layout.kernel(&spirv::Transform { object, vertex_format })
 }
 
 /// Makes a set with the draws, the host's vertices, the matrices and the positions.

@@ -31,12 +31,18 @@ impl ImageState {
     };
 
     /// Records the barrier that changes the image from this state to another.
-    pub(crate) fn change(self, recorder: &Recorder<'_>, image: vk::Image, aspect_mask: vk::ImageAspectFlags, to: Self) {
+    pub(crate) fn change(
+        self,
+        recorder: &Recorder<'_>,
+        image: vk::Image,
+        (aspect_mask, layer): (vk::ImageAspectFlags, u32),
+        to: Self,
+    ) {
         let range = vk::ImageSubresourceRange {
             aspect_mask,
             base_mip_level: 0,
             level_count: 1,
-            base_array_layer: 0,
+            base_array_layer: layer,
             layer_count: 1,
         };
         recorder.change_image(

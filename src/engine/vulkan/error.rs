@@ -91,6 +91,16 @@ pub enum VulkanError {
     /// Validation layer that was asked for and is not installed.
     #[error("the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)")]
     NoValidation,
+    /// Pipeline that the driver refused.
+    #[error(
+        "{call} failed: {result}; was the device created with all features that are required? They are those of vulkan::Requirements::features13"
+    )]
+    Pipeline {
+        /// Name of the function that failed.
+        call: &'static str,
+        /// Result of the function.
+        result: vk::Result,
+    },
     /// Any other error of Vulkan.
     #[error("{call} failed: {result}")]
     Call {
@@ -135,6 +145,14 @@ impl VulkanError {
                 Self::OutOfMemory { what: call.to_owned(), bytes: 0 }
             }
             result => Self::Call { call, result },
+        }
+    }
+
+    /// Converts a result of `call`, which makes pipelines, to an error.
+    pub(crate) fn of_pipeline(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
+        move |result| match Self::of(call)(result) {
+            Self::Call { call, result } => Self::Pipeline { call, result },
+            other => other,
         }
     }
 }

@@ -120,7 +120,7 @@ impl Drop for Pipeline {
 /// must allow to be chosen.
 ///
 /// # Errors
-/// [`VulkanError::Call`] if the driver refuses it.
+/// [`VulkanError::Pipeline`] if the driver refuses it.
 pub(crate) fn compute_pipeline(
     layout: &Arc<PassLayout>,
     (spirv, interface): (&[u8], &'static Interface),
@@ -144,7 +144,7 @@ pub(crate) fn compute_pipeline(
     let info = vk::ComputePipelineCreateInfo::default().layout(layout.raw).stage(stage);
     // SAFETY: the layout follows from the shader's interface; all structures live until after the call.
     let pipelines = unsafe { gpu.device.create_compute_pipelines(gpu.pipeline_cache, &[info], None) }
-        .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
+        .map_err(|(_, e)| VulkanError::of_pipeline("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
     let point = vk::PipelineBindPoint::COMPUTE;
     Ok(Pipeline::new(layout, raw, point, interface))
@@ -162,6 +162,8 @@ pub(crate) struct GraphicsPipeline<'a> {
     pub constants: &'a Constants,
     pub samples: vk::SampleCountFlags,
     pub color: vk::Format,
+    /// Channels of the image that are written.
+    pub channels: vk::ColorComponentFlags,
     pub depth: Option<vk::Format>,
     /// Dynamic state besides viewport and scissor.
     pub dynamic: &'a [vk::DynamicState],
@@ -171,7 +173,7 @@ impl GraphicsPipeline<'_> {
     /// Makes the pipeline.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if the driver refuses it.
+    /// [`VulkanError::Pipeline`] if the driver refuses it.
     pub fn make(&self, layout: &Arc<PassLayout>) -> Result<Pipeline, VulkanError> {
         let gpu = &layout.gpu;
         let vertex = Shader::new(gpu, self.vertex)?;
@@ -199,8 +201,7 @@ impl GraphicsPipeline<'_> {
             .depth_test_enable(self.depth.is_some())
             .depth_write_enable(self.depth.is_some())
             .depth_compare_op(vk::CompareOp::GREATER);
-        let attachments =
-            [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let attachments = [vk::PipelineColorBlendAttachmentState::default().color_write_mask(self.channels)];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic = [&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR], self.dynamic].concat();
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
@@ -222,7 +223,7 @@ impl GraphicsPipeline<'_> {
             .push_next(&mut rendering);
         // SAFETY: all structures live until after the call; the layout follows from the shaders' interfaces.
         let pipelines = unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) }
-            .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
+            .map_err(|(_, e)| VulkanError::of_pipeline("vkCreateGraphicsPipelines")(e))?;
         let raw = pipelines.first().copied().unwrap_or_default();
         let point = vk::PipelineBindPoint::GRAPHICS;
         Ok(Pipeline::new(layout, raw, point, self.interface))

@@ -32,5 +32,6 @@ VkDescriptorSetLayout my_set_layout;
 const uint32_t *samples_spirv;
 size_t samples_spirv_size;
 VkBuffer command_buffer, count_buffer, instance_buffer;
+GpcGeometry geometry;
 VkCommandBuffer commands;
 float model_view_projection[16], projection[16];

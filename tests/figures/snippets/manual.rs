@@ -1,4 +1,4 @@
-//! The Rust code of docs/embedding.md, with what it needs besides what it shows.
+//! The Rust code of docs/embedding-reference.md, with what it needs besides what it shows.
 #![allow(dead_code, reason = "compiled, never run")]
 
 use ash::vk;
@@ -22,7 +22,7 @@ impl Application {
         let Self { antialiaser, format, size: [width, height], sky, draws, projection, materials } = self;
         let kinds = ImageKinds { ids: false, depth: false, color_format: format, color_encoded: false };
         // color.before is ImageState { layout: vk::ImageLayout::UNDEFINED, .. }
-        let images = Images { ids: None, depth: None, color, corner: [0, 0] };
+        let images = Images { ids: None, depth: None, color, corner: [0, 0], layer: 0 };
         let options = Options::new(width, height).shade_all(true).background(Some(sky));
         let mut frame = unsafe { antialiaser.prepare(&geometry, &kinds, &options) }?;
         unsafe { frame.record(commands, &images, &Scenery::new(&draws, projection), &materials) }?;

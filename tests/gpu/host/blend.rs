@@ -33,7 +33,7 @@ fn stage() -> Stage {
     stage
 }
 
-fn world() -> World {
+pub fn world() -> World {
     let mut camera = [[0.0; 4]; 4];
     (camera[0][0], camera[1][1]) = (1.0, -1.0);
     (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);

@@ -1,13 +1,14 @@
 //! Vulkan objects of the tests' host: what it makes, lends and reads back.
 
-use super::world::{Drawn, Lent, Map, SIZE, SKY, Way, World};
+use super::layers::{Layers, with_secondary};
+use super::world::{Drawn, Indirect, Lent, Map, SIZE, SKY, Way, World};
 use crate::submit::{discard, submit, submit_and};
 use ash::vk;
 use gpc::host::HostError;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, Coordinates, Draw, Frame, Geometry, ImageKinds, ImageState, Images, Indices,
-    LentImage, ListOptions, ListOutcome, Location, LocationList, Mesh, Options, Outcome, PositionSpace, Scenery,
-    ShadeSamples, VisibilitySamples,
+    IndirectDraws, LentImage, ListOptions, ListOutcome, Location, LocationList, Mesh, Options, Outcome, PositionSpace,
+    Scenery, ShadeSamples, VertexFormat, VisibilitySamples,
 };
 use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
@@ -135,6 +136,7 @@ impl Canvas {
                 after: COPIED,
             },
             corner: [0, 0],
+            layer: 0,
         }
     }
 
@@ -220,6 +222,7 @@ struct Lending<'a> {
     _maps: Vec<(Image, &'a Map)>,
     /// Factor on the brightness of back faces.
     back: f32,
+    _indirect: Vec<[Buffer; 3]>,
     geometry: Geometry,
 }
 
@@ -260,8 +263,14 @@ impl<'a> Lending<'a> {
             positions: positions.handle(),
             positions_offset: way.positions_offset,
             position_stride: way.stride,
+            position_format: way.format,
             vertex_capacity: lent.vertex_count,
-            coordinates: (!maps.is_empty()).then(|| Coordinates { buffer: coordinates.handle(), offset: 0, stride: 8 }),
+            coordinates: (!maps.is_empty()).then(|| Coordinates {
+                buffer: coordinates.handle(),
+                offset: 0,
+                stride: 8,
+                format: VertexFormat::FLOAT,
+            }),
             indices: (!way.bare).then(|| Indices {
                 buffer: indices.handle(),
                 offset: way.indices_offset,
@@ -269,6 +278,19 @@ impl<'a> Lending<'a> {
                 capacity: lent.index_count,
             }),
         };
+        let in_buffers = |indirect: &Indirect| {
+            let count = indirect.count.as_deref().unwrap_or_default();
+            let instances = bytemuck::cast_slice(&indirect.instances);
+            [&indirect.commands[..], count, instances].map(|bytes| machine.filled(bytes))
+        };
+        let indirect: Vec<_> = lent.indirect.iter().map(in_buffers).collect();
+        let list = |(lent, buffers): (&Indirect, &[Buffer; 3])| {
+            let [commands, count, instances] = buffers.each_ref().map(Buffer::handle);
+            let count = lent.list.count.map(|(_, offset)| (count, offset));
+            IndirectDraws { commands, count, instances, ..lent.list }
+        };
+        let lists = lent.indirect.iter().zip(&indirect).map(list).collect();
+        let listed: u32 = lent.indirect.iter().map(|indirect| indirect.list.triangle_capacity).sum();
         let geometry = Geometry {
             meshes: meshes.iter().map(lent_mesh).collect(),
             position_space: if way.object_space {
@@ -276,14 +298,24 @@ impl<'a> Lending<'a> {
             } else {
                 PositionSpace::Clip
             },
-            triangle_capacity: lent.triangle_count,
+            indirect: lists,
+            triangle_capacity: lent.triangle_count - listed,
             draw_capacity: lent.draws.len() as u32,
             keys: 1,
             alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
-            blended: lent.draws.iter().any(|draw| draw.blended),
-            clip: ClipSpace { y_up: way.y_up, reversed_depth: true, depth_range: way.depth_range },
+            blended: lent.draws.iter().any(|draw| draw.blended) || lent.indirect.iter().any(|i| i.list.blended),
+            clip: ClipSpace { y_up: way.y_up, reversed_depth: way.reversed_depth, depth_range: way.depth_range },
         };
-        Self { _meshes: meshes, _coordinates: coordinates, paints, of_draws, back: way.back, _maps: maps, geometry }
+        Self {
+            _meshes: meshes,
+            _coordinates: coordinates,
+            paints,
+            of_draws,
+            back: way.back,
+            _maps: maps,
+            _indirect: indirect,
+            geometry,
+        }
     }
 }
 
@@ -415,6 +447,7 @@ impl<'a> Machine<'a> {
             depth: (base.ids()).map(|_| lend(&depth, deep, WRITTEN, WRITTEN)),
             color: lend(&color, plain, before, COPIED),
             corner: way.corner,
+            layer: 0,
         };
         let kinds = ImageKinds {
             ids: images.ids.is_some(),
@@ -462,6 +495,62 @@ impl<'a> Machine<'a> {
         // SAFETY: lent objects outlive the frame, of which no command is recorded.
         let frame = unsafe { self.antialiaser.prepare(&geometry, &kinds, options) }.unwrap();
         (frame.memory_bytes(), frame.rounds())
+    }
+
+    /// Message with which the library refuses a geometry that `spoil` has changed.
+    pub fn refused(&self, way: &Way, lent: &Lent, spoil: impl FnOnce(&mut Geometry)) -> String {
+        let mut geometry = Lending::new(self, way, lent).geometry;
+        spoil(&mut geometry);
+        // SAFETY: nothing is recorded.
+        let made = unsafe { self.antialiaser.prepare(&geometry, &KINDS, &of_size(SIZE)) };
+        made.err().unwrap().to_string()
+    }
+
+    /// Layers of an image with two layers, which are filled with [`AROUND`] before the library makes the picture of one of
+    /// them. With `is_secondary`, the library's commands are in a secondary command buffer.
+    pub fn see_layer(&self, way: &Way, layer: u32, is_secondary: bool) -> [Vec<[f32; 4]>; 2] {
+        let lent = self.world.lent(way);
+        let lending = Lending::new(self, way, &lent);
+        let (corners, dispatched) = self.kept(&lent);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        let options = of_size(SIZE).flat_background(true);
+        // SAFETY: lent objects have the stated contents, and outlive the frame.
+        let mut frame = unsafe { self.antialiaser.prepare(&lending.geometry, &KINDS, &options) }.unwrap();
+        let image = Layers::new(&self.gpu);
+        let read_back = [0, 1].map(|_| self.read_back(16 * u64::from(SIZE[0] * SIZE[1])));
+        let images = Images {
+            ids: None,
+            depth: None,
+            color: LentImage {
+                image: image.raw,
+                view: image.views[layer as usize],
+                aspects: vk::ImageAspectFlags::COLOR,
+                before: WRITTEN,
+                after: WRITTEN,
+            },
+            corner: [0, 0],
+            layer,
+        };
+        let scenery = Scenery::new(&lent.draws, self.world.projection);
+        let mut record = |commands| {
+            // SAFETY: the commands are waited for; all handles outlive them.
+            unsafe { frame.record(commands, &images, &scenery, &shading) }.unwrap();
+        };
+        let mut secondary = None;
+        submit(&self.gpu, |commands| {
+            image.fill(commands, AROUND);
+            if is_secondary {
+                secondary = Some(with_secondary(&self.gpu, commands, &mut record));
+            } else {
+                record(commands);
+            }
+            for (layer, buffer) in (0..).zip(&read_back) {
+                image.read(commands, layer, buffer);
+            }
+        });
+        drop(secondary);
+        let pixels = (SIZE[0] * SIZE[1]) as usize;
+        read_back.map(|buffer| buffer.read(pixels).unwrap().to_vec())
     }
 
     /// Pictures that the library makes of several lists of draws, each in a frame of its own. The commands of the

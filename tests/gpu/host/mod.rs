@@ -1,6 +1,7 @@
 //! A host that works in the library's device: its pictures must not depend on the way in which it lends its buffers
 //! and images.
 
+mod alpha;
 mod base;
 mod behind;
 mod besides;
@@ -9,12 +10,16 @@ mod completion;
 mod draws;
 mod facing;
 mod filters;
+mod formats;
 mod frames;
+mod indirect;
+mod layers;
 mod lent;
 mod list;
 mod machine;
 mod mask;
 mod room;
 mod rounds;
+mod targets;
 mod viewport;
 mod world;

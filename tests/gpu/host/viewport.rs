@@ -78,6 +78,34 @@ fn a_viewport_scales_and_moves_clip_space() {
     });
 }
 
+/// A projection of OpenGL, with depth from -w to w, shows what one of Vulkan does, behind the place where depth is 0.
+#[test]
+fn projections_of_opengl_show_the_same_picture() {
+    on_gpu(|gpu| {
+        let way = Way { reversed_depth: false, ..PLACED };
+        let options = Options::new(SIZE[0], SIZE[1]).flat_background(true);
+        let see = |depth: fn(f32, f32) -> f32| {
+            let mut world = World::new();
+            for column in world.parts.iter_mut().flat_map(|part| &mut part.to_clip) {
+                column[2] = depth(column[2], column[3]);
+            }
+            for column in &mut world.projection {
+                column[2] = depth(column[2], column[3]);
+            }
+            let machine = Machine::new(gpu, &world);
+            let lent = world.lent(&way);
+            let seen = machine.see_lent(&way, &lent, Base::Nothing, options.clone());
+            (seen.outcome.statistics.superpixels, seen.colors)
+        };
+        // The world's own depth is reversed.
+        let (expected_count, expected) = see(|z, w| w - z);
+        let (count, found) = see(|z, w| w - 2.0 * z);
+        assert!(count > 200 && count.abs_diff(expected_count) <= 4, "{count} {expected_count}");
+        let apart = rmse(&found, &expected);
+        assert!(apart < 0.002, "{apart}");
+    });
+}
+
 /// Thin blades are found by depth: the same blades in every range of depths as in the range from 0 to 1.
 #[test]
 fn depth_ranges_do_not_change_the_picture() {

@@ -1,7 +1,7 @@
 //! The world that the tests' host shows, and the images that its own renderer draws of it.
 
 use ash::vk;
-use gpc::host::{Draw, Topology, Viewport};
+use gpc::host::{Draw, IndirectDraws, Instance, Topology, VertexFormat, Viewport};
 use gpc::reference::topology;
 use gpc::reference::transform::clip_position;
 use gpc::reference::visibility::{Surface, nearest};
@@ -59,6 +59,8 @@ pub struct Way {
     pub object_space: bool,
     pub positions_offset: u64,
     pub stride: u32,
+    /// Format of positions in object space.
+    pub format: VertexFormat,
     pub short_indices: bool,
     pub indices_offset: u64,
     /// Pixel of the images at which the picture begins; the margin at its end has the same size.
@@ -77,6 +79,8 @@ pub struct Way {
     pub back: f32,
     /// Values in the image of depth for a depth of 0 and for a depth of 1.
     pub depth_range: [f32; 2],
+    /// Whether depth is 1 at the near plane and 0 far away.
+    pub reversed_depth: bool,
 }
 
 /// The way of a host that transforms all vertices itself.
@@ -84,6 +88,7 @@ pub const PLACED: Way = Way {
     object_space: false,
     positions_offset: 0,
     stride: 16,
+    format: VertexFormat::FLOAT,
     short_indices: false,
     indices_offset: 0,
     corner: [0, 0],
@@ -96,6 +101,7 @@ pub const PLACED: Way = Way {
     double_sided: true,
     back: 1.0,
     depth_range: [0.0, 1.0],
+    reversed_depth: true,
 };
 
 impl Way {
@@ -130,9 +136,21 @@ pub struct Lent {
     pub index_type: vk::IndexType,
     pub index_count: u32,
     pub draws: Vec<Draw>,
+    /// Draws that the device reads from buffers.
+    pub indirect: Vec<Indirect>,
+    /// Number of triangles of all draws; with indirect draws, number of places for triangles.
     pub triangle_count: u32,
     /// Number of vertices over all draws.
     pub drawn_vertices: u32,
+}
+
+/// List of draws in buffers. The handles in `list` are still missing.
+pub struct Indirect {
+    pub list: IndirectDraws,
+    pub commands: Vec<u8>,
+    /// Contents of the buffer with the number of commands, if there is one.
+    pub count: Option<Vec<u8>>,
+    pub instances: Vec<Instance>,
 }
 
 /// Images of the host's own renderer: for each pixel the ID, depth and colour of its triangle.
@@ -202,6 +220,22 @@ impl World {
             maps: Vec::new(),
             projection: projection(),
         }
+    }
+
+    /// World with the positions of [`World::new`], rounded to a format.
+    pub fn rounded(format: VertexFormat) -> Self {
+        let mut world = Self::new();
+        for position in world.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
+            for (axis, component) in position.iter_mut().enumerate() {
+                *component = if largest(format) > 0.0 {
+                    let step = format.scale[axis] / largest(format);
+                    format.bias[axis] + step * integer(format, axis, *component)
+                } else {
+                    half::f16::from_f32(*component).to_f32()
+                };
+            }
+        }
+        world
     }
 
     /// World with the same vertices as [`World::new`], whose indices are those of strips or fans.
@@ -281,9 +315,10 @@ impl World {
         let mut positions = vec![0xff; way.positions_offset as usize];
         for vertex in &vertices {
             let end = positions.len() + way.stride as usize;
-            positions.extend(bytemuck::cast_slice::<f32, u8>(vertex));
+            positions.extend(encoded(way.format, vertex));
             positions.resize(end, 0xff);
         }
+        positions.resize(positions.len().next_multiple_of(4), 0xff);
         let mut index_bytes = vec![0xff; way.indices_offset as usize];
         for &index in &indices {
             if way.short_indices {
@@ -307,6 +342,7 @@ impl World {
             index_count: indices.len() as u32,
             triangle_count: draws.iter().map(|draw| draw.triangle_count).sum(),
             draws,
+            indirect: Vec::new(),
             drawn_vertices,
         }
     }
@@ -358,6 +394,34 @@ impl World {
         }
         drawn
     }
+}
+
+/// Largest integer of a normalised format; 0 for floats.
+fn largest(format: VertexFormat) -> f32 {
+    match format.format {
+        vk::Format::R16G16B16_UNORM | vk::Format::R16G16B16A16_UNORM => 65_535.0,
+        vk::Format::R16G16B16_SNORM | vk::Format::R16G16B16A16_SNORM => 32_767.0,
+        _ => 0.0,
+    }
+}
+
+/// Number that stands for component `axis` of a position in a normalised format.
+fn integer(format: VertexFormat, axis: usize, component: f32) -> f32 {
+    let number = (component - format.bias[axis]) / format.scale[axis] * largest(format);
+    number.round().clamp(-32_767.0, 65_535.0)
+}
+
+/// Bytes of a vertex. Components that the format has beyond those of the vertex are ones.
+fn encoded(format: VertexFormat, vertex: &[f32]) -> Vec<u8> {
+    if format == VertexFormat::FLOAT {
+        return bytemuck::cast_slice(vertex).to_vec();
+    }
+    let word = |(axis, component): (usize, &f32)| match format.format {
+        vk::Format::R16G16B16_SFLOAT | vk::Format::R16G16B16A16_SFLOAT => half::f16::from_f32(*component).to_bits(),
+        _ => integer(format, axis, *component) as i32 as u16,
+    };
+    let words: Vec<u16> = vertex.iter().enumerate().map(word).collect();
+    bytemuck::cast_slice(&words).to_vec()
 }
 
 /// Smallest and largest x and y of a triangle in the image. The triangle lies in front of the eye.
