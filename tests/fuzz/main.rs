@@ -19,7 +19,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use gpc::output::decode_light;
+use gpc::output::{DecodedLight, decode_light};
 use gpc::scene::{Edges, Environment, PoseRequest, Scene};
 use mutate::Mutator;
 
@@ -31,7 +31,7 @@ const SLOWEST: u64 = 20;
 pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
     if name.starts_with("sky") {
         let decoded = decode_light(bytes, "fuzz");
-        return decoded.is_ok_and(|([width, height], colors)| {
+        return decoded.is_ok_and(|DecodedLight { size: [width, height], colors, .. }| {
             // Large images are skipped, because averaging depends on the size alone and takes long.
             colors.len() > 1 << 10 || Environment::from_equirectangular(width, height, colors).is_ok()
         });

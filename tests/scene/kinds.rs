@@ -116,8 +116,16 @@ fn everything_in_one_place_takes_no_longer() {
         let radius = if i % 2 == 0 { 1.0 } else { 0.5 };
         [radius * angle.cos(), radius * angle.sin()]
     });
-    let (loaded, _) = load(&polygon(&star.collect::<Vec<_>>(), [0, 1]));
-    assert!(loaded.warnings[0].contains("too many corners"), "{:?}", loaded.warnings);
+    let star = polygon(&star.collect::<Vec<_>>(), [0, 1]);
+    let error = Scene::from_slice(star.as_bytes(), "test", None).unwrap_err().to_string();
+    assert!(error.contains("has 200000 corners, and at most 16384"), "{error}");
+    // A convex one has a fan of triangles.
+    let disk = (0..200_000).map(|i| {
+        let angle = std::f64::consts::TAU * f64::from(i) / 200_000.0;
+        [1e6 * angle.cos(), 1e6 * angle.sin()]
+    });
+    let (loaded, _) = load(&polygon(&disk.collect::<Vec<_>>(), [0, 1]));
+    assert_eq!(loaded.scene.info().triangles, 199_998, "{:?}", loaded.warnings);
 }
 
 #[test]

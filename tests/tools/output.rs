@@ -1,5 +1,6 @@
 //! Image files: readers find what was written.
 
+use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, Preview};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
     ReadChannels, ReadLayers, Vec2, WritableImage, f16, read as read_exr,
@@ -192,12 +193,128 @@ fn exr_channels_are_read_or_named() {
     }
 }
 
+/// A header claims any size, but a file of some bytes is not read as a huge image.
+#[test]
+fn images_cannot_claim_what_is_not_there() {
+    let colors = [("R", two(1., 2.)), ("G", two(3., 4.)), ("B", two(5., 6.))];
+    // A small data window in a large display window is an ordinary crop.
+    let crop = decode_light(&exr_file(&colors, [3, 4], [4096, 2160]), "x").unwrap();
+    assert_eq!((crop.size, crop.colors[1], crop.colors[2]), ([4096, 2160], [2., 4., 6.], [0.; 3]));
+    for size in [[8192, 4096], [60_000, 60_000]] {
+        let error = decode_light(&exr_file(&colors, [3, 4], size), "x").unwrap_err().to_string();
+        assert!(error.contains(&format!("{} x {}", size[0], size[1])), "{error}");
+    }
+    // The size of a whole image, by its data window, and by those of other formats.
+    let mut exr = exr_file(&colors, [3, 4], [2, 1]);
+    let data = exr.windows(10).position(|window| window == b"dataWindow").unwrap() + 10 + 1 + 6 + 4;
+    exr[data + 8..data + 16].copy_from_slice(bytemuck::cast_slice(&[8192_i32, 8192]));
+    assert!(decode_light(&exr, "x").unwrap_err().to_string().contains("data window claims 8190 x 8189"));
+    let hdr = b"#?RADIANCE\n\n-Y 8192 +X 8192\n\x01\x01\x01\x01";
+    assert!(decode_light(hdr, "x").unwrap_err().to_string().contains("claims 8192 x 8192"));
+    let mut png = encoded(Format::Png8, &ramp(1.0), [16, 16]);
+    png[16..24].copy_from_slice(&[0, 0, 0x20, 0, 0, 0, 0x20, 0]);
+    let check = crc(&png[12..29]).to_be_bytes();
+    png[29..33].copy_from_slice(&check);
+    assert!(decode(&png, "x").unwrap_err().to_string().contains("claims 8192 x 8192"));
+    let mut jpeg = encoded(Format::Jpeg, &ramp(1.0), [16, 16]);
+    let frame = jpeg.windows(2).position(|marker| marker == [0xff, 0xc0]).unwrap();
+    jpeg[frame + 5..frame + 9].copy_from_slice(&[0x20, 0, 0x20, 0]);
+    assert!(decode(&jpeg, "x").unwrap_err().to_string().contains("claims 8192 x 8192"));
+}
+
+/// Cyclic redundancy check of a chunk of a PNG file.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |sum: u32| if sum & 1 > 0 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
+    !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), |sum, _| step(sum)))
+}
+
+/// Everything that the format has is used or named.
+#[test]
+fn everything_in_exr() {
+    let named = |bytes: &[u8]| decode_light(bytes, "x").unwrap().warnings;
+    let colors = || ["R", "G", "B"].map(|name| AnyChannel::new(name, two(1., 2.)));
+    let layer = |channels: Vec<AnyChannel<FlatSamples>>, encoding| {
+        Layer::new((2, 1), LayerAttributes::default(), encoding, AnyChannels::sort(channels.into_iter().collect()))
+    };
+    let window = IntegerBounds::new((0, 0), (2, 1));
+    let written = |image: &dyn Fn(&mut Cursor<Vec<u8>>)| {
+        let mut bytes = Cursor::new(Vec::new());
+        image(&mut bytes);
+        bytes.into_inner()
+    };
+    let plain = Image::new(ImageAttributes::new(window), layer(colors().to_vec(), Encoding::UNCOMPRESSED));
+    assert!(named(&written(&|bytes| plain.write().to_buffered(bytes).unwrap())).is_empty());
+
+    let more = ["A", "Z", "diffuse.R"].map(|name| AnyChannel::new(name, two(1., 0.5)));
+    let mut rich = layer([&colors()[..], &more].concat(), Encoding::UNCOMPRESSED);
+    let own = &mut rich.attributes;
+    own.layer_name = Some("beauty".into());
+    own.layer_position = Vec2(-1, 0);
+    own.white_luminance = Some(80.0);
+    own.adopted_neutral = Some(Vec2(0.3, 0.3));
+    own.rendering_transform_name = Some("a".into());
+    own.look_modification_transform_name = Some("a".into());
+    own.wrap_mode_name = Some("clamp".into());
+    own.view_name = Some("left".into());
+    own.world_to_camera = Some([0.0; 16]);
+    own.world_to_normalized_device = Some([0.0; 16]);
+    own.multi_view_names = Some(vec!["left".into()]);
+    own.screen_window_center = Vec2(1.0, 0.0);
+    own.screen_window_width = 2.0;
+    own.preview = Some(Preview { size: Vec2(1, 1), pixel_data: vec![0; 4] });
+    own.environment_map = Some(EnvironmentMap::LatitudeLongitude);
+    // What is like a comment is not named.
+    own.owner = Some("o".into());
+    own.comments = Some("c".into());
+    own.other.insert("custom".into(), AttributeValue::F32(1.0));
+    own.other.insert("note".into(), AttributeValue::Text("t".into()));
+    let mut second = layer(colors().to_vec(), Encoding::UNCOMPRESSED);
+    second.attributes.layer_name = Some("second".into());
+    let mut attributes = ImageAttributes::new(window);
+    attributes.pixel_aspect = 2.0;
+    let at = |x, y| Vec2(x, y);
+    attributes.chromaticities =
+        Some(Chromaticities { red: at(0.7, 0.3), green: at(0.2, 0.8), blue: at(0.1, 0.1), white: at(0.3, 0.3) });
+    let image = Image::empty(attributes).with_layer(rich).with_layer(second);
+    let bytes = written(&|bytes| image.write().to_buffered(bytes).unwrap());
+    let expected = "x: left out: attributes (15: adoptedNeutral, chromaticities, custom, lookModTransform, multiView, pixelAspectRatio, \
+        preview, renderingTransform, screenWindowCenter, screenWindowWidth, view, whiteLuminance, worldToCamera, worldToNDC, \
+        wrapmodes); channels (2: Z, diffuse.R); parts (1: second); pixels outside the display window (1); \
+        transparency of pixels (1)";
+    assert_eq!(named(&bytes), [expected]);
+
+    let mut cube = layer(colors().to_vec(), Encoding::UNCOMPRESSED);
+    cube.attributes.environment_map = Some(EnvironmentMap::Cube);
+    let cube = Image::new(ImageAttributes::new(window), cube);
+    let cube = written(&|bytes| cube.write().to_buffered(bytes).unwrap());
+    assert!(decode_light(&cube, "x").unwrap_err().to_string().contains("faces of a cube"));
+}
+
+/// Everything that the format's description has is used or named.
+#[test]
+fn everything_in_hdr() {
+    let named = |head: &str, rest: &[u8]| {
+        let pixel = [128, 128, 128, 129];
+        let bytes = [head.as_bytes(), b"\n-Y 1 +X 1\n", &pixel, rest].concat();
+        decode_light(&bytes, "x").unwrap().warnings
+    };
+    let neutral = "#?RADIANCE\n# comment = 5\noconv a.rad\nrpict -vp 1 2 3 -av=1\nSOFTWARE=gpc\nCAPDATE=2026:01:01\n\
+        EXPOSURE= 1.0\nCOLORCORR=1 1 1\nPIXASPECT=1\nPRIMARIES=.64 .33 .29 .6 .15 .06 .3333 .3333\nGAMMA=1\n\
+        FORMAT=32-bit_rle_rgbe\n";
+    assert_eq!(named(neutral, b""), [""; 0]);
+    let rich = "#?RADIANCE\nEXPOSURE=2\nEXPOSURE=3\nCOLORCORR=1 .5 1\nPIXASPECT=.5\nVIEW=-vta -vh 360\nGAMMA=2.2\n\
+        PRIMARIES=.7 .3 .2 .8 .1 .1 .3 .3\nLATLONG=1\n";
+    let expected = "x: left out: bytes behind the scanlines (4); \
+        variables (8: EXPOSURE, COLORCORR, PIXASPECT, VIEW, GAMMA, PRIMARIES, LATLONG)";
+    assert_eq!(named(rich, b"more"), [expected]);
+}
+
 #[test]
 fn infinite_light_is_bounded() {
     let halves = |a: f32, b: f32| FlatSamples::F16(vec![f16::from_f32(a), f16::from_f32(b)]);
     let red = ("R", halves(f32::INFINITY, 2.0));
     let half = exr_file(&[red, ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))], [3, 4], [2, 1]);
-    let (_, mut colors) = decode_light(&half, "x").unwrap();
+    let mut colors = decode_light(&half, "x").unwrap().colors;
     assert_eq!(bound_light(&mut colors), (1, 65_504.0));
     assert_eq!(colors, [[65_504.0, 1.0, 1.0], [2.0, 3.0, 3.0]]);
     let mut brighter = [[f32::INFINITY; 3], [1e6, 0.0, 0.0]];

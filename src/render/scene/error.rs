@@ -99,7 +99,7 @@ pub enum SceneError {
 
 /// Fault at a place in the file, which becomes an error or a warning.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Fault {
+pub(crate) struct Fault {
     /// JSON pointer to the place.
     pub place: String,
     /// Expectation, and what was found instead.
@@ -132,7 +132,7 @@ impl fmt::Display for Fault {
 /// fault in every element does not flood its user. What a reader met and does not use is counted by its kind, and named
 /// in one warning at the end.
 #[derive(Debug)]
-pub(super) struct Warnings {
+pub(crate) struct Warnings {
     file: String,
     list: Vec<String>,
     dropped: usize,

@@ -50,6 +50,8 @@ pub use edges::Edges;
 pub(crate) use environment::Sun;
 pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
+#[cfg(feature = "cli")]
+pub(crate) use error::Warnings;
 pub use geometry::{Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
@@ -61,6 +63,8 @@ pub use material::{
 };
 pub use pose::{Moment, Motion, Pose, PoseRequest};
 pub(crate) use pose::{MotionPart, MovingBounds};
+#[cfg(feature = "cli")]
+pub(crate) use read::check_texels;
 pub use stroke::{Edge, Stroke, StrokePart};
 pub use view::{SceneCamera, SceneProjection};
 

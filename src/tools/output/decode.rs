@@ -2,6 +2,7 @@
 
 use super::{OutputError, Picture, exr, radiance};
 use crate::color::srgb;
+use crate::scene::{Warnings, check_texels};
 use image::ImageReader;
 use rayon::prelude::*;
 use std::fs::File;
@@ -45,7 +46,7 @@ pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
 /// with NaN.
 pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
-        exr::decode(bytes).map(|(size, pixels)| (size, pixels, true))
+        exr::decode(bytes, &mut Warnings::new(name)).map(|decoded| (decoded.size, decoded.pixels, true))
     } else {
         display_referred(bytes).map(|(size, pixels)| (size, pixels, false))
     };
@@ -69,27 +70,55 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
 /// [`OutputError::Decode`] if the bytes are in neither format or broken.
 pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
     let opaque = |colors: Vec<[f32; 3]>| colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]);
+    let mut left_out = Warnings::new(name);
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
-        exr::decode(bytes)
+        exr::decode(bytes, &mut left_out).map(|decoded| (decoded.size, decoded.pixels))
     } else {
-        radiance::decode(bytes).map(|(size, colors)| (size, opaque(colors).collect()))
+        radiance::decode(bytes, &mut left_out).map(|(size, colors)| (size, opaque(colors).collect()))
     };
     decoded.map_err(|reason| not_linear(name, reason))
 }
 
-/// Decodes an EXR or Radiance image as [`decode_linear`] does, but without alpha; this saves a copy of a Radiance
-/// image.
+/// Light from all directions, as an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecodedLight {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Linear colours, rows from the top.
+    pub colors: Vec<[f32; 3]>,
+    /// Warnings about the file. The last one counts and names what the file has and is not used.
+    pub warnings: Vec<String>,
+}
+
+/// Decodes an EXR or Radiance image as [`decode_linear`] does, but without alpha. `name` stands for the file in messages.
 ///
 /// # Errors
-/// As [`decode_linear`].
-pub fn decode_light(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 3]>), OutputError> {
-    let light = |pixels: Vec<[f32; 4]>| pixels.into_iter().map(|[r, g, b, _]| [r, g, b]);
+/// As [`decode_linear`], and if the image has the faces of a cube.
+pub fn decode_light(bytes: &[u8], name: &str) -> Result<DecodedLight, OutputError> {
+    let mut warnings = Warnings::new(name);
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
-        exr::decode(bytes).map(|(size, pixels)| (size, light(pixels).collect()))
+        exr::decode(bytes, &mut warnings).and_then(|decoded| opaque_light(decoded, &mut warnings))
     } else {
-        radiance::decode(bytes)
+        radiance::decode(bytes, &mut warnings)
     };
-    decoded.map_err(|reason| not_linear(name, reason))
+    let (size, colors) = decoded.map_err(|reason| not_linear(name, reason))?;
+    Ok(DecodedLight { size, colors, warnings: warnings.into_vec() })
+}
+
+/// Size and colours of a sky, in which nothing is seen behind transparent pixels.
+fn opaque_light(decoded: exr::Decoded, warnings: &mut Warnings) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
+    if decoded.is_cube {
+        return Err("it has the faces of a cube (its envmap); convert it to latitude and longitude".to_owned());
+    }
+    let mut see_through = 0;
+    let colors = decoded.pixels.into_iter().map(|[r, g, b, a]| {
+        // Where there are no data, alpha is 0.
+        see_through += usize::from(a != 1.0 && [r, g, b, a] != [0.0; 4]);
+        [r, g, b]
+    });
+    let colors = colors.collect();
+    warnings.leave_out("transparency of pixels", see_through, "");
+    Ok((decoded.size, colors))
 }
 
 /// Replaces infinite light by the largest finite value of the image, but at least the largest of a half float, beyond which
@@ -114,12 +143,13 @@ fn not_linear(name: &str, reason: String) -> OutputError {
 
 /// Size and sRGB-encoded pixels with straight alpha, of a PNG or JPEG.
 fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
-    // The reader's default limits protect against headers that claim huge images.
-    let image = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| error.to_string())?
-        .decode()
-        .map_err(|error| error.to_string())?;
+    let reader = || {
+        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+        reader.map_err(|error| error.to_string())
+    };
+    let (width, height) = reader()?.into_dimensions().map_err(|error| error.to_string())?;
+    check_texels(width.into(), height.into(), bytes.len())?;
+    let image = reader()?.decode().map_err(|error| error.to_string())?;
     let size = [image.width(), image.height()];
     let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
     Ok((size, pixels))

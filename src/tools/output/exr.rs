@@ -1,6 +1,9 @@
 //! OpenEXR files, read and written by the `exr` crate.
 
 use super::{Aov, OutputError, Picture, check_count};
+use crate::scene::{Warnings, check_texels};
+use ::exr::meta::BlockDescription;
+use ::exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, LevelMode};
 use ::exr::meta::header::Header;
 use ::exr::prelude::*;
 use std::collections::BTreeSet;
@@ -53,7 +56,7 @@ fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
     }
 }
 
-/// Largest number of pixels that is read, so that a header can't claim memory far beyond the file's size.
+/// Largest number of pixels that is read.
 const MAX_PIXELS: usize = 1 << 28;
 
 /// Channels that an image is read from.
@@ -64,6 +67,14 @@ enum Chosen {
 }
 
 impl Chosen {
+    /// Whether the image is read from a channel.
+    fn has(&self, name: &Text) -> bool {
+        match self {
+            Self::Colors { rgb, alpha } => rgb.contains(name) || alpha == name,
+            Self::Luminance => [Text::from("Y"), Text::from("A")].contains(name),
+        }
+    }
+
     fn are_in(&self, header: &Header) -> bool {
         let has = |name: &Text| header.channels.find_index_of_channel(name).is_some();
         !header.deep
@@ -103,25 +114,34 @@ impl Chosen {
     }
 }
 
-/// Size and pixels of the first part that has R, G and B, or of what is [chosen](Chosen::of) otherwise; alpha is 1 if the part
-/// has none. The image is the display window: pixels outside the data window are transparent black, and data outside the display
-/// window are not part of the image.
-pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4]>), String> {
+/// An image of a file.
+pub(super) struct Decoded {
+    pub(super) size: [u32; 2],
+    /// Alpha is 1 if the file has none.
+    pub(super) pixels: Vec<[f32; 4]>,
+    /// Whether the image has the six faces of a cube below each other.
+    pub(super) is_cube: bool,
+}
+
+/// Reads the first part that has R, G and B, or what is [chosen](Chosen::of) otherwise. The image is the display window: pixels
+/// outside the data window are transparent black, and data outside the display window are not part of the image. What is not
+/// read is named in `left_out`.
+pub(super) fn decode(bytes: &[u8], left_out: &mut Warnings) -> std::result::Result<Decoded, String> {
     let text = |error: Error| error.to_string();
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(text)?;
     let chosen = Chosen::of(&meta.headers)?;
-    let header = meta.headers.iter().find(|header| chosen.are_in(header));
-    let header = header.ok_or("it has no image")?;
+    let index = meta.headers.iter().position(|header| chosen.are_in(header));
+    let header = index.and_then(|index| meta.headers.get(index)).ok_or("it has no image")?;
     let window = header.shared_attributes.display_window;
-    for size in [header.layer_size, window.size] {
-        if size.width().saturating_mul(size.height()) > MAX_PIXELS {
-            return Err(format!(
-                "it has {} x {} pixels, more than the {MAX_PIXELS} that are read",
-                size.width(),
-                size.height()
-            ));
+    for (name, size) in [("data", header.layer_size), ("display", window.size)] {
+        let [width, height] = [size.width(), size.height()];
+        if width.saturating_mul(height) > MAX_PIXELS {
+            return Err(format!("it has {width} x {height} pixels, more than the {MAX_PIXELS} that are read"));
         }
+        check_texels(width as u64, height as u64, bytes.len())
+            .map_err(|reason| format!("its {name} window {reason}; crop the window, or export the image again"))?;
     }
+    name_unused(&meta.headers, index, &chosen, left_out);
     let along = |start: i32, end: i32| i64::from(start) - i64::from(end);
     let start = header.own_attributes.layer_position;
     let (left, top) = (along(start.x(), window.position.x()), along(start.y(), window.position.y()));
@@ -130,6 +150,10 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
         let at = usize::try_from(start + at as i64).ok();
         at.filter(|at| *at < side)
     };
+    let inside =
+        |start: i64, length: usize, side: usize| (0..length).filter(|at| place(start, *at, side).is_some()).count();
+    let shown = inside(left, header.layer_size.width(), width) * inside(top, header.layer_size.height(), height);
+    left_out.leave_out("pixels outside the display window", header.layer_size.area() - shown, "");
     let set = move |pixels: &mut Vec<[f32; 4]>, at: Vec2<usize>, value: [f32; 4]| {
         let (x, y) = (place(left, at.x(), width), place(top, at.y(), height));
         let index = x.zip(y).map(|(x, y)| y * width + x);
@@ -164,5 +188,65 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4
             .map(|image| image.layer_data.channel_data.pixels),
     };
     let side = |side: usize| u32::try_from(side).map_err(|_| "a side is too long".to_owned());
-    Ok(([side(width)?, side(height)?], pixels.map_err(text)?))
+    Ok(Decoded {
+        size: [side(width)?, side(height)?],
+        pixels: pixels.map_err(text)?,
+        is_cube: header.own_attributes.environment_map == Some(EnvironmentMap::Cube),
+    })
+}
+
+/// Names the parts, channels, levels and attributes that are not read. Attributes that say who made the image, when, and with
+/// what are like comments, and are not named.
+fn name_unused(headers: &[Header], used: Option<usize>, chosen: &Chosen, left_out: &mut Warnings) {
+    for (index, header) in headers.iter().enumerate() {
+        let own = &header.own_attributes;
+        if Some(index) != used {
+            let name = own.layer_name.as_ref().map_or_else(|| format!("part {index}"), ToString::to_string);
+            left_out.leave_out("parts", 1, &if header.deep { name + " (deep data)" } else { name });
+            continue;
+        }
+        for channel in header.channels.list.iter().filter(|channel| !chosen.has(&channel.name)) {
+            left_out.leave_out("channels", 1, &channel.name.to_string());
+        }
+        if let BlockDescription::Tiles(tiles) = header.blocks
+            && tiles.level_mode != LevelMode::Singular
+        {
+            left_out.leave_out("smaller levels of the image", 1, "");
+        }
+        let shared = &header.shared_attributes;
+        let known = [
+            ("adoptedNeutral", own.adopted_neutral.is_some()),
+            ("chromaticities", shared.chromaticities.as_ref().is_some_and(|colors| !is_rec709(colors))),
+            ("lookModTransform", own.look_modification_transform_name.is_some()),
+            ("multiView", own.multi_view_names.is_some()),
+            ("pixelAspectRatio", shared.pixel_aspect != 1.0),
+            ("preview", own.preview.is_some()),
+            ("renderingTransform", own.rendering_transform_name.is_some()),
+            ("screenWindowCenter", own.screen_window_center != Vec2(0.0, 0.0)),
+            ("screenWindowWidth", own.screen_window_width != 1.0),
+            ("view", own.view_name.is_some()),
+            ("whiteLuminance", own.white_luminance.is_some()),
+            ("worldToCamera", own.world_to_camera.is_some()),
+            ("worldToNDC", own.world_to_normalized_device.is_some()),
+            ("wrapmodes", own.wrap_mode_name.is_some()),
+        ];
+        let known = known.into_iter().filter_map(|(name, is_there)| is_there.then(|| name.to_owned()));
+        let others = own.other.iter().chain(&shared.other);
+        let others =
+            others.filter(|(_, value)| !matches!(value, AttributeValue::Text(_) | AttributeValue::TextVector(_)));
+        let mut names: Vec<String> = known.chain(others.map(|(name, _)| name.to_string())).collect();
+        names.sort();
+        names.iter().for_each(|name| left_out.leave_out("attributes", 1, name));
+    }
+}
+
+/// Whether colours are those of the primaries and the white of Rec. 709, which are also those of sRGB.
+fn is_rec709(colors: &Chromaticities) -> bool {
+    let expected = [
+        (colors.red, [0.64, 0.33]),
+        (colors.green, [0.3, 0.6]),
+        (colors.blue, [0.15, 0.06]),
+        (colors.white, [0.3127, 0.329]),
+    ];
+    expected.iter().all(|(found, [x, y])| (found.x() - x).abs() < 1e-3 && (found.y() - y).abs() < 1e-3)
 }

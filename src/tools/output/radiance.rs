@@ -3,25 +3,31 @@
 //! A head is lines of text: a signature, `VARIABLE=value` and comments, an empty line, and the resolution. It is parsed
 //! here, and the scanlines go to the decoder under a head that it takes.
 
-use image::{DynamicImage, ImageDecoder, Limits, codecs::hdr::HdrDecoder};
+use crate::scene::{Warnings, check_texels};
+use image::{DynamicImage, codecs::hdr::HdrDecoder};
 use std::io::Read;
 
 /// First bytes of every picture; the name of a program follows.
 pub(super) const MAGIC: &[u8] = b"#?";
 
-/// Size and linear colours of a picture, rows from the top.
-pub(super) fn decode(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
-    let head = Head::parse(bytes)?;
-    let scanlines = &bytes[head.length..];
+/// Most pixels that are read.
+const MAX_PIXELS: u64 = 1 << 28;
+
+/// Size and linear colours of a picture, rows from the top. What is not read is named in `left_out`.
+pub(super) fn decode(bytes: &[u8], left_out: &mut Warnings) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
+    let head = Head::parse(bytes, left_out)?;
+    let mut scanlines = &bytes[head.length..];
     let [count, length] = head.resolution.map(|axis| axis.length);
+    let pixels = u64::from(count) * u64::from(length);
+    if pixels > MAX_PIXELS {
+        return Err(format!("it has {length} x {count} pixels, more than the {MAX_PIXELS} that are read"));
+    }
+    check_texels(length.into(), count.into(), bytes.len())?;
     let known = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {count} +X {length}\n");
     let text = |error: image::ImageError| error.to_string();
-    let mut decoder = HdrDecoder::new(known.as_bytes().chain(scanlines)).map_err(text)?;
-    // The limits protect against heads that claim huge images.
-    let mut limits = Limits::default();
-    limits.reserve(decoder.total_bytes()).map_err(text)?;
-    decoder.set_limits(limits).map_err(text)?;
+    let decoder = HdrDecoder::new(known.as_bytes().chain(&mut scanlines)).map_err(text)?;
     let image = DynamicImage::from_decoder(decoder).map_err(text)?;
+    left_out.leave_out("bytes behind the scanlines", scanlines.len(), "");
     let numbers = image.into_rgb32f().into_raw();
     let colors = bytemuck::try_cast_vec(numbers).unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
     Ok(head.upright(colors))
@@ -46,7 +52,7 @@ struct Head {
 }
 
 impl Head {
-    fn parse(bytes: &[u8]) -> Result<Self, String> {
+    fn parse(bytes: &[u8], left_out: &mut Warnings) -> Result<Self, String> {
         if !bytes.starts_with(MAGIC) {
             return Err("not of a known format".to_owned());
         }
@@ -69,6 +75,7 @@ impl Head {
                 let other = String::from_utf8_lossy(other);
                 return Err(format!("its FORMAT is {other}, and only 32-bit_rle_rgbe is read"));
             }
+            name_unused(line, left_out);
         }
         let text = String::from_utf8_lossy(line()?).into_owned();
         let resolution = Self::resolution(&text)
@@ -119,9 +126,37 @@ impl Head {
     }
 }
 
+/// Names a variable that is not used and would change the picture. Other lines are comments or the commands that made it.
+fn name_unused(line: &[u8], left_out: &mut Warnings) {
+    let line = String::from_utf8_lossy(line);
+    let Some((name, value)) = line.split_once('=').filter(|_| !line.starts_with('#')) else {
+        return;
+    };
+    let name = name.trim();
+    let is_variable = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    let numbers: Option<Vec<f32>> = value.split_ascii_whitespace().map(|word| word.parse().ok()).collect();
+    let is_neutral = match name {
+        "FORMAT" | "SOFTWARE" | "CAPDATE" | "GMT" | "OWNER" => true,
+        "EXPOSURE" | "GAMMA" | "PIXASPECT" => numbers.is_some_and(|n| n == [1.0]),
+        "COLORCORR" => numbers.is_some_and(|n| n == [1.0; 3]),
+        "PRIMARIES" => numbers.is_some_and(|n| NEUTRAL.iter().any(|white| n == [&PRIMARIES, &white[..]].concat())),
+        _ => false,
+    };
+    left_out.leave_out("variables", usize::from(is_variable && !is_neutral), name);
+}
+
+/// Primaries that pictures have unless they say otherwise: the format's, which are also those of sRGB.
+const PRIMARIES: [f32; 6] = [0.64, 0.33, 0.29, 0.6, 0.15, 0.06];
+/// The format's white, and that of sRGB.
+const NEUTRAL: [[f32; 2]; 2] = [[0.3333, 0.3333], [0.3127, 0.329]];
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn decode(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
+        super::decode(bytes, &mut Warnings::new("test"))
+    }
 
     /// Picture of 2 x 3 pixels, whose pixel in column x and row y is [x, y, 0], with this head and these scanlines.
     fn picture(head: &str, scanlines: [[[u8; 2]; 3]; 2]) -> Vec<u8> {

@@ -1,7 +1,7 @@
 //! Scenes from files and from standard input.
 
 use anyhow::Context;
-use gpc::output::{bound_light, decode_light};
+use gpc::output::{DecodedLight, bound_light, decode_light};
 use gpc::scene::{Environment, Loaded, Scene};
 use std::io::Read;
 use std::path::Path;
@@ -37,12 +37,14 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
 pub fn environment(path: &Path) -> anyhow::Result<(Environment, Vec<String>)> {
     let file = path.display();
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
-    let ([width, height], mut colors) = decode_light(&bytes, &file.to_string())?;
+    let DecodedLight { size: [width, height], mut colors, mut warnings } = decode_light(&bytes, &file.to_string())?;
     let (infinite, bound) = bound_light(&mut colors);
-    let warning = format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}");
+    if infinite > 0 {
+        warnings.insert(0, format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}"));
+    }
     let environment = Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))?;
-    Ok((environment, Vec::from_iter((infinite > 0).then_some(warning))))
+    Ok((environment, warnings))
 }
 
 /// The scene's name for output files: its file's name without the extension.

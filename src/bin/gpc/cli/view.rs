@@ -68,10 +68,7 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
     let look = look(&args, background)?;
     let start = start(&args.camera)?;
     let (environment, warnings) = args.appearance.environment()?;
-    for warning in &warnings {
-        log::warn!("{warning}");
-    }
-    let appearance = Appearance { environment, edges: args.appearance.edges() };
+    let appearance = Appearance { environment, warnings, edges: args.appearance.edges() };
     let appearance_options = appearance_options(&args, &look);
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();

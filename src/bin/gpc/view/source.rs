@@ -25,6 +25,8 @@ pub struct SceneSource {
 pub struct Appearance {
     /// Environment that replaces the built-in studio.
     pub environment: Option<Arc<Environment>>,
+    /// Warnings about the file of the environment.
+    pub warnings: Vec<String>,
     /// Edges of meshes that are drawn; `None` for none.
     pub edges: Option<Edges>,
 }
@@ -106,7 +108,7 @@ impl SceneSource {
         progress.begin(LoadStep::Prepare)?;
         let request = SceneRequest::new(&loaded.scene, &pose).moving(motion.as_ref()).within(max_memory);
         let prepared = renderer.prepare_scene(request)?;
-        let warnings = loaded.warnings.iter().chain(&pose.warnings);
+        let warnings = loaded.warnings.iter().chain(&pose.warnings).chain(&appearance.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
         Ok(Opened::Scene(Box::new(LoadedScene {
             source: self.clone(),

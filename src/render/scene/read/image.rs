@@ -10,17 +10,13 @@ use gltf::json::{self, Index};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
-use super::{Context, buffer::Buffers, model::Model, texture_file::TextureFault, uri};
+use super::{Context, buffer::Buffers, limits::check_texels, model::Model, texture_file::TextureFault, uri};
 use crate::scene::{error::Fault, material::Image};
 
 /// Largest width and height.
 const MAX_SIDE: u32 = 16_384;
 /// Most texels of all images together: 4 GiB.
 const MAX_TEXELS: u64 = 1 << 30;
-/// Number of texels above which an image must have a byte for every [`TEXELS_PER_BYTE`] of them, because a header can
-/// claim any size.
-const FREE_TEXELS: u64 = 1 << 24;
-const TEXELS_PER_BYTE: u64 = 1024;
 /// Most bytes of an image file.
 const MAX_FILE: u64 = 1 << 30;
 
@@ -87,9 +83,7 @@ impl DecodedImages {
         if texels == 0 || width > MAX_SIDE || height > MAX_SIDE {
             return Err(format!("{size} are not within 1 to {MAX_SIDE} a side"));
         }
-        if texels > FREE_TEXELS + TEXELS_PER_BYTE * bytes.len() as u64 {
-            return Err(format!("claims {size}, but has {} bytes", bytes.len()));
-        }
+        check_texels(width.into(), height.into(), bytes.len())?;
         if self.texels + texels > MAX_TEXELS {
             return Err(format!("{size} exceed the limit of {MAX_TEXELS} texels for all images together"));
         }

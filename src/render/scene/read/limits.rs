@@ -9,6 +9,20 @@ pub const MAX_ELEMENTS: u64 = 1 << 27;
 /// Largest number of instances of `EXT_mesh_gpu_instancing` in a file.
 const MAX_INSTANCES: u64 = 1 << 22;
 
+/// Number of texels that an image may have whatever its file's size, and number of further texels for each byte of the file,
+/// because a header can claim any size.
+const FREE_TEXELS: u64 = 1 << 24;
+const TEXELS_PER_BYTE: u64 = 1024;
+
+/// Fails if an image file of `bytes` bytes claims more texels than it can reasonably hold.
+pub fn check_texels(width: u64, height: u64, bytes: usize) -> Result<(), String> {
+    let justified = FREE_TEXELS + TEXELS_PER_BYTE * bytes as u64;
+    match width.checked_mul(height) {
+        Some(texels) if texels <= justified => Ok(()),
+        _ => Err(format!("claims {width} x {height} texels, but has {bytes} bytes")),
+    }
+}
+
 /// Numbers of elements that were read so far.
 #[derive(Debug, Default)]
 pub struct Budget {

@@ -60,7 +60,7 @@ use accessor::Accessor;
 use buffer::Buffers;
 pub use described::{Change, Descriptions};
 use limits::Budget;
-pub use limits::MAX_ELEMENTS;
+pub use limits::{MAX_ELEMENTS, check_texels};
 use model::Model;
 
 use super::{

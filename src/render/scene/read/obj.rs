@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::{
     mtl::{self, Description},
     obj_part::{Corner, Part, Pool, Welder},
-    shape::{Drawing, FileObject, origin_of, plain},
+    shape::{Drawing, origin_of, plain},
     text::{self, keyword, no_number, number, statements, words},
     texture_file::{NamedTextures, fetch},
 };
@@ -41,8 +41,8 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     for (line, statement) in statements(bytes) {
         reader.add(&statement, line, &mut warnings).map_err(|reason| broken(line, &reason).into_error(file))?;
     }
-    reader.check().map_err(|fault| fault.into_error(file))?;
-    let drawing = reader.into_drawing(base, &mut warnings);
+    let drawing = reader.check().and_then(|()| reader.into_drawing(base, &mut warnings));
+    let drawing = drawing.map_err(|fault| fault.into_error(file))?;
     drawing.into_scene("OBJ", file, warnings)
 }
 
@@ -237,7 +237,7 @@ impl Reader {
         Ok(())
     }
 
-    fn into_drawing(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
+    fn into_drawing(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Result<Drawing, Fault> {
         self.begin_part();
         let lacking = (1..3).filter(|kind| self.pool.counts()[*kind] == 0);
         for kind in lacking.filter(|kind| self.largest[*kind].0 > 0) {
@@ -284,10 +284,9 @@ impl Reader {
         let mut welder = Welder::new(&pool, drawing.origin);
         for part in &self.parts {
             let material = part.material.map_or(unnamed, |index| places[index as usize]);
-            let shapes: Vec<FileObject> = welder.shapes(part, material, warnings);
-            drawing.shapes.extend(shapes);
+            drawing.shapes.extend(welder.shapes(part, material, warnings)?);
         }
-        drawing
+        Ok(drawing)
     }
 
     /// The materials of all MTL files, and whether no file is missing.

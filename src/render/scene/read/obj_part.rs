@@ -8,7 +8,7 @@ use super::{
     polygon::Triangulator,
     shape::{FileObject, linear, scale_of_codes},
 };
-use crate::scene::error::Warnings;
+use crate::scene::error::{Fault, Warnings};
 
 /// Elements that all parts of a file share.
 #[derive(Default)]
@@ -197,7 +197,7 @@ impl<'p> Welder<'p> {
     }
 
     /// Shapes of a part: its faces with normals, its faces without, and its lines and points.
-    pub fn shapes(&mut self, part: &Part, material: usize, warnings: &mut Warnings) -> Vec<FileObject> {
+    pub fn shapes(&mut self, part: &Part, material: usize, warnings: &mut Warnings) -> Result<Vec<FileObject>, Fault> {
         let mut shapes = Vec::new();
         let mut triangulator = Triangulator::default();
         for has_normals in [true, false] {
@@ -216,12 +216,7 @@ impl<'p> Welder<'p> {
                 ends.push(corners.len());
             }
             let mut shape = self.finish(part, material, has_normals);
-            let mut start = 0;
-            for end in ends {
-                let polygon = &corners[start..end];
-                triangulator.add(polygon, &shape.positions, &mut shape.triangles);
-                start = end;
-            }
+            triangulator.add_all(&ends, Some(&corners), &mut shape);
             shapes.push(shape);
         }
         if !part.lines.is_empty() || !part.points.is_empty() {
@@ -232,8 +227,8 @@ impl<'p> Welder<'p> {
             let shape = self.finish(part, material, false);
             shapes.push(FileObject { lines, points, ..shape });
         }
-        triangulator.report(part.name.as_deref().unwrap_or("unnamed object"), warnings);
-        shapes
+        triangulator.report(part.name.as_deref().unwrap_or("unnamed object"), warnings)?;
+        Ok(shapes)
     }
 
     fn begin(&mut self) {

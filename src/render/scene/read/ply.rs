@@ -25,8 +25,8 @@ pub fn is_ply(bytes: &[u8]) -> bool {
 /// Reads a PLY file; images that it names are in the folder `base`.
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
     let mut warnings = Warnings::new(file);
-    let decoded = decode(bytes, &mut warnings).map_err(|fault| fault.into_error(file))?;
-    let drawing = decoded.draw(base, &mut warnings);
+    let drawing = decode(bytes, &mut warnings).and_then(|decoded| decoded.draw(base, &mut warnings));
+    let drawing = drawing.map_err(|fault| fault.into_error(file))?;
     drawing.into_scene("PLY", file, warnings)
 }
 
@@ -204,7 +204,7 @@ impl Decoded {
         })
     }
 
-    fn draw(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Drawing {
+    fn draw(mut self, base: Option<&Path>, warnings: &mut Warnings) -> Result<Drawing, Fault> {
         let used = self.faces.corners.iter().chain(self.strips.iter().flatten());
         let used = used.chain(self.edges.as_flattened());
         // Vertices that are not connected are drawn as points.
@@ -242,40 +242,24 @@ impl Decoded {
             }
             let apart = faces.apart(&whole, self.textures.len());
             shapes.extend(apart.into_iter().map(|(texture, mut shape, ends)| {
-                triangulate(&ends, None, &mut shape, &mut triangulator);
+                triangulator.add_all(&ends, None, &mut shape);
                 let is_colored = !faces.codes.is_empty() || self.is_colored;
                 (texture, is_colored, shape)
             }));
         } else {
-            triangulate(&faces.ends, Some(&faces.corners), &mut whole, &mut triangulator);
+            triangulator.add_all(&faces.ends, Some(&faces.corners), &mut whole);
         }
         if shapes.is_empty() || !whole.triangles.is_empty() || !whole.lines.is_empty() {
             shapes.insert(0, (0, self.is_colored, whole));
         }
-        triangulator.report("element face", warnings);
+        triangulator.report("element face", warnings)?;
         let shapes: Vec<FileObject> = shapes
             .into_iter()
             .map(|(texture, is_colored, shape)| looks.dress(shape, texture, is_colored, warnings))
             .collect();
         let materials = looks.materials;
         let (textures, images) = textures.into_parts();
-        Drawing { shapes, origin, materials, textures, images }
-    }
-}
-
-/// Adds the triangles of polygons to a shape. Their corners are the shape's vertices in order, unless `corners` lists
-/// them.
-fn triangulate(ends: &[usize], corners: Option<&[u32]>, shape: &mut FileObject, triangulator: &mut Triangulator) {
-    let mut polygon = Vec::new();
-    let mut start = 0;
-    for &end in ends {
-        polygon.clear();
-        match corners {
-            Some(corners) => polygon.extend(&corners[start..end]),
-            None => polygon.extend(start as u32..end as u32),
-        }
-        triangulator.add(&polygon, &shape.positions, &mut shape.triangles);
-        start = end;
+        Ok(Drawing { shapes, origin, materials, textures, images })
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
+use super::shape::FileObject;
 use crate::scene::error::{Fault, Warnings};
 
 /// Largest number of corners of a polygon that is not convex. The time for such a polygon may grow with the square of
@@ -14,6 +15,8 @@ const MOST_CORNERS: usize = 1 << 14;
 /// Divides polygons into triangles, and counts those that it can't divide exactly.
 #[derive(Default)]
 pub struct Triangulator {
+    /// Number of corners of a polygon that has too many.
+    too_long: Option<usize>,
     earcut: Option<Earcut<f64>>,
     corners: Vec<u32>,
     /// Corners relative to the first.
@@ -31,7 +34,7 @@ pub struct Triangulator {
 impl Triangulator {
     /// Adds the triangles of a polygon, whose corners are indices of `positions`, to `triangles`. The triangles have
     /// the winding of the polygon.
-    pub fn add(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
+    fn add(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
         match *polygon {
             [] | [_] | [_, _] => self.short += 1,
             [a, b, c] => triangles.push([a, b, c]),
@@ -39,8 +42,31 @@ impl Triangulator {
         }
     }
 
-    /// Warns of polygons that can't be drawn as they are.
-    pub fn report(&self, place: &str, warnings: &mut Warnings) {
+    /// Adds the triangles of several polygons to a shape. `ends` has the end of each polygon among the corners, which are the
+    /// shape's vertices in order, unless `corners` lists them.
+    pub fn add_all(&mut self, ends: &[usize], corners: Option<&[u32]>, shape: &mut FileObject) {
+        let mut polygon = Vec::new();
+        let mut start = 0;
+        for &end in ends {
+            polygon.clear();
+            match corners {
+                Some(corners) => polygon.extend(&corners[start..end]),
+                None => polygon.extend(start as u32..end as u32),
+            }
+            self.add(&polygon, &shape.positions, &mut shape.triangles);
+            start = end;
+        }
+    }
+
+    /// Warns of polygons that can't be drawn as they are. Fails if a polygon has too many corners.
+    pub fn report(&self, place: &str, warnings: &mut Warnings) -> Result<(), Fault> {
+        if let Some(corners) = self.too_long {
+            let reason = format!(
+                "a polygon that is not convex has {corners} corners, and at most {MOST_CORNERS} are divided into triangles; \
+                 divide it in the program that made it"
+            );
+            return Err(Fault::new(place, reason));
+        }
         let mut warn = |count: usize, what: &str| {
             if count > 0 {
                 warnings.push(&Fault::new(place, format!("{count} {what}")));
@@ -48,10 +74,8 @@ impl Triangulator {
         };
         warn(self.short, "faces have fewer than 3 corners and are left out");
         warn(self.unplaced, "corners of polygons have no position, or an infinite or undefined one, and are left out");
-        warn(
-            self.crossing,
-            "polygons cross themselves or have too many corners, and their triangles don't cover them exactly",
-        );
+        warn(self.crossing, "polygons cross themselves, and their triangles don't cover them exactly");
+        Ok(())
     }
 
     fn divide(&mut self, polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
@@ -76,9 +100,13 @@ impl Triangulator {
             return;
         }
         // Parts of a polygon without an area cancel each other.
-        if normal == DVec3::ZERO || self.corners.len() > MOST_CORNERS {
+        if normal == DVec3::ZERO {
             self.crossing += 1;
             triangles.extend(fan_of(&self.corners));
+            return;
+        }
+        if self.corners.len() > MOST_CORNERS {
+            self.too_long = Some(self.corners.len());
             return;
         }
         // Coordinates without the largest of the normal, so that they stay exact.

@@ -55,7 +55,7 @@ pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
         return Err(broken(1, "it has no facets"));
     }
     warnings.leave_out(CONTRARY, reader.contrary, "");
-    Ok(draw(&reader.solids, warnings))
+    draw(&reader.solids, warnings)
 }
 
 fn broken(line: usize, reason: &str) -> Fault {
@@ -175,7 +175,7 @@ fn before<'l>(line: &'l [u8], keywords: &[&[u8]]) -> &'l [u8] {
     &[]
 }
 
-fn draw(solids: &[Solid], warnings: &mut Warnings) -> Drawing {
+fn draw(solids: &[Solid], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let corners = || solids.iter().flat_map(|solid| &solid.corners).copied();
     let origin = origin_of(corners());
     let mut material = plain();
@@ -193,18 +193,15 @@ fn draw(solids: &[Solid], warnings: &mut Warnings) -> Drawing {
             positions: solid.corners.iter().map(local).collect(),
             ..FileObject::default()
         };
-        let mut start = 0;
-        for (&end, color) in solid.ends.iter().zip(&solid.colors) {
-            let polygon: Vec<u32> = (start as u32..end as u32).collect();
-            triangulator.add(&polygon, &shape.positions, &mut shape.triangles);
-            if has_colors {
+        triangulator.add_all(&solid.ends, None, &mut shape);
+        if has_colors {
+            for (&end, color) in solid.ends.iter().zip(&solid.colors) {
                 let [r, g, b] = color.unwrap_or(grey);
                 shape.colors.resize(end, [r, g, b, 1.0]);
             }
-            start = end;
         }
         drawing.shapes.push(shape);
     }
-    triangulator.report("facets", warnings);
-    drawing
+    triangulator.report("facets", warnings)?;
+    Ok(drawing)
 }
