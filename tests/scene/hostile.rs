@@ -108,6 +108,51 @@ fn repetition_is_bounded() {
     assert!(matches!(error, Err(SceneError::TooLarge { .. })));
 }
 
+/// Copies, morph targets and vertices multiply.
+#[test]
+fn displacements_are_bounded() {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&vec![TRIANGLE; 2_000].concat());
+    let target = json!({"POSITION": positions});
+    let primitive = json!({"attributes": {"POSITION": positions}, "targets": vec![target; 400]});
+    let translations = builder.floats(&[[0., 0., 0.]; 1_000]);
+    let instances = json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": translations}}});
+    builder.node_with(primitive, json!({"weights": vec![1.0; 400], "extensions": instances}));
+    let loaded = builder.load().unwrap();
+    let error = loaded.scene.pose(&PoseRequest::default()).unwrap_err();
+    let expected = "2400000000 displacements of vertices by morph targets exceed the limit";
+    assert!(error.to_string().contains(expected), "{error}");
+    // Targets without an effect do not count.
+    builder.json["nodes"][0]["weights"] = json!(vec![0.0; 400]);
+    assert!(builder.load().unwrap().scene.pose(&PoseRequest::default()).is_ok());
+}
+
+/// Buffers and images of one file share its content, however they name it, and equal views are decoded once.
+#[test]
+fn one_file_is_read_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes: Vec<u8> = TRIANGLE.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    std::fs::write(folder.path().join("a.bin"), &bytes).unwrap();
+    image::RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 4])).save(folder.path().join("a.png")).unwrap();
+    let names = |kind: &str| -> Vec<Value> {
+        let spellings = [format!("a.{kind}"), format!("./a.{kind}"), format!("%61.{kind}"), format!("././a.{kind}")];
+        spellings.map(|uri| json!({"uri": uri, "byteLength": 36})).to_vec()
+    };
+    let each = |value: &dyn Fn(usize) -> Value| (0..4).map(value).collect::<Vec<_>>();
+    let document = json!({
+        "asset": {"version": "2.0"}, "buffers": names("bin"), "images": names("png"),
+        "bufferViews": each(&|i| json!({"buffer": i, "byteLength": 36})),
+        "accessors": each(&|i| json!({"bufferView": i, "type": "VEC3", "componentType": 5126, "count": 3})),
+        "textures": each(&|i| json!({"source": i})),
+        "materials": each(&|i| json!({"emissiveTexture": {"index": i}})),
+        "meshes": [{"primitives": each(&|i| json!({"attributes": {"POSITION": i}, "material": i}))}],
+        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+    });
+    let loaded = Scene::from_slice(document.to_string().as_bytes(), "test", Some(folder.path())).unwrap();
+    assert_eq!(loaded.scene.info().triangles, 4);
+    assert_eq!((loaded.scene.images.len(), loaded.scene.textures.len()), (1, 4));
+}
+
 /// A material that needs tangents does without those that a file has wrong, whether it has textures or not.
 #[test]
 fn unusable_tangents_are_generated() {

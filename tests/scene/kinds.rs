@@ -119,7 +119,7 @@ fn everything_in_one_place_takes_no_longer() {
     let star = polygon(&star.collect::<Vec<_>>(), [0, 1]);
     let error = Scene::from_slice(star.as_bytes(), "test", None).unwrap_err().to_string();
     assert!(error.contains("has 200000 corners, and at most 16384"), "{error}");
-    // A convex one has a fan of triangles.
+    // A convex one has a fan of triangles, whatever rounding does to its corners.
     let disk = (0..200_000).map(|i| {
         let angle = std::f64::consts::TAU * f64::from(i) / 200_000.0;
         [1e6 * angle.cos(), 1e6 * angle.sin()]
@@ -256,6 +256,26 @@ fn text_of_stl_in_any_case_and_order() {
     let (loaded, pose) = load(&format!("solid a\n{facet}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0"));
     assert_eq!(pose.geometry.triangles.len(), 1);
     assert!(loaded.warnings[0].contains("ends within a facet"), "{:?}", loaded.warnings);
+}
+
+/// Text in UTF-16, as shells write it, numbers of Fortran, and marks, blanks and zeros around the text.
+#[test]
+fn text_in_other_encodings() {
+    let obj = "v 0 0 0\nv 1.0D+0 0 0\nv 0 1d0 0\nf 1 2 3\n";
+    let stl = "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for text in [obj, stl, ply] {
+        let units = || ['\u{feff}'].into_iter().chain(text.chars()).map(|c| c as u16);
+        let little: Vec<u8> = units().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = units().flat_map(u16::to_be_bytes).collect();
+        for bytes in [little, big, format!("\u{feff}{text}").into_bytes(), format!("\r\n {text}").into_bytes()] {
+            let (loaded, pose) = load_in(&bytes, None);
+            assert_eq!((pose.geometry.triangles.len(), loaded.warnings.len()), (1, 0), "{text}");
+        }
+    }
+    let (loaded, _) = load(&format!("{stl}\0\0\0"));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
 }
 
 /// A binary STL file whose triangles have these attributes.

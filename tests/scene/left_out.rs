@@ -206,3 +206,104 @@ fn extensions_and_attributes_of_gltf() {
         extensions (3: EXT_mesh_features, KHR_xmp_json_ld); vertex attributes (3: COLOR_1, TEXCOORD_2, _HEAT)";
     assert_eq!(left_out(&builder.glb(), None), expected);
 }
+
+/// Elements to which nothing refers, and parts without an effect.
+#[test]
+fn everything_in_gltf() {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let joints = builder.accessor("VEC4", 5121, &[0; 12], json!({}));
+    let weights = builder.floats(&[[1., 0., 0., 0.]; 3]);
+    let times = builder.floats(&[[0.], [1.]]);
+    let moved = builder.floats(&[[0.; 3]; 2]);
+    builder.texture([1, 2, 3]);
+    let used = builder.texture([1, 2, 3]);
+    builder.push("images", json!({"bufferView": 0, "name": "photo"}));
+    builder.push("samplers", json!({"name": "sharp"}));
+    let material = builder.push("materials", json!({
+        "name": "paint", "alphaCutoff": 0.25, "pbrMetalicRoughness": {}, "normalTexture": {"index": used, "texCord": 1},
+        "pbrMetallicRoughness": {"baseColourFactor": [1, 0, 0, 1]},
+    }));
+    builder.push("materials", json!({"name": "spare"}));
+    let attributes = json!({
+        "POSITION": positions, "JOINTS_0": joints, "WEIGHTS_0": weights, "JOINTS_2": joints, "WEIGHTS_1": weights,
+    });
+    let primitive = json!({"attributes": attributes, "material": material, "targets": [{"POSITION": positions}]});
+    builder.node_with(
+        primitive,
+        json!({
+            "weights": [0, 1], "children": [1],
+            "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": positions, "_ID": times}}},
+        }),
+    );
+    builder.triangle(json!({"skin": 0}));
+    builder.push("nodes", json!({"name": "lost", "skin": 0, "children": [3]}));
+    builder.push("nodes", json!({}));
+    builder.push("meshes", json!({"name": "hull", "weights": [1, 1, 1], "primitives": [{"attributes": {}}]}));
+    builder.push("accessors", json!({"name": "heat", "type": "SCALAR", "componentType": 5126, "count": 1}));
+    builder.push("bufferViews", json!({"name": "rest", "buffer": 0, "byteLength": 4}));
+    builder.push("skins", json!({"joints": [0]}));
+    builder.push("skins", json!({"joints": [0], "name": "fur"}));
+    builder.push(
+        "cameras",
+        json!({
+            "name": "top", "type": "perspective", "perspective": {"yfov": 1, "znear": 1, "aspectRatio": -1, "fstop": 2},
+        }),
+    );
+    builder.push("scenes", json!({"nodes": [0], "title": "first"}));
+    builder.push(
+        "animations",
+        json!({
+            "samplers": [{"input": times, "output": moved}, {"input": times, "output": moved}],
+            "channels": [
+                {"sampler": 0, "target": {"path": "scale"}},
+                {"sampler": 0, "target": {"node": 0, "path": "colour"}},
+            ],
+        }),
+    );
+    builder.json["extensions"] = json!({
+        "KHR_lights_punctual": {"lights": [{"name": "lamp", "type": "point"}]},
+        "EXT_lights_image_based": {"lights": [{}]},
+    });
+    builder.json["extra"] = 1.into();
+    let said = left_out(&builder.glb(), None);
+    let kinds: Vec<&str> = said.trim_start_matches("test: left out: ").split("; ").collect();
+    assert_eq!(
+        kinds,
+        [
+            "accessors that nothing uses (1: heat)",
+            "alpha cutoffs of materials that are not MASK (1)",
+            "aspect ratios that are not positive (1)",
+            "attributes of instances (1: _ID)",
+            "buffer views that nothing uses (1: rest)",
+            "cameras of no node (1: top)",
+            "channels of animations of unknown properties (1: colour)",
+            "channels of animations without a target (1: scale)",
+            "environments of no scene (1: 0)",
+            "images that nothing uses (1: photo)",
+            "joints of meshes without a skin (1: 0)",
+            "lights of no node (1: lamp)",
+            "materials that nothing uses (1: spare)",
+            "members that are not of the format (6: extra, pbrMetalicRoughness, title, baseColourFactor, texCord, fstop)",
+            "meshes of no node (1: hull)",
+            "nodes of no scene (2: lost, 3)",
+            "samplers of animations that no channel uses (1)",
+            "samplers that nothing uses (1: sharp)",
+            "skins of meshes without joints (1)",
+            "skins of no node (1: fur)",
+            "skins of nodes without a mesh (1)",
+            "textures that nothing uses (1: 0)",
+            "vertex attributes (2: JOINTS_2, WEIGHTS_1)",
+            "weights of no morph target (4)",
+        ]
+    );
+    // Of a GLB: other chunks, and what follows it.
+    let mut builder = Builder::new();
+    builder.triangle(json!({}));
+    let mut glb = builder.glb();
+    glb.extend([4, 0, 0, 0, b'A', b'B', b'C', 0, 1, 2, 3, 4]);
+    let length = (glb.len() as u32).to_le_bytes();
+    glb[8..12].copy_from_slice(&length);
+    glb.extend(b"more");
+    assert_eq!(left_out(&glb, None), "test: left out: bytes behind the GLB (4); chunks (1: ABC)");
+}

@@ -285,7 +285,8 @@ fn broken_channels_leave_the_rest_in_motion() {
     channels.push(json!({"sampler": 0, "target": {"node": 0, "path": "rotation"}}));
     channels.push(json!({"sampler": 0, "target": {"path": "scale"}}));
     let warnings = builder.load().unwrap().warnings;
-    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert_eq!(warnings.len(), 4, "{warnings:?}");
+    assert!(warnings[3].ends_with("left out: channels of animations without a target (1: scale)"), "{warnings:?}");
     assert!(warnings[1].contains("/animations/0/channels/1/sampler"), "{warnings:?}");
     assert_eq!(x_of_first_corner(&builder, 1.0), 3.0);
 }

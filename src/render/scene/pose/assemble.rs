@@ -12,7 +12,7 @@ use crate::scene::{
     Draw, DrawClass, Edge, Geometry, Instance, Material, Scene, SceneError, Stroke, VertexStreams,
     document::Primitive,
     error::{Fault, Warnings},
-    read::MAX_ELEMENTS,
+    read::{MAX_DISPLACEMENTS, MAX_ELEMENTS},
 };
 
 /// Number of vertices that one task transforms; a multiple of 3, so that triangles with flat normals stay whole.
@@ -54,15 +54,16 @@ pub fn assemble(
     placements: &[Placement<'_>],
     warnings: &mut Warnings,
 ) -> Result<(Geometry, Vec<MovingPlacement>), SceneError> {
-    let total = |count: fn(&Placement<'_>) -> usize, what| {
-        let count = placements.iter().map(|p| count(p) as u64).sum();
-        if count > MAX_ELEMENTS {
-            return Err(SceneError::TooLarge { file: scene.document.file.clone(), what, count, limit: MAX_ELEMENTS });
+    let total = |count: fn(&Placement<'_>) -> usize, what, limit| {
+        let count = placements.iter().map(|p| count(p) as u64).fold(0, u64::saturating_add);
+        if count > limit {
+            return Err(SceneError::TooLarge { file: scene.document.file.clone(), what, count, limit });
         }
         Ok(())
     };
-    total(|p| p.primitive.positions.len(), "vertices")?;
-    total(|p| p.primitive.triangles.len(), "triangles")?;
+    total(|p| p.primitive.positions.len(), "vertices", MAX_ELEMENTS)?;
+    total(|p| p.primitive.triangles.len(), "triangles", MAX_ELEMENTS)?;
+    total(|p| p.displacements(), "displacements of vertices by morph targets", MAX_DISPLACEMENTS)?;
 
     let (jobs, origin) = plan(scene, placements, warnings);
     let count = |count: fn(&Placement<'_>) -> usize| -> usize { jobs.iter().map(|job| count(&job.placement)).sum() };

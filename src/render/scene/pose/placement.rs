@@ -168,6 +168,12 @@ impl<'d, 's> Placer<'d, 's> {
 }
 
 impl<'d> Placement<'d> {
+    /// Number of displacements of its vertices by morph targets. Those of a moving mesh may all have an effect later.
+    pub fn displacements(&self) -> usize {
+        let targets = if self.moves { self.primitive.targets.len() } else { self.targets.len() };
+        self.primitive.positions.len().saturating_mul(targets)
+    }
+
     /// Mesh of the placement; `None` unless a [`rigid`](Self::rigid) transform is all that tells placements of the mesh
     /// apart.
     pub fn mesh(&self) -> Option<&'d Primitive> {

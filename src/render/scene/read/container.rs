@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::foreign;
-use crate::scene::SceneError;
+use crate::scene::{SceneError, error::Warnings};
 
 /// The two halves of a glTF file.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ pub fn is_glb(bytes: &[u8]) -> bool {
 }
 
 /// Distinguishes GLB from JSON by content, and splits it.
-pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError> {
+pub fn open<'a>(bytes: &'a [u8], file: &str, warnings: &mut Warnings) -> Result<Container<'a>, SceneError> {
     let refuse = |reason: String| SceneError::NotGltf { file: file.to_owned(), reason };
     if bytes.is_empty() {
         return Err(refuse("the file is empty".to_owned()));
@@ -36,7 +36,7 @@ pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError
     if is_lfs_pointer(bytes) {
         return Err(refuse("this is a Git LFS pointer, not the file itself; fetch it with `git lfs pull`".to_owned()));
     }
-    let (json, binary) = if is_glb(bytes) { split_glb(bytes, file)? } else { (bytes, None) };
+    let (json, binary) = if is_glb(bytes) { split_glb(bytes, file, warnings)? } else { (bytes, None) };
     let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
     match json.iter().find(|byte| !byte.is_ascii_whitespace()) {
         Some(b'{') => {}
@@ -57,8 +57,12 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(word.try_into().ok()?))
 }
 
-/// JSON and binary chunk of a GLB; unknown chunks are skipped, as the specification asks.
-fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u8]>), SceneError> {
+/// JSON and binary chunk of a GLB; unknown chunks are skipped, as the specification asks, and named.
+fn split_glb<'a>(
+    bytes: &'a [u8],
+    file: &str,
+    warnings: &mut Warnings,
+) -> Result<(&'a [u8], Option<&'a [u8]>), SceneError> {
     let refuse = |reason: String| SceneError::NotGltf { file: file.to_owned(), reason };
     let truncated =
         |what: &str| refuse(format!("the GLB is truncated: {what}, the file ends after {} bytes", bytes.len()));
@@ -73,6 +77,7 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u
     let length = word(bytes, 8).ok_or_else(|| truncated("its header has 12 bytes"))? as usize;
     let body = bytes.get(..length).ok_or_else(|| truncated(&format!("its header declares {length} bytes")))?;
 
+    warnings.leave_out("bytes behind the GLB", bytes.len() - length, "");
     let (mut json, mut binary) = (None, None);
     let mut at = 12;
     while at < body.len() {
@@ -86,7 +91,7 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u
         match &kind.to_le_bytes() {
             b"JSON" if json.is_none() => json = Some(chunk),
             b"BIN\0" if binary.is_none() => binary = Some(chunk),
-            _ => {}
+            other => warnings.leave_out("chunks", 1, String::from_utf8_lossy(other).trim_end_matches('\0')),
         }
         at += 8 + chunk.len();
     }

@@ -2,8 +2,9 @@
 
 use std::{
     borrow::Cow,
-    collections::{BTreeMap, BTreeSet},
+    collections::{BTreeMap, BTreeSet, HashMap},
     io::Cursor,
+    path::PathBuf,
 };
 
 use gltf::json::{self, Index};
@@ -25,6 +26,8 @@ const MAX_FILE: u64 = 1 << 30;
 pub struct DecodedImages {
     /// Index into `decoded` of every image that was tried; `None` for a failure.
     places: BTreeMap<usize, Option<u32>>,
+    /// First image of each file and buffer view that was tried.
+    first: HashMap<ImageSource, usize>,
     decoded: Vec<Image>,
     texels: u64,
 }
@@ -35,8 +38,16 @@ impl DecodedImages {
         let wanted: BTreeSet<usize> = wanted.into_iter().filter(|index| !self.places.contains_key(index)).collect();
         let mut accepted = Vec::new();
         let mut faults = Vec::new();
+        let mut repeated = Vec::new();
         for index in wanted {
             self.places.insert(index, None);
+            if let Some(source) = ImageSource::of(index, context) {
+                let first = *self.first.entry(source).or_insert(index);
+                if first != index {
+                    repeated.push((index, first));
+                    continue;
+                }
+            }
             let fetched = fetch(index, context.model, &context.buffers);
             let encoded = fetched.and_then(|EncodedImage { bytes, place, note }| {
                 faults.extend(note);
@@ -66,6 +77,9 @@ impl DecodedImages {
                 }
                 Err(fault) => faults.push(fault),
             }
+        }
+        for (index, first) in repeated {
+            self.places.insert(index, self.place(first));
         }
         context.warnings.extend(faults);
     }
@@ -117,6 +131,21 @@ impl DecodedImages {
 
     pub fn into_decoded(self) -> Vec<Image> {
         self.decoded
+    }
+}
+
+/// Where an image of a document is stored.
+#[derive(PartialEq, Eq, Hash)]
+enum ImageSource {
+    File(PathBuf),
+    View(usize),
+}
+
+impl ImageSource {
+    fn of(index: usize, context: &Context<'_>) -> Option<Self> {
+        let item = context.model.root.images.get(index)?;
+        let file = |uri: &String| Self::File(uri::identity(uri, context.buffers.base()).into_owned());
+        item.uri.as_ref().map(file).or(item.buffer_view.map(|view| Self::View(view.value())))
     }
 }
 

@@ -6,6 +6,9 @@ use crate::scene::error::Fault;
 
 /// Largest number of triangles of a scene, and of vertices.
 pub const MAX_ELEMENTS: u64 = 1 << 27;
+/// Largest number of displacements of vertices by morph targets in a scene at one moment: the time that a pose takes grows with
+/// the product of copies, vertices and targets.
+pub const MAX_DISPLACEMENTS: u64 = 1 << 31;
 /// Largest number of instances of `EXT_mesh_gpu_instancing` in a file.
 const MAX_INSTANCES: u64 = 1 << 22;
 

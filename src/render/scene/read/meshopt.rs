@@ -1,6 +1,8 @@
 //! Buffer views compressed with `KHR_meshopt_compression` or, by its older name,
 //! `EXT_meshopt_compression`.
 
+use std::hash::Hash;
+
 use meshopt::{
     decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
     decode_index_sequence, decode_vertex_buffer,
@@ -25,6 +27,14 @@ pub struct MeshoptExtension {
     mode: String,
     #[serde(default)]
     filter: Option<String>,
+}
+
+impl MeshoptExtension {
+    /// What decides the decoded bytes.
+    pub fn key(self) -> impl Eq + Hash {
+        let (offset, length) = (self.byte_offset.0, self.byte_length.0);
+        (self.buffer.value(), offset, length, self.byte_stride, self.count, self.mode, self.filter)
+    }
 }
 
 /// The extension object among the extensions of a buffer view at `place`, and its own place.

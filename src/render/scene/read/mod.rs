@@ -60,7 +60,7 @@ use accessor::Accessor;
 use buffer::Buffers;
 pub use described::{Change, Descriptions};
 use limits::Budget;
-pub use limits::{MAX_ELEMENTS, check_texels};
+pub use limits::{MAX_DISPLACEMENTS, MAX_ELEMENTS, check_texels};
 use model::Model;
 
 use super::{
@@ -104,6 +104,8 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>
     if container::is_glb(bytes) {
         return read_gltf(bytes, file, base, variant);
     }
+    let original = bytes;
+    let bytes = &*text::utf8(bytes);
     let loaded = if stl::is_stl(bytes) {
         stl::read(bytes, file)?
     } else if ply::is_ply(bytes) {
@@ -113,7 +115,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>
     } else if stl::is_named(bytes, file) {
         stl::read(bytes, file)?
     } else {
-        return read_gltf(bytes, file, base, variant);
+        return read_gltf(original, file, base, variant);
     };
     find_variant(&loaded.scene.document.root, variant, file)?;
     Ok(loaded)
@@ -140,11 +142,11 @@ fn find_variant(root: &json::Root, variant: Option<&str>, file: &str) -> Result<
 }
 
 fn read_gltf(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>) -> Result<Loaded, SceneError> {
-    let container = container::open(bytes, file)?;
+    let mut warnings = Warnings::new(file);
+    let container = container::open(bytes, file, &mut warnings)?;
     let malformed = |fault: Fault| fault.into_error(file);
     let mut value = container.json;
     model::settle(&mut value, "");
-    let mut warnings = Warnings::new(file);
     unread::name(&value, &mut warnings);
     // The version comes first, because a file of another version looks malformed throughout.
     let asset = asset::read(&value, file)?;

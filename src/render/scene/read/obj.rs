@@ -14,6 +14,7 @@ use super::{
     shape::{Drawing, origin_of, plain},
     text::{self, keyword, no_number, number, statements, words},
     texture_file::{NamedTextures, fetch},
+    uri,
 };
 use crate::scene::{
     Loaded, SceneError,
@@ -302,14 +303,15 @@ impl Reader {
                 _ => vec![whole],
             };
             for name in names {
-                if !known.insert(name.clone()) {
+                // A file counts once, however it is named.
+                if !known.insert(uri::identity(&name.replace('\\', "/"), base).into_owned()) {
                     continue;
                 }
                 match fetch(&name, "", base) {
                     Ok(bytes) => {
                         let path = name.replace('\\', "/");
                         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
-                        described.extend(mtl::parse(&bytes, folder, warnings));
+                        described.extend(mtl::parse(&text::utf8(&bytes), folder, warnings));
                     }
                     Err(reason) => {
                         let fault = Fault::new(format!("mtllib {name}"), reason);

@@ -9,6 +9,7 @@ use super::{
     ply_data::{Data, Element, Row},
     polygon::Triangulator,
     shape::{Drawing, FileObject, linear, origin_of, plain, scale_of_codes},
+    text::BOM,
     texture_file::{NamedTextures, TextureFiles},
 };
 use crate::scene::{
@@ -19,13 +20,19 @@ use crate::scene::{
 
 /// Whether `bytes` are a PLY file.
 pub fn is_ply(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+    let start = from_start(bytes);
+    start.starts_with(b"ply\n") || start.starts_with(b"ply\r")
+}
+
+/// A file without the byte-order mark and the blank lines that some programs write before it.
+fn from_start(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BOM).unwrap_or(bytes).trim_ascii_start()
 }
 
 /// Reads a PLY file; images that it names are in the folder `base`.
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
     let mut warnings = Warnings::new(file);
-    let drawing = decode(bytes, &mut warnings).and_then(|decoded| decoded.draw(base, &mut warnings));
+    let drawing = decode(from_start(bytes), &mut warnings).and_then(|decoded| decoded.draw(base, &mut warnings));
     let drawing = drawing.map_err(|fault| fault.into_error(file))?;
     drawing.into_scene("PLY", file, warnings)
 }

@@ -106,7 +106,13 @@ impl Triangulator {
             return;
         }
         if self.corners.len() > MOST_CORNERS {
-            self.too_long = Some(self.corners.len());
+            // Many corners of a round polygon are rounded to the inner side of their neighbours.
+            let outside: f64 = fan().map(|triangle| -triangle.dot(normal).min(0.0)).sum();
+            if outside > 1e-6 * normal.length_squared() {
+                self.too_long = Some(self.corners.len());
+            } else {
+                triangles.extend(fan_of(&self.corners));
+            }
             return;
         }
         // Coordinates without the largest of the normal, so that they stay exact.

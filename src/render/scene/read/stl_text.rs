@@ -35,7 +35,11 @@ struct Reader {
 /// Reads the solids of a text file.
 pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let mut reader = Reader::default();
-    let bytes = bytes.strip_prefix(BOM).unwrap_or(bytes);
+    let mut bytes = bytes.strip_prefix(BOM).unwrap_or(bytes);
+    // Programs that write blocks fill the last one with zeros.
+    while let Some(rest) = bytes.strip_suffix(b"\0") {
+        bytes = rest;
+    }
     for (index, line) in Lines(bytes).enumerate() {
         reader.add(line, warnings).map_err(|reason| broken(index + 1, &reason))?;
     }

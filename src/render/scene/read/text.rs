@@ -61,11 +61,24 @@ pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// A number. Every spelling of a number that is none gives NaN, including those of old C libraries such as `-nan(ind)`,
+/// Text in UTF-16 with a byte-order mark, as UTF-8; other bytes as they are.
+pub fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let from: fn([u8; 2]) -> u16 = match bytes {
+        [0xFF, 0xFE, ..] => u16::from_le_bytes,
+        [0xFE, 0xFF, ..] => u16::from_be_bytes,
+        _ => return Cow::Borrowed(bytes),
+    };
+    let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|unit| from(*unit)).collect();
+    Cow::Owned(String::from_utf16_lossy(&units).into_bytes())
+}
+
+/// A number, also with the exponent of Fortran (`1.5d0`). Every spelling of a number that is none gives NaN, including those of old C libraries such as `-nan(ind)`,
 /// `1.#QNAN` and `-1.#IND00`.
 pub fn number(word: &[u8]) -> Option<f64> {
-    let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-    parsed.or_else(|| is_none(word).then_some(f64::NAN))
+    let text = std::str::from_utf8(word).ok()?;
+    let fortran = || text.contains(['d', 'D']).then(|| text.replace(['d', 'D'], "e").parse().ok()).flatten();
+    let parsed = text.parse().ok();
+    parsed.or_else(|| is_none(word).then_some(f64::NAN)).or_else(fortran)
 }
 
 fn is_none(word: &[u8]) -> bool {
@@ -99,8 +112,9 @@ mod tests {
             assert!(!number(word.as_bytes()).unwrap().is_finite(), "{word}");
         }
         assert_eq!(number(b"-1.5e2"), Some(-150.0));
+        assert_eq!((number(b"-1.5D2"), number(b"1d-1")), (Some(-150.0), Some(0.1)));
         assert_eq!(number(b"infinity"), Some(f64::INFINITY));
-        for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}", "nancy", "-"] {
+        for word in ["", "one", "1,5", "0x10", "1.5.2", "\u{fc}", "nancy", "-", "d", "1d", "1d1d1"] {
             assert_eq!(number(word.as_bytes()), None, "{word}");
         }
         assert_eq!(no_number(b"1,5"), "\"1,5\" has a decimal comma; write \"1.5\"");

@@ -57,6 +57,13 @@ pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Fetched, Stri
     Ok(Fetched { bytes, note })
 }
 
+/// What two URIs have in common if they refer to the same file, or are the same data.
+pub fn identity<'u>(uri: &'u str, base: Option<&Path>) -> Cow<'u, Path> {
+    let is_data = uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"));
+    let file = base.filter(|_| !is_data).and_then(|base| fs::canonicalize(locate(uri, base).ok()?.0).ok());
+    file.map_or(Cow::Borrowed(Path::new(uri)), Cow::Owned)
+}
+
 /// Decodes the part of a data URI after `data:` (RFC 2397) as browsers do (the Fetch standard's "data: URL processor"): the
 /// word `base64` in any case, white space in base64, and a fragment.
 fn decode_data(rest: &str) -> Result<Fetched, String> {
