@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Renders the pictures of the README and of docs/gallery.md again, with the commands that are printed there, and those of
-# docs/embedding.md, which a test makes. Look at each picture.
+# docs/embedding-reference.md, which a test makes. Look at each picture.
 #
 # Scenes that are not part of the repository (docs/scenes.md says where they come from) are expected in ../shared/scenes. If a
 # scene is missing, its pictures stay as they are. Enlarging needs ffmpeg. tools/window.sh makes the pictures of the window.
