@@ -82,7 +82,12 @@ gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300
     --weights --wall $out/wall.png
 cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
 
-# Exact shadows.
+# Exact shadows, and a part of them with and without antialiasing, enlarged three times.
+for aa in none superpixel; do
+    gpc render assets/fence.glb -o "$work/shadows-$aa.png" --size 480x300 --background '#a8c0d8' --shadows exact --quiet --aa $aa
+    ffmpeg -loglevel error -y -i "$work/shadows-$aa.png" -vf crop=160:130:180:170,scale=iw*3:ih*3:flags=neighbor \
+        "$out/shadows-part-$aa.png"
+done
 for scene in letters fence; do
     gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact --quiet
 done
