@@ -61,13 +61,13 @@ view:
 
 test:
 	@tools/setup.sh build lavapipe validation c
-	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi
+	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi --no-fail-fast
 
 test-view:
 	@tools/setup.sh build lavapipe validation c window display
 	$(CARGO) build --release --features view --example window
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
-		$(CARGO) test --release --features view --bin gpc --test view
+		$(CARGO) test --release --features view --no-fail-fast --bin gpc --test view
 
 # Lavapipe renders the images with which those of the GPU are compared.
 test-gpu:

@@ -5,12 +5,13 @@ use crate::shared::{gltf_files, shared};
 
 #[test]
 #[cfg_attr(not(shared_files), ignore = "../shared is missing")]
-fn every_malformed_file_ends_in_an_image_or_an_error() {
+fn malformed_files_end_in_an_image_or_an_error() {
     let malformed = shared("malformed");
     let folder = tempfile::tempdir().unwrap();
     let image = folder.path().join("a.png");
     let (mut images, mut errors) = (0, 0);
-    for path in gltf_files(&malformed) {
+    // Most of the time goes to starting the command, so it reads some of the files; tests/gpu renders all.
+    for path in gltf_files(&malformed).into_iter().step_by(16) {
         let name = path.to_str().unwrap();
         let options = ["-o", "a.png", "--size", "32x18", "--samples", "4"];
         let run = gpc(folder.path(), &[&["render", name], &options[..]].concat());
@@ -30,5 +31,5 @@ fn every_malformed_file_ends_in_an_image_or_an_error() {
             code => panic!("{name}: exit code {code:?}: {}", run.stderr),
         }
     }
-    assert!(images > 30 && errors > 30, "{images} images, {errors} errors");
+    assert!(images > 2 && errors > 2, "{images} images, {errors} errors");
 }

@@ -13,6 +13,7 @@ mod edges;
 mod encode;
 mod environment;
 mod extremes;
+mod files;
 mod filter;
 mod golden;
 #[path = "../common/golden.rs"]
@@ -39,6 +40,8 @@ mod scene_builder;
 mod scenes;
 mod schedule;
 mod shade;
+#[path = "../common/shared.rs"]
+mod shared;
 mod soundness;
 mod stage;
 mod stop;

@@ -84,8 +84,6 @@ fn the_passes_of_all_rounds_are_timed() {
         assert!(timed.contains(&PassTime::ROUNDS), "{passes:?}");
         timed.retain(|name| *name != PassTime::ROUNDS);
         assert_eq!(timed, names(passes[1]));
-        let total = |passes: &[PassTime]| passes.iter().map(|time| time.ms).sum::<f64>();
-        assert!(total(passes[1]) > 0.5 * total(passes[0]), "{passes:?}");
     });
 }
 

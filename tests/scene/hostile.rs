@@ -1,17 +1,13 @@
 //! Files that claim more than they contain, or repeat their contents excessively.
 
-use std::time::Instant;
-
 use crate::scene_builder::{Builder, TRIANGLE};
 use gpc::scene::{PoseRequest, Scene, SceneError};
 use serde_json::{Value, json};
 
 #[track_caller]
 fn refused(builder: &Builder, message: &str) {
-    let start = Instant::now();
     let error = builder.load().unwrap_err().to_string();
     assert!(error.contains(message), "{error}");
-    assert!(start.elapsed().as_secs() < 5, "{:?}", start.elapsed());
 }
 
 #[test]

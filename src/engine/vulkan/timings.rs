@@ -127,19 +127,25 @@ impl Timings {
             )?;
         }
         let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
-        let mut times: Vec<PassTime> = Vec::new();
-        for (pair, name) in stamps.windows(2).zip(self.names.iter().skip(1)) {
-            let (Some(pass), &[before, after]) = (*name, pair) else {
-                continue;
-            };
-            let ms = after.saturating_sub(before) as f64 * period;
-            match times.iter_mut().find(|time| time.pass == pass) {
-                Some(time) => time.ms += ms,
-                None => times.push(PassTime { pass, ms }),
-            }
-        }
-        Ok(times)
+        Ok(by_name(&stamps, &self.names, period))
     }
+}
+
+/// Times of parts, from one stamp to the next. The later stamp has the part's name; parts without a name are left out,
+/// and the times of equal names are added up. A tick of the stamps is `period` milliseconds.
+fn by_name(stamps: &[u64], names: &[Option<&'static str>], period: f64) -> Vec<PassTime> {
+    let mut times: Vec<PassTime> = Vec::new();
+    for (pair, name) in stamps.windows(2).zip(names.iter().skip(1)) {
+        let (Some(pass), &[before, after]) = (*name, pair) else {
+            continue;
+        };
+        let ms = after.saturating_sub(before) as f64 * period;
+        match times.iter_mut().find(|time| time.pass == pass) {
+            Some(time) => time.ms += ms,
+            None => times.push(PassTime { pass, ms }),
+        }
+    }
+    times
 }
 
 impl Drop for Timings {
@@ -148,5 +154,22 @@ impl Drop for Timings {
             // SAFETY: owners drop timings only after the frames that use them have run.
             unsafe { self.gpu.device.destroy_query_pool(*pool, None) };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_takes_from_the_stamp_before_to_its_own() {
+        let names = [None, Some("bin"), Some("sort"), None, Some("bin")];
+        let times = by_name(&[10, 12, 20, 50, 51], &names, 0.5);
+        assert_eq!(times, [PassTime { pass: "bin", ms: 1.5 }, PassTime { pass: "sort", ms: 4.0 }]);
+    }
+
+    #[test]
+    fn stamps_that_run_backwards_take_no_time() {
+        assert_eq!(by_name(&[10, 9], &[None, Some("bin")], 1.0), [PassTime { pass: "bin", ms: 0.0 }]);
     }
 }
