@@ -54,6 +54,9 @@ pub enum RenderError {
         /// Encoding of the type of pixel.
         read: Option<super::Encoding>,
     },
+    /// Accumulation of pixels that are no light.
+    #[error("accumulation averages light: prepare the frame for pixels of [f32; 4]")]
+    AccumulatedPixels,
     /// Result that the function of `Headless::stop_when` no longer wants.
     #[error("what was being made is no longer wanted")]
     Stopped,

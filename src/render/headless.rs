@@ -1,11 +1,12 @@
 //! Renderer with a device of its own, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
-use super::{EngineError, Frame, Pixel, RenderError, Settings, Shadows, Statistics, Target};
+use super::{EngineError, Frame, Method, Pixel, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError};
 use ash::vk;
+use glam::DVec2;
 use std::sync::Arc;
 
 /// Options for opening a device.
@@ -246,6 +247,9 @@ impl Headless {
     pub fn prepare_pixels<P: Pixel>(&self, scene: &PreparedScene, settings: &Settings) -> Result<Frame, RenderError> {
         let reserved = ReadBack::bytes::<P>(settings);
         self.check(&scene.gpu_scene)?;
+        if P::ENCODING.is_some() && matches!(settings.method, Method::Accumulate { .. }) {
+            return Err(RenderError::AccumulatedPixels);
+        }
         let capacity = self.renderer.first_capacity().without_unlisted_tiles();
         self.renderer.prepare_with(scene, settings, P::ENCODING, capacity, reserved)
     }
@@ -266,6 +270,22 @@ impl Headless {
     /// # Errors
     /// As [`Self::render`].
     pub fn render_pixels<P: Pixel>(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered<P>, RenderError> {
+        match &frame.settings().method {
+            Method::Accumulate { samples, pattern } => {
+                let offsets = pattern.offsets(*samples).map_err(EngineError::from)?;
+                let offsets: Vec<_> = offsets.into_iter().map(|offset| DVec2::from(offset.map(f64::from))).collect();
+                self.mean(frame, camera, &offsets, || {})
+            }
+            _ => self.render_one(frame, camera),
+        }
+    }
+
+    /// Renders one frame, with more memory if its lists outgrow what it has.
+    pub(super) fn render_one<P: Pixel>(
+        &mut self,
+        frame: &mut Frame,
+        camera: &Camera,
+    ) -> Result<Rendered<P>, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
                 Err(RenderError::Engine(EngineError::Unfinished { .. })) => {

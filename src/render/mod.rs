@@ -3,6 +3,7 @@
 //! [`Renderer`] works in a host's device and command buffers; [`Headless`] has a device of its own and is built on
 //! [`Renderer`].
 
+mod accumulate;
 mod backdrop;
 pub mod camera;
 mod data;

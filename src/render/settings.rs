@@ -170,6 +170,10 @@ impl Settings {
         let footprint = self.scene.footprint;
         match &self.method {
             Method::Superpixel(options) => TextureFilter::of_cells(footprint, options.cells.shading),
+            Method::Accumulate { samples, .. } if footprint == Footprint::Sample => {
+                let side = 1.0 / (*samples as f32).sqrt();
+                TextureFilter::of_pixels(Footprint::Side(side), 1)
+            }
             method => TextureFilter::of_pixels(footprint, method.side()),
         }
     }

@@ -34,6 +34,8 @@ names! {
         Superpixel "superpixel" "Many samples where the image aliases, one elsewhere",
         Ssaa "ssaa" "Brute force: everything at k x k times the resolution",
         Msaa "msaa" "The device's own multisampling",
+        Accumulate "accumulate" "The mean of N frames, whose cameras are moved within the pixel by a Sobol sequence",
+        Rotated "rotated" "As accumulate, by the points of a rotated grid",
     }
     Detection {
         Contrast "contrast" "Pixels that contrast with a neighbour",

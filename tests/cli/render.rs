@@ -1,37 +1,14 @@
 //! `gpc render` on a device, from arguments to files.
 
 use crate::command::{Run, asset, files, gpc};
-use crate::shared::{gltf_files, shared};
 use gpc::color::srgb;
-use gpc::compare::compare;
 use gpc::output::read;
 use serde_json::Value;
 use std::path::Path;
 
-const SCENES: [&str; 6] = ["checker", "fence", "foliage", "glass", "letters", "spheres"];
-
 fn render(folder: &Path, scene: &str, options: &[&str]) -> Run {
     let scene = asset(&format!("{scene}.glb"));
     gpc(folder, &[&["render", &scene], options].concat())
-}
-
-#[test]
-fn superpixels_bring_every_scene_nearer_to_brute_force() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    for scene in SCENES {
-        let same = ["--size", "240x136", "--background", "0.8,0.9,1"];
-        let with = |name: &str, aa: &[&str]| {
-            render(folder.path(), scene, &[&same[..], &["-o", name], aa].concat()).ok();
-            read(&at(name)).unwrap()
-        };
-        let reference = with("ssaa.png", &["--aa", "ssaa", "--samples", "64"]);
-        let none = with("none.png", &["--aa", "none"]);
-        let ours = with("ours.png", &["--samples", "64"]);
-        let [none, ours] = [none, ours].map(|image| compare(&reference, &image).unwrap());
-        assert!(ours.rmse < 0.6 * none.rmse, "{scene}: {ours:?} against {none:?}");
-        assert!(none.rmse > 0.01, "{scene} shows nothing that aliases");
-    }
 }
 
 #[test]
@@ -274,43 +251,14 @@ fn failures_have_their_exit_codes_and_leave_no_file() {
     let run = |options: &[&str]| render(folder.path(), "glass", &[&small[..], options].concat());
     run(&["-o", "a.png", "--aa", "ssaa", "--samples", "60"]).exits(2).says(&["ssaa", "1, 4, 9, 16"]);
     run(&["-o", "a.png", "--aa", "msaa", "--samples", "3"]).exits(2).says(&["msaa", "4"]);
+    run(&["-o", "a.png", "--aa", "accumulate", "--samples", "1025"]).exits(2).says(&["accumulate", "1 to 1024"]);
+    run(&["-o", "a.png", "--aa", "accumulate", "--aov", "depth"]).exits(2).says(&["accumulation"]);
     run(&["-o", "a.png", "--samples", "1025"]).exits(2).says(&["1024"]);
     run(&["-o", "a.png", "--pattern", "grid", "--samples", "60"]).exits(2).says(&["49", "64"]);
     run(&["-o", "a.png", "--device", "no such device"]).exits(3).says(&["no such device"]);
     run(&["-o", "a.png", "--max-memory", "1K"]).exits(4).says(&["--max-memory"]);
     run(&["-o", "no such folder/a.png"]).exits(1).says(&["no such folder"]);
     assert!(files(folder.path()).is_empty());
-}
-
-#[test]
-#[cfg_attr(not(shared_files), ignore = "../shared is missing")]
-fn a_dozen_real_scenes_render() {
-    let scenes = shared("scenes");
-    let folder = tempfile::tempdir().unwrap();
-    for name in [
-        "AlphaBlendModeTest",
-        "Box",
-        "BoxAnimated",
-        "BoxTextured",
-        "BoxVertexColors",
-        "CampGround",
-        "CesiumMan",
-        "Fox",
-        "MultiUVTest",
-        "NegativeScaleTest",
-        "SimpleSkin",
-        "TextureTransformTest",
-        "UnlitTest",
-    ] {
-        let scene = &gltf_files(&scenes.join(name))[0];
-        let arguments = ["render", scene.to_str().unwrap(), "-o", "a.png", "--json"];
-        let options = ["--size", "160x90", "--samples", "16", "--time", "0.5"];
-        let json = gpc(folder.path(), &[&arguments[..], &options].concat()).ok().json();
-        assert!(json["superpixels"]["count"].as_u64() > Some(0), "{name}");
-        let image = image::open(folder.path().join("a.png")).unwrap().to_rgba8();
-        let seen = image.pixels().filter(|pixel| pixel[3] > 0).count();
-        assert!(seen > 160 * 90 / 50, "{name} shows {seen} pixels");
-    }
 }
 
 /// Without `--variant` the first materials are used, and a hidden node is never visible.

@@ -43,8 +43,8 @@ pub enum EngineError {
         /// Largest number.
         most: u8,
     },
-    /// Attributes with multisampling, which has several IDs in a pixel.
-    #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
+    /// Attributes with multisampling or accumulation, which have several IDs in a pixel.
+    #[error("msaa and accumulation have no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,
     /// Footprint with a side that is not above 0 and at most 1.
     #[error("texture levels for a square of {0} pixels: its side must be above 0 and at most 1")]

@@ -25,6 +25,14 @@ pub enum Method {
         /// Samples a pixel: 2, 4, 8 or 16, as far as the device has them.
         samples: u32,
     },
+    /// The mean of frames of one sample a pixel, whose cameras are moved within the pixel. Only
+    /// [`Headless`](crate::render::Headless) makes all of them; a recorded frame is one of them, unmoved.
+    Accumulate {
+        /// Number of frames, 1 to 1,024.
+        samples: u32,
+        /// Pattern of the offsets within the pixel.
+        pattern: Pattern,
+    },
 }
 
 /// A [`Method`] without its options.
@@ -39,6 +47,10 @@ pub enum MethodKind {
     Ssaa,
     /// [`Method::Msaa`].
     Msaa,
+    /// [`Method::Accumulate`] at points of a Sobol sequence.
+    Accumulate,
+    /// [`Method::Accumulate`] at the points of a rotated grid: [`Pattern::Lattice`].
+    Rotated,
 }
 
 impl MethodKind {
@@ -51,6 +63,8 @@ impl MethodKind {
             Self::Superpixel => Method::Superpixel(SuperpixelOptions::new(samples)),
             Self::Ssaa => Method::Ssaa { samples },
             Self::Msaa => Method::Msaa { samples },
+            Self::Accumulate => Method::Accumulate { samples, pattern: Pattern::Sobol },
+            Self::Rotated => Method::Accumulate { samples, pattern: Pattern::Lattice },
         }
     }
 }
@@ -62,6 +76,8 @@ impl fmt::Display for MethodKind {
             Self::Superpixel => "superpixel",
             Self::Ssaa => "ssaa",
             Self::Msaa => "msaa",
+            Self::Accumulate => "accumulate",
+            Self::Rotated => "rotated",
         })
     }
 }
@@ -245,6 +261,8 @@ impl Method {
             Self::Superpixel(_) => MethodKind::Superpixel,
             Self::Ssaa { .. } => MethodKind::Ssaa,
             Self::Msaa { .. } => MethodKind::Msaa,
+            Self::Accumulate { pattern: Pattern::Lattice, .. } => MethodKind::Rotated,
+            Self::Accumulate { .. } => MethodKind::Accumulate,
         }
     }
 
@@ -262,14 +280,22 @@ impl Method {
         match self {
             Self::None => 1,
             Self::Superpixel(options) => options.cells.samples,
-            Self::Ssaa { samples } | Self::Msaa { samples } => *samples,
+            Self::Ssaa { samples } | Self::Msaa { samples } | Self::Accumulate { samples, .. } => *samples,
+        }
+    }
+
+    /// Number of samples of such a pixel within one frame.
+    pub(crate) fn samples_a_frame(&self) -> u32 {
+        match self {
+            Self::Accumulate { .. } => 1,
+            _ => self.samples(),
         }
     }
 
     /// Offsets of the samples, relative to the pixel's centre.
     pub(crate) fn offsets(&self) -> Result<Vec<[f32; 2]>, EngineError> {
         match self {
-            Self::None | Self::Ssaa { .. } => Ok(vec![[0.0, 0.0]]),
+            Self::None | Self::Ssaa { .. } | Self::Accumulate { .. } => Ok(vec![[0.0, 0.0]]),
             Self::Superpixel(options) => Ok(options.cells.pattern.offsets(options.cells.samples)?),
             Self::Msaa { samples } => Ok(Pattern::Rotated.offsets(*samples)?),
         }
@@ -281,6 +307,13 @@ impl Method {
         match self {
             Self::None => Ok(()),
             Self::Superpixel(options) => options.check(),
+            Self::Accumulate { samples, pattern } => {
+                if !(1..=1024).contains(samples) {
+                    return refuse("accumulate", "1 to 1024".to_owned());
+                }
+                pattern.offsets(*samples)?;
+                Ok(())
+            }
             Self::Ssaa { samples } => {
                 let side = samples.isqrt();
                 if side == 0 || side > 32 || side * side != *samples {

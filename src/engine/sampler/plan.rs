@@ -144,7 +144,7 @@ impl Plan {
                 u64::from(options.cells.samples.min(LINES_AS_POINTS))
             }
             Method::Superpixel(_) | Method::Msaa { .. } => u64::from(image.method.samples()),
-            Method::None | Method::Ssaa { .. } => 1,
+            Method::None | Method::Ssaa { .. } | Method::Accumulate { .. } => 1,
         };
         let lights = if shadow_words > 0 { SHADOWED } else { 1 };
         let most =
@@ -257,7 +257,7 @@ impl Plan {
         }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = tile_count(outer);
-        let samples = u64::from(image.method.samples());
+        let samples = u64::from(image.method.samples_a_frame());
         let policy = RoundPolicy::of(limits);
         let records = match image.method {
             Method::Superpixel(options) => {
@@ -265,8 +265,8 @@ impl Plan {
                 (pixels * records_of_superpixel(&options.cells, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
-            Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
-            Method::None | Method::Ssaa { .. } => 0,
+            _ if scene.has_blend() => pixels * 3,
+            Method::None | Method::Ssaa { .. } | Method::Accumulate { .. } => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
         let records =

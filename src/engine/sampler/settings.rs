@@ -9,7 +9,8 @@ use crate::vulkan::Limits;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Footprint {
-    /// The part of the pixel that a shading represents: with supersampling by k x k samples, 1/k of the pixel's side;
+    /// The part of the pixel that a shading represents: with k x k samples of supersampling or accumulation, 1/k of the
+    /// pixel's side;
     /// in superpixels, the triangle's share of the pixel that is shaded there. More samples make textures sharper, and
     /// the image converges to the unfiltered scene.
     Sample,
@@ -109,7 +110,7 @@ impl ImageRequest<'_> {
         if let Some(region) = self.region {
             region.end(self.size)?;
         }
-        if self.attributes && matches!(self.method, Method::Msaa { .. }) {
+        if self.attributes && matches!(self.method, Method::Msaa { .. } | Method::Accumulate { .. }) {
             return Err(EngineError::Attributes);
         }
         self.method.check(limits)

@@ -5,8 +5,8 @@ use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::sampler::color::display_code;
 use crate::render::passes::SeenLocation;
 use crate::render::{
-    Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError, Rendered, Settings, Shading,
-    Statistics, SuperpixelOptions,
+    Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered, Settings, Shading, Statistics,
+    SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -33,7 +33,7 @@ impl Headless {
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
-    /// [`RenderError::LocationMethod`] if the method is `msaa`, [`RenderError::LocationRegion`] if the settings have a
+    /// [`RenderError::LocationMethod`] if the method is `msaa` or accumulates, [`RenderError::LocationRegion`] if the settings have a
     /// region; otherwise as [`Headless::render`].
     pub fn render_locations(
         &mut self,
@@ -44,8 +44,8 @@ impl Headless {
         let (size, mut settings) = (settings.size, settings.clone());
         settings.check(self.gpu().limits())?;
         match settings.method {
-            Method::Msaa { .. } => {
-                return Err(RenderError::LocationMethod { method: MethodKind::Msaa });
+            Method::Msaa { .. } | Method::Accumulate { .. } => {
+                return Err(RenderError::LocationMethod { method: settings.method.kind() });
             }
             // Superpixels with every sample shaded equal supersampling, and read textures as it does.
             Method::Ssaa { samples } => {

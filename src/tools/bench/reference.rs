@@ -43,7 +43,7 @@ pub fn brute_force(
     camera: &Camera,
     settings: &Settings,
     samples: u32,
-    mut progress: impl FnMut(),
+    progress: impl FnMut(),
 ) -> Result<Vec<[f32; 4]>, RenderError> {
     if !(GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(&samples) || !samples.is_multiple_of(GRID_SAMPLES) {
         return Err(RenderError::Engine(EngineError::Samples {
@@ -53,26 +53,11 @@ pub fn brute_force(
         }));
     }
     let settings = of_reference(settings, GRID_SAMPLES);
-    let size = DVec2::from(settings.size.map(f64::from));
     let mut frame = headless.prepare(scene, &settings)?;
+    // The points of the set are in cells of the grid.
     let shifts = owen_sobol(samples / GRID_SAMPLES, SEED);
-    let mut sums: Vec<[f64; 4]> = Vec::new();
-    for shift in &shifts {
-        // The shift is in cells of the grid: divided by its side it is in pixels, and divided by the size in image
-        // widths and heights.
-        let moved = DVec2::from(shift.map(f64::from)) / f64::from(SIDE) / size;
-        let camera = Camera { shift: camera.shift + moved, ..*camera };
-        let colors = headless.render(&mut frame, &camera)?.colors;
-        sums.resize(colors.len(), [0.0; 4]);
-        for (sum, color) in sums.iter_mut().zip(&colors) {
-            for (sum, value) in sum.iter_mut().zip(color) {
-                *sum += f64::from(*value);
-            }
-        }
-        progress();
-    }
-    let weight = 1.0 / shifts.len() as f64;
-    Ok(sums.into_iter().map(|sum| sum.map(|value| (value * weight) as f32)).collect())
+    let offsets: Vec<_> = shifts.iter().map(|shift| DVec2::from(shift.map(f64::from)) / f64::from(SIDE)).collect();
+    Ok(headless.accumulate(&mut frame, camera, &offsets, progress)?.colors)
 }
 
 /// Settings of one rendering of a reference, with `samples` samples a pixel.

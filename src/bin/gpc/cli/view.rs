@@ -138,6 +138,9 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
         .background(background)
         .max_memory(args.device.max_memory)
         .method(sampling.method(samples));
+    if matches!(sampling.aa, MethodKind::Accumulate | MethodKind::Rotated) {
+        usage!("--aa {}: the window shows each frame by itself; render the image instead", sampling.aa);
+    }
     if sampling.aa == MethodKind::None && samples != 1 {
         usage!("none can't have {samples} samples a pixel; it can have 1");
     }

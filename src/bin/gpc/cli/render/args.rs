@@ -58,7 +58,8 @@ pub struct SamplingArgs {
     ///
     /// superpixel takes 1 to 1024. At 64, it looks for triangles at 512 places of a pixel that aliases, and computes light at 8 to 32
     /// places where colours vary; at 256, at 2048 and 32 to 128; at 1024, at 4096 and 64 to 256. ssaa takes a square number up to
-    /// 1024, and looks and computes light at as many places in every pixel. msaa takes what the device supports.
+    /// 1024, accumulate and rotated any number up to that, and all three look and compute light at as many places in every pixel.
+    /// msaa takes what the device supports.
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// A pixel contrasts with a neighbour if they differ by more than this, in 8-bit sRGB codes [default: 6; 1 from 128

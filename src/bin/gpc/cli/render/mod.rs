@@ -22,7 +22,7 @@ use super::values::Background;
 use args::RenderArgs;
 use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
-use gpc::render::Settings;
+use gpc::render::{Method, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{ImageReport, Origin};
 use sequence::SequenceFrame;
@@ -75,7 +75,10 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     })?;
     clock.lap("device");
     // Everything else reads light.
-    let reads_codes = format == Format::Png8 && args.format.is_none() && image.background != Background::Environment;
+    let reads_codes = format == Format::Png8
+        && args.format.is_none()
+        && image.background != Background::Environment
+        && !matches!(settings.method, Method::Accumulate { .. });
     let mut session = Session::new(headless, settings.clone(), reads_codes);
     let device = session.device();
     let mut video = args
