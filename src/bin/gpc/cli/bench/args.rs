@@ -1,6 +1,7 @@
 //! The options of `gpc bench`.
 
 use super::METHODS;
+use crate::cli::render::args::CameraArgs;
 use crate::cli::values;
 use clap::Args;
 use gpc::bench::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
@@ -71,6 +72,8 @@ pub struct BenchArgs {
     /// Part of the device's name, in upper or lower case [default: the best device]
     #[arg(long, value_name = "NAME")]
     pub device: Option<String>,
+    #[command(flatten)]
+    pub camera: CameraArgs,
 }
 
 impl BenchArgs {

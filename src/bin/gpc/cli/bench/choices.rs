@@ -1,15 +1,13 @@
 //! Superpixels with other thresholds of contrast, and with other shadings.
 
-use super::csv;
+use super::columns::{Cell, Column, Study, Table, clocks, column, times};
 use super::results::{ChoiceRow, SceneChoices};
 use super::subject::{self, Bench};
-use crate::cli::print;
 use clap::ValueEnum;
 use gpc::bench::{self, Contender, Yardstick};
 use gpc::names::name;
 use gpc::output::Picture;
 use gpc::render::{CellOptions, MethodKind, Shading, SuperpixelOptions};
-use std::fmt::Write;
 use std::path::Path;
 
 /// Thresholds of contrast.
@@ -74,54 +72,40 @@ impl Bench<'_> {
     }
 }
 
-/// Prints the choices of a scene.
-pub fn print(scene: &SceneChoices) -> anyhow::Result<()> {
-    print::line(&format!(
-        "\n{}, superpixels of {} samples with one option changed:",
-        scene.name,
-        CellOptions::DEFAULT_SAMPLES
-    ))?;
-    print::line("  option    value     superpixels    GPU ms     min      rmse      flip")?;
-    for row in &scene.rows {
-        print::line(&format!(
-            "  {:<9} {:<9} {:>10.2}% {:>9.1} {:>7.1} {:>9.6} {:>9.6}",
-            row.option,
-            row.value,
-            100.0 * row.superpixel_fraction,
-            row.cost.gpu_ms.median,
-            row.cost.gpu_ms.min,
-            row.accuracy.rmse,
-            row.accuracy.flip,
-        ))?;
-    }
-    Ok(())
-}
+impl Study for SceneChoices {
+    type Row = ChoiceRow;
+    const FILE: &'static str = "choices.csv";
 
-const COLUMNS: &str =
-    concat!("scene,textured,option,value,samples,frames,", csv::time_columns!(), ",superpixel_fraction,rmse,flip");
-
-/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
-pub fn csv(scenes: &[SceneChoices]) -> String {
-    let mut text = format!("{COLUMNS}\n");
-    for scene in scenes {
-        for row in &scene.rows {
-            let ChoiceRow { cost, accuracy, .. } = row;
-            // Writing to a string can't fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{},{},{},{},{},{},{}",
-                csv::quoted(&scene.name),
-                scene.textured,
-                row.option,
-                row.value,
-                CellOptions::DEFAULT_SAMPLES,
-                cost.gpu_ms.count,
-                csv::times(&cost.gpu_ms, &cost.wall_ms),
-                row.superpixel_fraction,
-                accuracy.rmse,
-                accuracy.flip,
-            );
-        }
+    fn title(&self) -> String {
+        format!("{}, superpixels of {} samples with one option changed", self.name, CellOptions::DEFAULT_SAMPLES)
     }
-    text
+
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn rows(&self) -> &[ChoiceRow] {
+        &self.rows
+    }
+
+    fn keys() -> Vec<Column<Self, ChoiceRow>> {
+        vec![
+            column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
+            column("textured", "", |scene: &Self, _| Cell::text(scene.textured)),
+            column("option", "option", |_, row: &ChoiceRow| Cell::text(row.option)),
+            column("value", "value", |_, row: &ChoiceRow| Cell::text(&row.value)),
+            column("samples", "", |_, _| Cell::Count(CellOptions::DEFAULT_SAMPLES.into())),
+        ]
+    }
+
+    fn tables() -> Vec<Table<Self, ChoiceRow>> {
+        let columns = times(|row: &ChoiceRow| clocks(&row.cost)).into_iter().chain([
+            column("superpixel_fraction", "superpixels", |_, row: &ChoiceRow| {
+                Cell::Percent(row.superpixel_fraction, 2)
+            }),
+            column("rmse", "RMSE", |_, row: &ChoiceRow| Cell::Number(row.accuracy.rmse, 6)),
+            column("flip", "FLIP", |_, row: &ChoiceRow| Cell::Number(row.accuracy.flip, 6)),
+        ]);
+        vec![Table { caption: "", columns: columns.collect() }]
+    }
 }

@@ -7,17 +7,17 @@ use gpc::render::MethodKind;
 pub const TARGETS: [u32; 2] = [64, 256];
 
 /// Median milliseconds of a row's frame on the device.
-pub fn time(row: &Row) -> f64 {
+fn time(row: &Row) -> f64 {
     row.cost.gpu_ms.median
 }
 
 /// A row's RMSE against the reference, in sRGB-encoded values.
-pub fn error(row: &Row) -> f64 {
+fn error(row: &Row) -> f64 {
     row.accuracy.rmse
 }
 
-/// The rows that no other row beats in both time and error, sorted by time: their Pareto front.
-pub fn front<'a>(rows: impl IntoIterator<Item = &'a Row>, error: impl Fn(&Row) -> f64) -> Vec<&'a Row> {
+/// Times and errors of the rows that no other row beats in both, sorted by time: their Pareto front.
+fn front<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<[f64; 2]> {
     let mut sorted: Vec<_> = rows.into_iter().collect();
     sorted.sort_by(|a, b| time(a).total_cmp(&time(b)).then(error(a).total_cmp(&error(b))));
     let mut least = f64::INFINITY;
@@ -26,7 +26,7 @@ pub fn front<'a>(rows: impl IntoIterator<Item = &'a Row>, error: impl Fn(&Row) -
         least = least.min(error(row));
         better
     });
-    sorted
+    sorted.into_iter().map(|row| [time(row), error(row)]).collect()
 }
 
 /// Superpixel time / supersampling time, at the error of supersampling with `samples` samples: the time that
@@ -35,11 +35,37 @@ pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> 
     let goal = scene.row(MethodKind::Ssaa, samples)?;
     let rows = scene.rows.iter();
     let superpixels = rows.filter(|row| row.method == MethodKind::Superpixel);
-    let points: Vec<_> = front(superpixels, error).into_iter().map(|row| [time(row), error(row)]).collect();
+    let points = front(superpixels);
     if points.is_empty() || time(goal) <= 0.0 {
         return None;
     }
     Some(reached(&points, error(goal)).map(|ms| ms / time(goal)))
+}
+
+/// Superpixel RMSE / the RMSE that brute force reaches in the time of this row, the best of all methods that shade every
+/// sample. `None` for other methods, and if brute force was not measured at shorter and at longer times.
+pub fn ratio_at_equal_time(scene: &SceneResults, row: &Row) -> Option<f64> {
+    use MethodKind::{Accumulate, None as OneSample, Rotated, Ssaa, Superpixel};
+    if row.method != Superpixel {
+        return None;
+    }
+    let rivals = scene.rows.iter().filter(|row| [OneSample, Ssaa, Accumulate, Rotated].contains(&row.method));
+    let rival = error_at(&front(rivals), time(row))?;
+    (rival > 0.0).then(|| error(row) / rival)
+}
+
+/// Error that a front reaches in `ms`, on a straight line on logarithmic axes between two of its points; `None` before its
+/// first point and beyond its last one.
+fn error_at(front: &[[f64; 2]], ms: f64) -> Option<f64> {
+    let after = front.iter().position(|[time, _]| *time >= ms)?;
+    let [late, low] = *front.get(after)?;
+    match after.checked_sub(1).and_then(|index| front.get(index)) {
+        Some([early, high]) if low > 0.0 && *early > 0.0 => {
+            let share = (ms / early).ln() / (late / early).ln();
+            Some(high * (low / high).powf(share))
+        }
+        _ => (late == ms).then_some(low),
+    }
 }
 
 /// Time at which a front reaches the error `goal`. `front` holds times and falling errors. Between two points the
@@ -75,5 +101,13 @@ mod tests {
         near(0.2, 1.0);
         assert_eq!(reached(&front, 0.0005), None);
         assert_eq!(reached(&[[1.0, 0.1], [5.0, 0.0]], 0.05), Some(5.0));
+    }
+
+    #[test]
+    fn an_error_at_a_time_lies_on_the_front() {
+        let front = [[1.0, 0.1], [100.0, 0.001]];
+        assert!((error_at(&front, 10.0).unwrap() / 0.01 - 1.0).abs() < 1e-9);
+        assert_eq!(error_at(&front, 1.0), Some(0.1));
+        assert_eq!([error_at(&front, 0.5), error_at(&front, 101.0)], [None, None]);
     }
 }

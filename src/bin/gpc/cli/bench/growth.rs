@@ -1,43 +1,10 @@
 //! Times of the methods while one quantity of the scene or the image grows.
 
-use super::csv;
-use super::results::{Point, ScalingCurve, Time};
+use super::columns::{Cell, Column, Study, Table, clocks, column, times};
+use super::results::{GrowthRow, ScalingCurve};
 use super::subject::{Bench, settings};
-use crate::cli::print;
 use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{CellOptions, MethodKind, RenderError, SceneRequest};
-use std::fmt::Write;
-
-const COLUMNS: &str =
-    "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
-
-/// All times of all curves (RFC 4180, but with bare line feeds).
-pub fn csv(curves: &[ScalingCurve]) -> String {
-    let mut text = format!("{COLUMNS}\n");
-    for curve in curves {
-        for point in &curve.points {
-            let superpixels = point.superpixel_fraction.map(|share| share.to_string());
-            for time in &point.times {
-                // Writing to a string can't fail.
-                let _ = writeln!(
-                    text,
-                    "{},{},{},{},{},{},{},{},{},{}",
-                    csv::quoted(&curve.quantity),
-                    point.value,
-                    point.size[0],
-                    point.size[1],
-                    point.triangles,
-                    superpixels.as_deref().unwrap_or_default(),
-                    time.method,
-                    time.samples,
-                    time.gpu_ms.median,
-                    time.wall_ms.median,
-                );
-            }
-        }
-    }
-    text
-}
 
 /// The methods to compare, with their samples a pixel.
 const METHODS: [(MethodKind, u32); 3] = [
@@ -51,19 +18,19 @@ impl Bench<'_> {
     /// where the device runs out of memory.
     pub fn grow(&mut self, growth: Growth) -> anyhow::Result<ScalingCurve> {
         self.progress.begin(&growth.to_string());
-        let mut curve = ScalingCurve { quantity: growth.to_string(), points: Vec::new(), notes: Vec::new() };
+        let mut curve = ScalingCurve { quantity: growth.to_string(), rows: Vec::new(), notes: Vec::new() };
         let mut methods = METHODS.to_vec();
         for index in 0..growth.steps() {
             self.progress.say(&format!("step {} of {}", index + 1, growth.steps()));
             let Some(step) = growth.step(index, self.args.size) else {
                 break;
             };
-            match self.point(&step, &mut methods, &mut curve.notes) {
-                Ok(point) => {
+            match self.step(&step, &mut methods, &mut curve.notes) {
+                Ok(rows) => {
                     if index + 1 < growth.steps() {
-                        self.drop_slow(&point, &mut methods, &mut curve.notes);
+                        self.drop_slow(&step, &rows, &mut methods, &mut curve.notes);
                     }
-                    curve.points.push(point);
+                    curve.rows.extend(rows);
                 }
                 Err(error) => {
                     curve.notes.push(format!("ends before {}: {error}", step.value));
@@ -75,25 +42,31 @@ impl Bench<'_> {
     }
 
     /// Removes the methods that would take too long for the next scene.
-    fn drop_slow(&self, point: &Point, methods: &mut Vec<(MethodKind, u32)>, notes: &mut Vec<String>) {
+    fn drop_slow(
+        &self,
+        step: &GrowthStep,
+        rows: &[GrowthRow],
+        methods: &mut Vec<(MethodKind, u32)>,
+        notes: &mut Vec<String>,
+    ) {
         let budget = self.args.budget;
         methods.retain(|(method, _)| {
-            let time = point.times.iter().find(|time| time.method == *method);
-            let fits = time.is_some_and(|time| 1e-3 * time.wall_ms.min <= budget);
+            let row = rows.iter().find(|row| row.method == *method);
+            let fits = row.is_some_and(|row| 1e-3 * row.cost.wall_ms.min <= budget);
             if !fits {
-                notes.push(format!("{method} ends at {}: a frame takes longer than {budget} s", point.value));
+                notes.push(format!("{method} ends at {}: a frame takes longer than {budget} s", step.value));
             }
             fits
         });
     }
 
     /// Measures a scene, and removes the methods that can't go any further.
-    fn point(
+    fn step(
         &mut self,
         step: &GrowthStep,
         methods: &mut Vec<(MethodKind, u32)>,
         notes: &mut Vec<String>,
-    ) -> Result<Point, RenderError> {
+    ) -> Result<Vec<GrowthRow>, RenderError> {
         let prepared = self.headless.upload(SceneRequest::new(&step.scene, &step.pose))?;
         let pixels = f64::from(step.size[0]) * f64::from(step.size[1]);
         let mut contenders = Vec::new();
@@ -123,43 +96,52 @@ impl Bench<'_> {
             self.args.budget(),
             |_| {},
         )?;
-        let times: Vec<_> = methods
-            .iter()
-            .zip(&contenders)
-            .map(|((method, samples), contender)| {
-                let cost = contender.cost();
-                Time { method: *method, samples: *samples, gpu_ms: cost.gpu_ms, wall_ms: cost.wall_ms }
-            })
-            .collect();
-        Ok(Point {
+        let rows = methods.iter().zip(&contenders).map(|((method, samples), contender)| GrowthRow {
             value: step.value,
             size: step.size,
             triangles: step.pose.geometry.triangle_count(),
             superpixel_fraction,
-            times,
-        })
+            method: *method,
+            samples: *samples,
+            cost: contender.cost(),
+        });
+        Ok(rows.collect())
     }
 }
 
-/// Prints a curve.
-pub fn print(curve: &ScalingCurve) -> anyhow::Result<()> {
-    print::line(&format!("\ngrowth of {}, GPU ms:", curve.quantity))?;
-    print::line("         value  triangles        size  superpx      none  superpixel 64    ssaa 64")?;
-    let ms = |time: Option<f64>| time.map_or_else(|| "-".to_owned(), |ms| format!("{ms:.1}"));
-    for point in &curve.points {
-        print::line(&format!(
-            "  {:>12} {:>10} {:>11} {:>8} {:>9} {:>14} {:>10}",
-            format!("{:.4}", point.value).trim_end_matches('0').trim_end_matches('.'),
-            point.triangles,
-            format!("{}x{}", point.size[0], point.size[1]),
-            point.superpixel_fraction.map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
-            ms(point.ms(MethodKind::None)),
-            ms(point.ms(MethodKind::Superpixel)),
-            ms(point.ms(MethodKind::Ssaa)),
-        ))?;
+impl Study for ScalingCurve {
+    type Row = GrowthRow;
+    const FILE: &'static str = "growth.csv";
+
+    fn title(&self) -> String {
+        format!("growth of {}", self.quantity)
     }
-    for note in &curve.notes {
-        print::line(&format!("  {note}"))?;
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
     }
-    Ok(())
+
+    fn rows(&self) -> &[GrowthRow] {
+        &self.rows
+    }
+
+    fn keys() -> Vec<Column<Self, GrowthRow>> {
+        vec![
+            column("quantity", "", |curve: &Self, _| Cell::text(&curve.quantity)),
+            column("value", "value", |_, row: &GrowthRow| Cell::text(row.value)),
+            column("width", "width", |_, row: &GrowthRow| Cell::Count(row.size[0].into())),
+            column("height", "height", |_, row: &GrowthRow| Cell::Count(row.size[1].into())),
+            column("triangles", "triangles", |_, row: &GrowthRow| Cell::Count(row.triangles)),
+            column("superpixel_fraction", "superpixels", |_, row: &GrowthRow| {
+                Cell::optional(row.superpixel_fraction, |share| Cell::Percent(share, 1))
+            }),
+            column("method", "method", |_, row: &GrowthRow| Cell::text(row.method)),
+            column("samples", "N", |_, row: &GrowthRow| Cell::Count(row.samples.into())),
+        ]
+    }
+
+    fn tables() -> Vec<Table<Self, GrowthRow>> {
+        let columns = times(|row: &GrowthRow| clocks(&row.cost)).into();
+        vec![Table { caption: "", columns }]
+    }
 }

@@ -2,22 +2,22 @@
 
 mod args;
 mod choices;
-mod csv;
+mod columns;
 mod front;
 mod gallery;
 mod growth;
-mod html;
 mod machine;
 mod measure;
 mod motion;
 mod pictures;
 mod progress;
+mod quality;
+mod report;
 mod results;
 mod split;
 mod stress;
 mod subject;
 mod summary;
-mod table;
 mod variants;
 
 pub use args::BenchArgs;
@@ -35,7 +35,14 @@ use std::process::ExitCode;
 use subject::Bench;
 
 /// Every method, in the order of tables.
-const METHODS: [MethodKind; 4] = [MethodKind::None, MethodKind::Msaa, MethodKind::Ssaa, MethodKind::Superpixel];
+const METHODS: [MethodKind; 6] = [
+    MethodKind::None,
+    MethodKind::Msaa,
+    MethodKind::Ssaa,
+    MethodKind::Accumulate,
+    MethodKind::Rotated,
+    MethodKind::Superpixel,
+];
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let mut files = args.scenes.iter().chain(&args.motion);
@@ -62,7 +69,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let mut galleries = Vec::new();
     for path in &args.scenes {
         let (scene, gallery) = bench.measure(path)?;
-        bench.progress.suspend(|| table::print(&scene))?;
+        bench.progress.suspend(|| columns::print(&scene))?;
         results.scenes.push(scene);
         galleries.push(gallery);
         // Files are written after each scene, so that a failure loses no results.
@@ -71,15 +78,15 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     }
     for path in &args.motion {
         let scene = bench.motion(path, args.motion_size)?;
-        bench.progress.suspend(|| motion::print(&scene))?;
+        bench.progress.suspend(|| columns::print(&scene))?;
         results.motion.push(scene);
-        results.motion_summary = motion::summarize(&results.motion);
+        results.motion_summary = Some(motion::summarize(&results.motion));
         write(&args.out, &results, &galleries)?;
     }
     if args.variants {
         for path in &args.scenes {
             let scene = bench.variants(path)?;
-            bench.progress.suspend(|| variants::print(&scene))?;
+            bench.progress.suspend(|| columns::print(&scene))?;
             results.variants.push(scene);
             write(&args.out, &results, &galleries)?;
         }
@@ -87,7 +94,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     if args.choices {
         for path in &args.scenes {
             let scene = bench.choices(path)?;
-            bench.progress.suspend(|| choices::print(&scene))?;
+            bench.progress.suspend(|| columns::print(&scene))?;
             results.choices.push(scene);
             write(&args.out, &results, &galleries)?;
         }
@@ -95,7 +102,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     if args.growth {
         for growth in Growth::ALL {
             let curve = bench.grow(growth)?;
-            bench.progress.suspend(|| growth::print(&curve))?;
+            bench.progress.suspend(|| columns::print(&curve))?;
             results.growth.push(curve);
             write(&args.out, &results, &galleries)?;
         }
@@ -103,40 +110,31 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     if args.stress {
         for check in Check::ALL {
             let stress = bench.stress(check)?;
-            bench.progress.suspend(|| stress::print(&stress))?;
+            bench.progress.suspend(|| columns::print(&stress))?;
             results.stress.push(stress);
             write(&args.out, &results, &galleries)?;
         }
     }
     bench.progress.finish();
-    table::print_summary(&results.summary)?;
-    motion::print_summary(&results.motion_summary)?;
+    results.summary.iter().try_for_each(columns::print)?;
+    results.motion_summary.iter().try_for_each(columns::print)?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
-    let head = results.head(results.size);
-    let mut files = vec![
-        ("results.json", serde_json::to_string(results)? + "\n"),
-        ("results.csv", head.clone() + &table::csv(&results.scenes)),
-        ("report.html", html::page(results, galleries)),
+    let json = serde_json::to_string(results)? + "\n";
+    let files = [("results.json", json), ("report.html", report::page(results, galleries))];
+    let tables = [
+        columns::csv(&results.scenes, results),
+        columns::csv(&results.summary, results),
+        columns::csv(&results.motion, results),
+        columns::csv(results.motion_summary.as_slice(), results),
+        columns::csv(&results.variants, results),
+        columns::csv(&results.choices, results),
+        columns::csv(&results.growth, results),
+        columns::csv(&results.stress, results),
     ];
-    if let Some(moved) = results.motion.first() {
-        let text = results.head(moved.size) + &motion::csv(&results.motion);
-        files.push(("motion.csv", text));
-    }
-    if !results.variants.is_empty() {
-        let text = head.clone() + &variants::csv(&results.variants);
-        files.push(("variants.csv", text));
-    }
-    if !results.choices.is_empty() {
-        let text = head.clone() + &choices::csv(&results.choices);
-        files.push(("choices.csv", text));
-    }
-    if !results.growth.is_empty() {
-        files.push(("growth.csv", head + &growth::csv(&results.growth)));
-    }
-    for (name, text) in files {
+    for (name, text) in files.into_iter().chain(tables.into_iter().flatten()) {
         output::write_atomically(&folder.join(name), text.as_bytes())?;
     }
     Ok(())

@@ -1,16 +1,14 @@
 //! Errors and flicker of the methods in motion.
 
-use super::csv;
+use super::columns::{Cell, Column, Study, Table, column};
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
-use crate::cli::print;
 use gpc::bench::{Motion, SequenceErrors};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{EngineError, MethodKind, RenderError, Settings};
 use serde::Serialize;
-use std::fmt::Write;
 use std::path::Path;
 
 /// Samples a pixel of each frame's reference.
@@ -35,6 +33,10 @@ pub struct MotionRatio {
     /// Ratio of the flicker.
     pub flicker: Ratio,
 }
+
+/// Ratios of all scenes in motion.
+#[derive(Serialize)]
+pub struct MotionSummary(Vec<MotionRatio>);
 
 impl Bench<'_> {
     /// Measures the scene of a file in motion, in images of `size` = [width, height].
@@ -101,7 +103,7 @@ impl Bench<'_> {
 }
 
 /// Superpixel / supersampling ratios, one for each number of samples at which both were measured.
-pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
+pub fn summarize(scenes: &[SceneMotion]) -> MotionSummary {
     let counts = CELLS.iter().filter(|(method, _)| *method == MethodKind::Superpixel);
     let at = |&(_, samples): &(MethodKind, u32)| {
         let pairs = || {
@@ -120,70 +122,82 @@ pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
             flicker: Ratio::of(pairs().map(|(name, a, b)| (name, a.flicker, b.flicker)))?,
         })
     };
-    counts.filter_map(at).collect()
+    MotionSummary(counts.filter_map(at).collect())
 }
 
-/// Prints a scene in motion.
-pub fn print(scene: &SceneMotion) -> anyhow::Result<()> {
-    let [width, height] = scene.size;
-    print::line(&format!(
-        "\n{}, in motion, {width} x {height}: mean of each frame's RMSE against its own truth, and flicker:",
-        scene.name
-    ))?;
-    for note in &scene.notes {
-        print::line(&format!("  {note}"))?;
+impl Study for SceneMotion {
+    type Row = MotionRow;
+    const FILE: &'static str = "motion.csv";
+
+    fn title(&self) -> String {
+        let [width, height] = self.size;
+        let what = "mean of each frame's RMSE against its own truth, and flicker";
+        format!("{}, in motion, {width} x {height}: {what}", self.name)
     }
-    print::line("  motion  method       N     RMSE  flicker")?;
-    for row in &scene.rows {
-        print::line(&format!(
-            "  {:<6}  {:<10} {:>4} {:>8.5} {:>8.5}",
-            row.motion.to_string(),
-            row.method.to_string(),
-            row.samples,
-            row.steadiness.rmse,
-            row.steadiness.flicker,
-        ))?;
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
     }
-    Ok(())
+
+    fn rows(&self) -> &[MotionRow] {
+        &self.rows
+    }
+
+    fn keys() -> Vec<Column<Self, MotionRow>> {
+        vec![
+            column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
+            column("textured", "", |scene: &Self, _| Cell::text(scene.textured)),
+            column("width", "", |scene: &Self, _| Cell::Count(scene.size[0].into())),
+            column("height", "", |scene: &Self, _| Cell::Count(scene.size[1].into())),
+            column("motion", "motion", |_, row: &MotionRow| Cell::text(row.motion)),
+            column("method", "method", |_, row: &MotionRow| Cell::text(row.method)),
+            column("samples", "N", |_, row: &MotionRow| Cell::Count(row.samples.into())),
+        ]
+    }
+
+    fn tables() -> Vec<Table<Self, MotionRow>> {
+        let columns = vec![
+            column("rmse", "RMSE", |_, row: &MotionRow| Cell::Number(row.steadiness.rmse, 5)),
+            column("flicker", "flicker", |_, row: &MotionRow| Cell::Number(row.steadiness.flicker, 5)),
+        ];
+        vec![Table { caption: "", columns }]
+    }
+
+    fn size(&self) -> Option<[u32; 2]> {
+        Some(self.size)
+    }
 }
 
-/// Prints the ratios over all scenes.
-pub fn print_summary(summary: &[MotionRatio]) -> anyhow::Result<()> {
-    if !summary.is_empty() {
-        print::line("\nsuperpixel in motion over ssaa, medians over scenes and motions:")?;
-        print::line("     N   RMSE  worst  flicker  worst")?;
-    }
-    for at in summary {
-        print::line(&format!(
-            "  {:>4}  {:>5.2}  {:>5.2}  {:>7.2}  {:>5.2}",
-            at.samples, at.rmse.median, at.rmse.worst, at.flicker.median, at.flicker.worst,
-        ))?;
-    }
-    Ok(())
-}
+impl Study for MotionSummary {
+    type Row = MotionRatio;
+    const FILE: &'static str = "motion-summary.csv";
 
-const COLUMNS: &str = "scene,textured,width,height,motion,method,samples,rmse,flicker";
-
-/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
-pub fn csv(scenes: &[SceneMotion]) -> String {
-    let mut text = format!("{COLUMNS}\n");
-    for scene in scenes {
-        for row in &scene.rows {
-            // Writing to a string can't fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{},{},{},{},{},{}",
-                csv::quoted(&scene.name),
-                scene.textured,
-                scene.size[0],
-                scene.size[1],
-                row.motion,
-                row.method,
-                row.samples,
-                row.steadiness.rmse,
-                row.steadiness.flicker,
-            );
-        }
+    fn title(&self) -> String {
+        "superpixel in motion over ssaa, medians over scenes and motions".to_owned()
     }
-    text
+
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn rows(&self) -> &[MotionRatio] {
+        &self.0
+    }
+
+    fn keys() -> Vec<Column<Self, MotionRatio>> {
+        vec![column("samples", "N", |_, row: &MotionRatio| Cell::Count(row.samples.into()))]
+    }
+
+    fn tables() -> Vec<Table<Self, MotionRatio>> {
+        let number = |name, heading, value: fn(&MotionRatio) -> f64| {
+            column(name, heading, move |_: &Self, row| Cell::Number(value(row), 2))
+        };
+        let columns = vec![
+            number("rmse_ratio", "RMSE", |row| row.rmse.median),
+            number("rmse_ratio_worst", "worst", |row| row.rmse.worst),
+            number("flicker_ratio", "flicker", |row| row.flicker.median),
+            number("flicker_ratio_worst", "worst", |row| row.flicker.worst),
+        ];
+        vec![Table { caption: "", columns }]
+    }
 }

@@ -2,10 +2,10 @@
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
-use super::motion::MotionRatio;
+use super::motion::MotionSummary;
 use super::summary::Summary;
 use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
+use gpc::bench::{Accuracy, Cost, Motion, Split, Steadiness, VariantCost, Within};
 use gpc::render::MethodKind;
 use gpc::vulkan::Limits;
 use serde::Serialize;
@@ -28,7 +28,7 @@ pub struct Results {
     pub summary: Vec<Summary>,
     pub scenes: Vec<SceneResults>,
     /// Superpixel / supersampling ratios in motion.
-    pub motion_summary: Vec<MotionRatio>,
+    pub motion_summary: Option<MotionSummary>,
     /// Errors in motion, scene by scene.
     pub motion: Vec<SceneMotion>,
     /// Time of the camera's variants, scene by scene.
@@ -121,32 +121,24 @@ pub struct Stress {
 #[derive(Serialize)]
 pub struct ScalingCurve {
     pub quantity: String,
-    pub points: Vec<Point>,
+    pub rows: Vec<GrowthRow>,
     /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
 }
 
-/// Measurements of one scene of a curve.
+/// Cost of one method in one scene of a curve.
 #[derive(Serialize)]
-pub struct Point {
+pub struct GrowthRow {
     /// Value of the quantity that grows.
     pub value: f64,
     pub size: [u32; 2],
     pub triangles: u64,
     /// Share of the pixels that are superpixels; `None` if superpixels were not rendered.
     pub superpixel_fraction: Option<f64>,
-    pub times: Vec<Time>,
-}
-
-/// Time of a method.
-#[derive(Serialize)]
-pub struct Time {
     pub method: MethodKind,
     pub samples: u32,
-    /// Milliseconds on the device.
-    pub gpu_ms: Spread,
-    /// Wall-clock milliseconds.
-    pub wall_ms: Spread,
+    #[serde(flatten)]
+    pub cost: Cost,
 }
 
 /// Measurements of one scene.
@@ -204,7 +196,7 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
-            motion_summary: Vec::new(),
+            motion_summary: None,
             motion: Vec::new(),
             variants: Vec::new(),
             choices: Vec::new(),
@@ -240,14 +232,6 @@ impl VariantRow {
             gpu_ratio: cost.gpu_ns() / raster.gpu_ns(),
             wall_ratio: cost.wall_ns() / raster.wall_ns(),
         }
-    }
-}
-
-impl Point {
-    /// The median device time of a method, in milliseconds.
-    pub fn ms(&self, method: MethodKind) -> Option<f64> {
-        let time = self.times.iter().find(|time| time.method == method)?;
-        Some(time.gpu_ms.median)
     }
 }
 

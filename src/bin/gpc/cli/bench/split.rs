@@ -109,17 +109,3 @@ pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
         (Some(Cause::Superpixel | Cause::Inside) | None, _) => "unknown",
     }
 }
-
-/// Parts of the error that superpixels leave: a phrase, and its share of the squared error of one sample a pixel.
-pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
-    [
-        (Cause::Superpixel, Some(Fault::Edges), within.superpixel_edges),
-        (Cause::Superpixel, Some(Fault::Texture), within.superpixel_texture),
-        (Cause::Superpixel, Some(Fault::Light), within.superpixel_light),
-        (Cause::BelowThreshold, None, left.below_threshold),
-        (Cause::Unseen, None, left.unseen),
-        (Cause::Inside, Some(Fault::Texture), within.inside_texture),
-        (Cause::Inside, Some(Fault::Light), within.inside_light),
-    ]
-    .map(|(cause, fault, share)| (reason(Some(cause), fault), share))
-}

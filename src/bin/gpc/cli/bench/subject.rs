@@ -3,7 +3,6 @@
 use super::BenchArgs;
 use super::progress::Progress;
 use crate::cli::input;
-use crate::cli::render::args::CameraArgs;
 use crate::cli::render::{NamedView, choose_views};
 use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
@@ -48,10 +47,12 @@ pub(super) struct Wanted<'a> {
 impl Bench<'_> {
     /// Loads a scene and uploads it for images of `size` = [width, height].
     pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
-        let loaded = input::load(path)?;
-        let pose = loaded.scene.pose(&PoseRequest::default())?;
+        let camera = &self.args.camera;
+        let loaded = input::load_variant(path, camera.variant.as_deref())?;
+        let request = PoseRequest { scene: camera.scene, animation: camera.animation.clone(), time: camera.time };
+        let pose = loaded.scene.pose(&request)?;
         let [width, height] = size.map(f64::from);
-        let views = choose_views(&CameraArgs::default(), &pose, width / height)?;
+        let views = choose_views(camera, &pose, width / height)?;
         let Some(view) = views.into_iter().next() else {
             anyhow::bail!("{}: there is no camera to see it with", path.display());
         };

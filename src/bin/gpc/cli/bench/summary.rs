@@ -1,10 +1,10 @@
 //! Ratios over all scenes, those with and those without textures separately.
 
-use super::front::{TARGETS, time_to_error};
+use super::columns::{Cell, Column, Study, Table, column};
+use super::front::{TARGETS, ratio_at_equal_time, time_to_error};
 use super::results::{Row, SceneResults};
-use super::split::shares;
 use gpc::bench::Spread;
-use gpc::render::{CellOptions, MethodKind};
+use gpc::render::MethodKind;
 use serde::Serialize;
 
 /// Summary of the scenes with textures, or of those without.
@@ -35,6 +35,8 @@ pub struct AtSamples {
     pub rmse_ratio: Option<Ratio>,
     /// Superpixel FLIP / supersampling FLIP.
     pub flip_ratio: Option<Ratio>,
+    /// Superpixel RMSE / the RMSE that brute force reaches in the same time.
+    pub equal_time_ratio: Option<Ratio>,
     /// Superpixel RMSE / supersampling RMSE of geometry alone.
     pub geometry_ratio: Option<Ratio>,
     /// Median share of the aliasing error that superpixels remove.
@@ -80,7 +82,7 @@ pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
 }
 
 /// Numbers of samples that superpixels were measured with.
-pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
+fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
     let rows = scenes.into_iter().flat_map(|scene| &scene.rows);
     let superpixels = rows.filter(|row: &&Row| row.method == MethodKind::Superpixel);
     let mut counts: Vec<_> = superpixels.map(|row| row.samples).collect();
@@ -89,12 +91,65 @@ pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32
     counts
 }
 
-impl Summary {
-    /// Phrase for the summarised scenes: their number, and whether they are textured.
-    pub fn about(&self) -> String {
+impl Study for Summary {
+    type Row = AtSamples;
+    const FILE: &'static str = "summary.csv";
+
+    fn title(&self) -> String {
         let kind = if self.textured { "textured" } else { "untextured" };
         let scenes = if self.scenes == 1 { "scene" } else { "scenes" };
-        format!("{} {kind} {scenes}", self.scenes)
+        format!("superpixel, medians of {} {kind} {scenes}", self.scenes)
+    }
+
+    /// The shares of supersampling's time in which superpixels reach its error.
+    fn notes(&self) -> Vec<String> {
+        let note = |reach: &TimeToMatch| {
+            let never = reach.scenes.iter().filter(|(_, share)| share.is_none()).count();
+            let share = reach.share.map_or_else(|| "never".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+            let scenes = reach.scenes.len();
+            format!("share of its time until ssaa {}'s error: {share} (never on {never} of {scenes})", reach.samples)
+        };
+        self.reach.iter().map(note).collect()
+    }
+
+    fn rows(&self) -> &[AtSamples] {
+        &self.at
+    }
+
+    fn keys() -> Vec<Column<Self, AtSamples>> {
+        vec![
+            column("textured", "", |summary: &Self, _| Cell::text(summary.textured)),
+            column("samples", "N", |_, row: &AtSamples| Cell::Count(row.samples.into())),
+            column("scenes", "scenes", |_, row: &AtSamples| Cell::Count(row.scenes as u64)),
+        ]
+    }
+
+    fn tables() -> Vec<Table<Self, AtSamples>> {
+        let number = |name, heading, value: fn(&AtSamples) -> Option<f64>| {
+            column(name, heading, move |_: &Self, row| Cell::optional(value(row), |value| Cell::Number(value, 2)))
+        };
+        let ratio = |[name, worst]: [&'static str; 2], heading, of: fn(&AtSamples) -> Option<&Ratio>| {
+            [
+                column(name, heading, move |_: &Self, row| Cell::optional(of(row), |of| Cell::Number(of.median, 2))),
+                column(worst, "worst", move |_: &Self, row| Cell::optional(of(row), |of| Cell::Number(of.worst, 2))),
+            ]
+        };
+        let ratios = [
+            ratio(["rmse_ratio", "rmse_ratio_worst"], "RMSE over ssaa's", |row| row.rmse_ratio.as_ref()),
+            ratio(["flip_ratio", "flip_ratio_worst"], "FLIP over ssaa's", |row| row.flip_ratio.as_ref()),
+            ratio(["geometry_ratio", "geometry_ratio_worst"], "geometry alone", |row| row.geometry_ratio.as_ref()),
+            ratio(["equal_time_ratio", "equal_time_ratio_worst"], "RMSE at equal time", |row| {
+                row.equal_time_ratio.as_ref()
+            }),
+        ];
+        let columns = ratios.into_iter().flatten().chain([
+            column("removed", "removed", |_: &Self, row: &AtSamples| {
+                Cell::optional(row.removed, |share| Cell::Percent(share, 1))
+            }),
+            number("speedup", "ssaa/superpixel", |row| row.speedup),
+            number("over_none", "superpixel/none", |row| row.over_none),
+        ]);
+        vec![Table { caption: "", columns: columns.collect() }]
     }
 }
 
@@ -111,6 +166,9 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
         over_none: each(&|scene| over_none(scene, samples)),
         rmse_ratio: Ratio::over(scenes, |scene| rmse_ratio(scene, samples)),
         flip_ratio: Ratio::over(scenes, |scene| flip_ratio(scene, samples)),
+        equal_time_ratio: Ratio::over(scenes, |scene| {
+            ratio_at_equal_time(scene, scene.row(MethodKind::Superpixel, samples)?)
+        }),
         geometry_ratio: Ratio::over(scenes, |scene| geometry_ratio(scene, samples)),
         removed: each(&row),
     }
@@ -143,21 +201,21 @@ impl Ratio {
 }
 
 /// Supersampling time / superpixel time.
-pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
+fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
     let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     let superpixel = scene.row(MethodKind::Superpixel, samples)?;
     ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
 }
 
 /// Superpixel time / time of one sample a pixel.
-pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
+fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(MethodKind::Superpixel, samples)?;
     let none = scene.row(MethodKind::None, 1)?;
     ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
 }
 
 /// Superpixel RMSE / supersampling RMSE.
-pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(MethodKind::Superpixel, samples)?;
     let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
@@ -170,24 +228,8 @@ fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
-/// Largest part of the squared error that superpixels leave, and its share. The number of samples is the default, or
-/// otherwise the largest that was measured.
-pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
-    let superpixels = |row: &&Row| row.method == MethodKind::Superpixel;
-    let row = scene
-        .rows
-        .iter()
-        .filter(superpixels)
-        .max_by_key(|row| (row.samples == CellOptions::DEFAULT_SAMPLES, row.samples))?;
-    let (left, within) = (row.left?, row.left_within?);
-    let causes = shares(&left, &within);
-    let whole: f64 = causes.iter().map(|(_, share)| share).sum();
-    let (name, share) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((name, ratio(share, whole)?))
-}
-
 /// Superpixel RMSE / supersampling RMSE of geometry alone.
-pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(MethodKind::Superpixel, samples)?;
     let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)

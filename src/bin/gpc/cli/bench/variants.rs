@@ -1,12 +1,10 @@
 //! Costs of the camera's variants.
 
-use super::csv;
+use super::columns::{Cell, Column, Study, Table, column, times};
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
-use crate::cli::print;
 use gpc::bench::{Variant, VariantContender, VariantError};
 use gpc::render::MethodKind;
-use std::fmt::Write;
 use std::path::Path;
 
 impl Bench<'_> {
@@ -45,60 +43,39 @@ impl Bench<'_> {
     }
 }
 
-/// Prints the variants of a scene.
-pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
-    print::line(&format!(
-        "\n{}, variants of the camera; ratios are of the time a sample to the raster pass's:",
-        scene.name
-    ))?;
-    for note in &scene.notes {
-        print::line(&format!("  {note}"))?;
-    }
-    print::line("  variant       samples    GPU ms     min  ns/sample   ratio   wall ms     min  ns/sample   ratio")?;
-    for row in &scene.rows {
-        let VariantRow { cost, .. } = row;
-        print::line(&format!(
-            "  {:<10} {:>10} {:>9.1} {:>7.1} {:>10.1} {:>6.2}x {:>9.1} {:>7.1} {:>10.1} {:>6.2}x",
-            cost.variant.to_string(),
-            cost.samples,
-            cost.gpu_ms.median,
-            cost.gpu_ms.min,
-            row.gpu_ns,
-            row.gpu_ratio,
-            cost.wall_ms.median,
-            cost.wall_ms.min,
-            row.wall_ns,
-            row.wall_ratio,
-        ))?;
-    }
-    Ok(())
-}
+impl Study for SceneVariants {
+    type Row = VariantRow;
+    const FILE: &'static str = "variants.csv";
 
-const COLUMNS: &str =
-    concat!("scene,triangles,variant,samples,runs,", csv::time_columns!(), ",gpu_ns,wall_ns,gpu_ratio,wall_ratio");
-
-/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
-pub fn csv(scenes: &[SceneVariants]) -> String {
-    let mut text = format!("{COLUMNS}\n");
-    for scene in scenes {
-        for row in &scene.rows {
-            let VariantRow { cost, .. } = row;
-            // Writing to a string can't fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{},{},{},{},{},{},{}",
-                csv::quoted(&scene.name),
-                scene.triangles,
-                cost.variant,
-                cost.samples,
-                cost.wall_ms.count,
-                csv::times(&cost.gpu_ms, &cost.wall_ms),
-                row.gpu_ns,
-                row.wall_ns,
-                row.gpu_ratio,
-                row.wall_ratio,
-            );
-        }
+    fn title(&self) -> String {
+        format!("{}, variants of the camera; ratios are of the time a sample to the raster pass's", self.name)
     }
-    text
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    fn rows(&self) -> &[VariantRow] {
+        &self.rows
+    }
+
+    fn keys() -> Vec<Column<Self, VariantRow>> {
+        vec![
+            column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
+            column("triangles", "", |scene: &Self, _| Cell::Count(scene.triangles)),
+            column("variant", "variant", |_, row: &VariantRow| Cell::text(row.cost.variant)),
+            column("samples", "samples", |_, row: &VariantRow| Cell::Count(row.cost.samples)),
+        ]
+    }
+
+    fn tables() -> Vec<Table<Self, VariantRow>> {
+        let columns = times(|row: &VariantRow| [&row.cost.gpu_ms, &row.cost.wall_ms]).into_iter().chain([
+            column("gpu_ns", "GPU ns/sample", |_, row: &VariantRow| Cell::Number(row.gpu_ns, 1)),
+            column("wall_ns", "wall ns/sample", |_, row: &VariantRow| Cell::Number(row.wall_ns, 1)),
+            column("gpu_ratio", "GPU ratio", |_, row: &VariantRow| Cell::Number(row.gpu_ratio, 2)),
+            column("wall_ratio", "wall ratio", |_, row: &VariantRow| Cell::Number(row.wall_ratio, 2)),
+            column("", "what", |_, row: &VariantRow| Cell::text(row.cost.variant.about())),
+        ]);
+        vec![Table { caption: "", columns: columns.collect() }]
+    }
 }
