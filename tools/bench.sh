@@ -18,4 +18,4 @@ done
 
 cargo run --release --quiet --bin gpc -- bench "${scenes[@]}" --out "$folder" "$@"
 echo
-echo "$folder holds report.html, results.csv and results.json"
+echo "$folder holds report.html, results.json and a CSV of each study"

@@ -1,7 +1,12 @@
 #!/usr/bin/env bash
 # Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes an hour.
 #
-#   tools/measure.sh [KIND...]        quality, speed, motion, variants, choices, growth, hosts; all if none is named
+#   tools/measure.sh [KIND...]        quality, speed, motion, variants, choices, growth, hosts; all of these if none is named
+#   tools/measure.sh views large      only where they are named, since they take hours without a GPU: views that fill a frame
+#                                     of 1920x1080 with all methods, and time and memory of four of them at 3840x2160
+#
+# Views are measured one after the other. Where a run was stopped, the next run of the same commit goes on with the view that is
+# missing. VIEW_SAMPLES (4,16,64,256,1024) and VIEW_REFERENCE (4096) make them shorter.
 #
 # The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, otherwise that of the best device. Nothing else should
 # run on the machine. `make figures` updates the documents from the files.
@@ -47,6 +52,28 @@ keep() { # KIND CSV
     echo "$name"
 }
 
+# Measures views one after the other into out/measure, and keeps their rows in one file.
+measure_views() { # KIND VIEWS OPTION...
+    local kind="$1" count="$2" view scene options folder
+    shift 2
+    for view in "${views[@]:0:count}"; do
+        read -r scene options <<<"$view"
+        folder="out/measure/$commit/$kind-$(basename "$(dirname "$scene")")-$(basename "$scene")"
+        # The file is in place only after a whole run.
+        if [ ! -f "$folder/done.csv" ]; then
+            # shellcheck disable=SC2086
+            gpc bench "$scene" $options --out "$folder" "$@"
+            cp "$folder/results.csv" "$folder/done.csv"
+        fi
+        if [ -f "$work/$kind.csv" ]; then
+            grep -v '^#' "$folder/done.csv" | tail -n +2 >>"$work/$kind.csv"
+        else
+            cp "$folder/done.csv" "$work/$kind.csv"
+        fi
+    done
+    keep "$kind" "$work/$kind.csv"
+}
+
 for kind in "${kinds[@]}"; do
     out="$work/$kind"
     case "$kind" in
@@ -76,6 +103,14 @@ for kind in "${kinds[@]}"; do
             gpc bench --out "$out" --size 640x360 --samples 64 --repeat 3 --budget 4 --growth
             keep growth "$out/growth.csv"
             ;;
+        views)
+            measure_views views ${#views[@]} --size 1920x1080 --methods none,msaa,ssaa,accumulate,rotated,superpixel \
+                --samples "${VIEW_SAMPLES:-4,16,64,256,1024}" --reference "${VIEW_REFERENCE:-4096}" --repeat 3 --budget 2
+            ;;
+        large)
+            measure_views large 4 --size 3840x2160 --methods none,ssaa,superpixel --samples 4,64 --reference 256 \
+                --repeat 3 --budget 2
+            ;;
         hosts)
             sizes=240x135,480x270,960x540,1280x720
             make install PREFIX="$work/gpc" >"$work/log"
@@ -87,7 +122,7 @@ for kind in "${kinds[@]}"; do
             keep hosts "$work/hosts.csv"
             ;;
         *)
-            echo "no kind \"$kind\"; there are quality, speed, motion, variants, choices, growth and hosts" >&2
+            echo "no kind \"$kind\"; there are quality, speed, motion, variants, choices, growth, hosts, views and large" >&2
             exit 2
             ;;
     esac
