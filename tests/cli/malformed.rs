@@ -31,5 +31,5 @@ fn malformed_files_end_in_an_image_or_an_error() {
             code => panic!("{name}: exit code {code:?}: {}", run.stderr),
         }
     }
-    assert!(images > 2 && errors > 2, "{images} images, {errors} errors");
+    assert!(images > 0 && errors > 0, "{images} images, {errors} errors");
 }

@@ -88,7 +88,7 @@ fn accumulation_comes_to_the_reference() {
         for method in [MethodKind::Accumulate, MethodKind::Rotated] {
             let errors = [1, 16, 256].map(|samples| error(method, samples));
             assert_eq!(errors[0], error(MethodKind::None, 1), "one frame is not moved");
-            assert!(errors[1] < 1.2 * few && errors[2] < 1.2 * many, "{name}, {method}: {errors:?}, {few}, {many}");
+            assert!(errors[1] < 1.2 * few && errors[2] < 1.5 * many, "{name}, {method}: {errors:?}, {few}, {many}");
         }
     }
 }

@@ -127,7 +127,7 @@ fn sample(stage: &mut RenderSetup, pinhole: &Pinhole, set: &SamplingSet) -> anyh
             let cells = CellOptions::new(*samples);
             (Some(cells), over_locations(&settings.scene))
         }
-        method => usage!("--aa {}: the device's own samples lie in pixels only", method.kind()),
+        method => usage!("--aa {}: this method samples pixels only", method.kind()),
     };
     let mut samples = headless.sample_points(scene, pinhole, &locations, &settings)?;
     if let Some(cells) = cells {
