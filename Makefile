@@ -62,7 +62,7 @@ view:
 
 test:
 	@tools/setup.sh build lavapipe validation c
-	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi --no-fail-fast
+	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --workspace --features capi --no-fail-fast
 
 test-view:
 	@tools/setup.sh build lavapipe validation c window display
@@ -114,8 +114,8 @@ pictures:
 
 lint:
 	@tools/setup.sh build
-	$(CARGO) fmt --check
-	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --release --workspace --all-targets --features capi -- -D warnings
 	$(CARGO) clippy --release --all-targets --features view -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings

@@ -149,7 +149,6 @@ mod capi;
 mod engine;
 #[cfg(feature = "gltf")]
 mod random;
-pub mod reference;
 #[cfg(feature = "gltf")]
 pub mod render;
 #[cfg(feature = "gltf")]

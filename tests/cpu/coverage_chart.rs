@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use gpc::reference::edge::half_plane_area;
 use gpc::sampling::{MAX_SAMPLES, Pattern, owen_sobol};
+use twins::edge::half_plane_area;
 
 /// Numbers of samples in the chart, which all patterns but the rotated one support.
 const COUNTS: [u32; 5] = [4, 16, 64, 256, 1024];

@@ -1,9 +1,9 @@
 //! Coverage measured on the device, compared with closed forms for rotated and shrinking squares.
 
-use gpc::reference::edge::triangle_area;
 use gpc::render::Headless;
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
+use twins::edge::triangle_area;
 
 use crate::stage::{Stage, centre, everywhere, flat, on_gpu, seen_at};
 

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use gpc::color::srgb::{decode_u8, encode};
-use gpc::reference::detect::{DetectionImage, Mode, superpixels};
-use gpc::reference::thin::{FOLD, cosine};
 use gpc::render::{
     CellOptions, Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings, Shading, SuperpixelOptions,
 };
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+use twins::detect::{DetectionImage, Mode, superpixels};
+use twins::thin::{FOLD, cosine};
 
 use crate::meshes::{Depths, Random, delaunay};
 use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};

@@ -1,13 +1,13 @@
 //! Tiles, cells and groups that `distribute` makes of a list, compared with the CPU's.
 
 use gpc::bench::Random;
-use gpc::reference::distribute::{ListBounds, PlacedLocation};
 use gpc::render::Headless;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
     CellSizes, Cells, Counter, Distribute, FrameUniform, ListLength, ListRegion, ListedLocation, LocationSizes,
     ResourceSizes,
 };
+use twins::distribute::{ListBounds, PlacedLocation};
 
 use crate::bare::{Bare, copy};
 use crate::stage::on_gpu;

@@ -2,12 +2,12 @@
 
 use glam::{DQuat, DVec3, EulerRot};
 use gpc::camera::{Camera, Projection};
-use gpc::reference::stroke::{Edge, Eye, edge};
 use gpc::render::{Detection, Headless, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{Edges, PoseRequest};
 use serde_json::json;
 use std::collections::BTreeMap;
+use twins::stroke::{Edge, Eye, edge};
 
 use crate::scene_builder::Builder;
 use crate::stage::{camera, centre, everywhere, on_gpu};

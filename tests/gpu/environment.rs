@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use gpc::color::srgb;
-use gpc::reference::prefilter::density;
 use gpc::render::{Headless, SceneRequest};
 use gpc::sampling::Pattern;
 use gpc::scene::{
@@ -13,6 +12,7 @@ use gpc::scene::{
     SpecularGlossiness, Transmission,
 };
 use serde_json::json;
+use twins::prefilter::density;
 
 use crate::scene_builder::Builder;
 use crate::stage::{Stage, camera, centre, everywhere, flat, on_gpu, once, seen_at};

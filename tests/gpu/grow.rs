@@ -1,10 +1,10 @@
 //! Growth of superpixels, compared with the CPU's.
 
-use gpc::reference::detect::{DetectionImage, Mode, superpixels};
-use gpc::reference::grow::grown;
 use gpc::render::{Detection, Rendered, Settings, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
+use twins::detect::{DetectionImage, Mode, superpixels};
+use twins::grow::grown;
 
 use crate::detect::{CONTRAST, codes, mosaic, near, pixels};
 use crate::locations::{pinhole, planar};

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use gpc::reference::edge::triangle_area;
-use gpc::reference::sample_lines::offsets;
 use gpc::render::{Headless, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
+use twins::edge::triangle_area;
+use twins::sample_lines::offsets;
 
 use crate::meshes::{Depths, Mesh, Random, fan, slivers, tilings};
 use crate::stage::{Stage, centre, code, everywhere, flat, on_gpu, seen_at};

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use gpc::reference::sheen;
 use gpc::render::{Headless, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Light, LightKind, Lobes, Material, Sheen,
     Specular, SpecularGlossiness, Transmission,
 };
+use twins::sheen;
 
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, once, seen_at};
 

@@ -1,4 +1,4 @@
-//! The renderer on a device under the validation layer, compared with the exact twins of `gpc::reference`.
+//! The renderer on a device under the validation layer, compared with the exact twins in `twins/`.
 
 mod bare;
 mod blend;

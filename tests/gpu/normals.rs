@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
 use gpc::camera::Camera;
-use gpc::reference::reflection::{Surface, reflected};
 use gpc::render::{Headless, SceneRequest};
 use gpc::scene::{AlphaMode, Anisotropy, Clearcoat, Iridescence, Light, LightKind, Lobes, Material, Sheen};
+use twins::reflection::{Surface, reflected};
 
 use crate::meshes::Random;
 use crate::stage::{Stage, camera, centre, flat, on_gpu, once, seen_at};

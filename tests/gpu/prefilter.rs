@@ -1,11 +1,11 @@
 //! Reflection of environments: `prefilter`, compared with its twin and with closed forms.
 
 use glam::DVec3;
-use gpc::reference::prefilter::{Cube, average};
 use gpc::render::Headless;
 use gpc::testing::prefilter::{Prefilter, levels, lobe};
 use gpc::testing::{MemoryUse, Recorder, frame_layout, memory};
 use half::f16;
+use twins::prefilter::{Cube, average};
 
 use crate::stage::on_gpu;
 use crate::submit::submit;

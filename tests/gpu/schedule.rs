@@ -1,12 +1,12 @@
 //! Rounds that `tally`, `schedule` and `enlist` make, compared with the CPU's.
 
 use gpc::bench::Random;
-use gpc::reference::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 use gpc::render::Headless;
 use gpc::testing::{
     Argument, Buffer, Cells, Counter, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder, ResourceSizes,
     SampleBlocks, SampleOptions, load_passes,
 };
+use twins::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
 
 use crate::bare::{Bare, copy};
 use crate::stage::on_gpu;

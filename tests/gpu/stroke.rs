@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use gpc::camera::{Camera, Projection};
-use gpc::reference::edge::triangle_area;
-use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{Detection, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
 use serde_json::{Value, json};
+use twins::edge::triangle_area;
+use twins::stroke::{Clip, disc, joint, segment};
 
 use crate::locations::{pinhole, planar};
 use crate::meshes::Random;

@@ -1,9 +1,9 @@
 //! Filtering of textures at shaded places, compared with the CPU. Each mipmap level has noise of its own, so that
 //! reading another level, or another number of places, gives another colour.
 
-use gpc::reference::texture::{MOST_PROBES, Probes, probes};
 use gpc::render::{CellOptions, Headless, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+use twins::texture::{MOST_PROBES, Probes, probes};
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};

@@ -1,6 +1,6 @@
 //! Visible triangles of a stage's samples, computed by the exact twin.
 
-use gpc::reference::visibility::{Surface, Visibility, nearest};
+use twins::visibility::{Surface, Visibility, nearest};
 
 use crate::stage::{Stage, centre, clip};
 

@@ -4,10 +4,10 @@
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
 use gpc::color::srgb::encode;
-use gpc::reference::variation::{Neighbourhood, ShadedParts, parts};
 use gpc::render::{Detection, Rendered, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+use twins::variation::{Neighbourhood, ShadedParts, parts};
 
 /// Sizes of two images: in one a triangle covers many pixels of a row, in the other a single one.
 const SIZES: [[u32; 2]; 2] = [[32, 24], [2, 96]];

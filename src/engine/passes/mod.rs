@@ -1,5 +1,5 @@
 //! The passes of a frame: one file for each, with the name of its shader in `shaders/`. Passes that only the renderer needs are in
-//! `src/render/passes`. The scalar twin of a pass, if it has one, has the same name in `src/reference`.
+//! `src/render/passes`. The scalar twin of a pass, if it has one, has the same name in `twins/src`.
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
 //! Some passes run only in some frames:

@@ -1,7 +1,7 @@
 //! Exact coverage: each sample of a tiled region has one owner.
 
-use gpc::reference::coverage::{EdgeFunctions, Facing, facing};
 use gpc::sampling::Pattern;
+use twins::coverage::{EdgeFunctions, Facing, facing};
 
 use super::meshes::{Mesh, Random, ground, tilings};
 

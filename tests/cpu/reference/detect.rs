@@ -1,6 +1,6 @@
 //! Detection, compared with its definition pixel by pixel.
 
-use gpc::reference::detect::{DetectionImage, Mode, PlaneError, superpixels};
+use twins::detect::{DetectionImage, Mode, PlaneError, superpixels};
 
 use super::meshes::Random;
 

@@ -1,8 +1,8 @@
 //! Closed-form areas, compared with each other and with samples.
 
-use gpc::reference::coverage::EdgeFunctions;
-use gpc::reference::edge::{clipped_area, half_plane_area, triangle_area};
 use gpc::sampling::Pattern;
+use twins::coverage::EdgeFunctions;
+use twins::edge::{clipped_area, half_plane_area, triangle_area};
 
 use super::meshes::{Depths, Random, delaunay, fan, slivers};
 

@@ -1,6 +1,6 @@
 //! The nearest triangle of a sample.
 
-use gpc::reference::visibility::{Hit, Surface, nearest};
+use twins::visibility::{Hit, Surface, nearest};
 
 use super::meshes::{Random, tilings};
 

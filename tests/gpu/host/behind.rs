@@ -5,9 +5,9 @@ use super::world::{Drawn, PLACED, SIZE, Way, World};
 use crate::difference::rmse;
 use crate::stage::on_gpu;
 use gpc::host::Options;
-use gpc::reference::behind::behind;
 use gpc::render::Detection;
 use rayon::prelude::*;
+use twins::behind::behind;
 
 /// Linear premultiplied colour that the host draws where no triangle is: a sky that changes from pixel to pixel, above
 /// a floor with waves.

@@ -2,9 +2,9 @@
 
 use ash::vk;
 use gpc::host::{Draw, IndirectDraws, Instance, Topology, VertexFormat, Viewport};
-use gpc::reference::topology;
-use gpc::reference::transform::clip_position;
-use gpc::reference::visibility::{Surface, nearest};
+use twins::topology;
+use twins::transform::clip_position;
+use twins::visibility::{Surface, nearest};
 
 pub const SIZE: [u32; 2] = [64, 64];
 /// Linear colour of the background.

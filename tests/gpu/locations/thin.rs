@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
-use gpc::reference::crossings::{Mark, PinholeView};
-use gpc::reference::thin::{FOLD, cosine};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
+use twins::crossings::{Mark, PinholeView};
+use twins::thin::{FOLD, cosine};
 
 use super::{pinhole, planar};
 use crate::detect::{check_folds, specks, wires};

@@ -1,9 +1,9 @@
 //! Results at locations, compared with the exact twin.
 
 use gpc::camera::SampleLocation;
-use gpc::reference::sample_lines;
 use gpc::render::Shading;
 use gpc::sampling::Pattern;
+use twins::sample_lines;
 
 use super::{location, pinhole, planar};
 use crate::meshes::Random;

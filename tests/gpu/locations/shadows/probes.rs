@@ -1,10 +1,10 @@
 //! The places of a pixel that are probed for shadows besides its centre.
 
 use glam::DVec2;
-use gpc::reference::shadow::PROBES;
 use gpc::render::{Detection, Rendered, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
+use twins::shadow::PROBES;
 
 use super::super::planar;
 use super::{FLOOR, floor, lit, pinhole, render, sun, upload, within};

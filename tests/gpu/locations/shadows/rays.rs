@@ -1,8 +1,8 @@
 //! Shadows among random triangles, compared with rays.
 
 use glam::{DVec2, DVec3};
-use gpc::reference::shadow::{Receiver, Shining, is_in_shadow};
 use gpc::scene::{AlphaMode, DiffuseTransmission, Light, LightKind};
+use twins::shadow::{Receiver, Shining, is_in_shadow};
 
 use super::{SIZE, ask, light, lit, location, pinhole, spot};
 use crate::meshes::Random;

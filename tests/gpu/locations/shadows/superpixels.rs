@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 use gpc::camera::SampleLocation;
-use gpc::reference::shadow::PROBES;
 use gpc::render::{Detection, Method, Shading, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Light};
+use twins::shadow::PROBES;
 
 use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload, within};
 use crate::scenes::ball_over_checker;

@@ -4,8 +4,8 @@ use super::startup::Clock;
 use crate::cli::report::DeviceReport;
 use gpc::camera::Camera;
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, Method, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
-    Shadows,
+    Frame, Headless, HeadlessOptions, Method, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneRequest,
+    Settings, Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
 use gpc::vulkan::VulkanError;

@@ -4,10 +4,10 @@
 //! positions are in pixels, x to the right and y down.
 
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 pub mod behind;
 pub mod coverage;
-#[cfg(feature = "gltf")]
 pub mod crossings;
 pub mod detect;
 pub mod distribute;

@@ -3,8 +3,8 @@
 //! Nearness is 1 / distance along the view direction, or for parallel rays minus that distance. It is linear over the
 //! plane, and larger for nearer points.
 
-use crate::camera::{Pinhole, SampleLocation};
 use glam::{DMat2, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
+use gpc::camera::{Pinhole, SampleLocation};
 
 /// Height / longest side, in cells, below which a triangle counts as thin. A wider triangle covers the location of
 /// some cell.
