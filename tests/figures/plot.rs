@@ -13,6 +13,8 @@ fn colour(method: &str) -> RGBColor {
         "none" => RGBColor(110, 110, 110),
         "msaa" => RGBColor(60, 140, 60),
         "ssaa" => RGBColor(40, 90, 180),
+        "accumulate" => RGBColor(190, 150, 30),
+        "rotated" => RGBColor(30, 150, 160),
         "superpixel" => RGBColor(200, 70, 30),
         _ => RGBColor(140, 60, 150),
     }
