@@ -106,7 +106,6 @@ const VARIANTS: &[Variant] = &[
     ("receivers", "receivers.comp", &[]),
     ("occlude_8", "occlude.comp", &[("ROWS", "8")]),
     ("occlude_16", "occlude.comp", &[("ROWS", "16")]),
-    ("shadow", "shadow.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("composite", "composite.comp", &[]),
     ("resolve", "resolve.comp", &[]),

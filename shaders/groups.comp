@@ -14,7 +14,7 @@ void main() {
     uint count = counters[COUNTER_GROUPS];
     uint tile = texelFetch(location_groups, int(min(i, max(count, 1u) - 1u))).x, flags = tiles[tile].w;
     // POINTS in a tile without triangles need no samples: they see the background.
-    bool needless = POINTS && !OCCLUDERS && tiles[tile].x == 0u;
+    bool needless = POINTS && tiles[tile].x == 0u;
     bool placed = i < count && in_round(tile) && !needless;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;
     for (uint list = 0u; list < TILE_LISTS; list++) {

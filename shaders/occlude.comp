@@ -1,9 +1,9 @@
-// occlude: finds the receivers of a light in front of which another triangle lies, in the lists of candidates that the tiles of
-// the light's plane have. It then stores that the light is blocked there. With probes it instead marks pixels for `detect`:
-// those of which the light reaches the centre but not the probe, or the reverse. A team takes 64 receivers: those of a
-// superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
+// occlude: finds the receivers of a light in front of which other triangles lie, in the lists of candidates that the tiles of
+// the light's plane have. It then stores that the light is blocked there or, behind BLEND triangles, how much of it passes. With
+// probes it instead marks pixels for `detect`: those at whose centre and probe different shares of the light arrive. A team takes
+// 64 receivers: those of a superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
 // Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or
-// marks_of_pixels. Receivers in tiles without a list are counted as left.
+// marks_of_pixels. Receivers in tiles without a list are counted as left, with what such a list needs.
 // Twin: `gpc::reference::shadow`.
 //
 // In each trip of the outer loop, the receivers in one tile are tested. The team searches the tile's list for candidates
@@ -15,24 +15,36 @@
 #include "include/work.glsl"
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
+#include "include/shadows.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
-layout(constant_id = OCCLUDE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
+layout(constant_id = OCCLUDE_CONSTANT_TRANSLUCENT) const bool TRANSLUCENT = false;    // some casters are alpha-tested or BLEND
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
-layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left; };
+layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left {
+    uint left;              // number of receivers that were left
+    uint pairs_needed;      // number of pairs that the plane with the most needs, if it lacked room for them
+    uint longest;           // number of triangles in the fullest tile that had too many for a list
+};
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
-    mat4 to_plane;      // this and the next three members: as in receivers.comp
-    vec4 light;
-    vec4 cone;
-    float range;
-    uint step_;         // light and probe, see RECEIVERS_LIGHT
-    uint face;
+    mat4 to_plane;      // position -> (pixel x * w, pixel y * w, z, w), pixels from the plane's middle
+    vec4 light;         // xyz: unit direction to a distant light (w = 0) or position of a local one (w = 1)
+    vec4 cone;          // xyz: axis of a local light, unit; w: cosine of the cone's half angle, -2 for light in all directions
+    float range;        // how far the light of a local light reaches
+    uint step_;         // light and probe, see OCCLUDE_LIGHT
+    uint face;          // which of the six planes of a cube this is, as `face_of` numbers them, or SINGLE_PLANE
     uint first_place;   // place of the first receiver
     uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are records
 } push;
 #include "include/light_plane.glsl"
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
+const bool BLENDS = SHADOW_WORDS > 1u;                  // some casters are BLEND
+const float ALIKE = 1.0 / 64.0;                         // shares of a light that differ by no more than this are taken as equal
+
+// What BLEND triangles keep from a receiver is the sum of the logarithms of what each lets pass. The sum is an integer, so that
+// it does not depend on the order of the list: in steps of 2^-20, and at most MOST_ABSORBED, which lets nothing pass.
+const float STEPS = 1048576.0;
+const uint MOST_ABSORBED = 1u << 28;
 
 uint trips = 0u;                                        // MOST_TRIPS of workarounds.glsl
 
@@ -42,6 +54,7 @@ uint tile_of[ROWS];
 vec2 place[ROWS];           // relative to its tile's centre
 float least[ROWS];          // depth from which on a triangle lies in front of it
 uint own[ROWS];             // the triangle that it lies on, which can't hide it
+uint absorbed[ROWS];        // what BLEND triangles keep from it
 uint hidden = 0u;           // a bit for each
 
 // The receiver that row `g` of this invocation takes; ~0 for none.
@@ -71,6 +84,7 @@ uint load_receivers() {
         place[g] = place_in_tile(uvec4(r.pixel, floatBitsToUint(r.within)));
         least[g] = r.least;
         own[g] = at.w;
+        absorbed[g] = 0u;
         uint bit = 1u << g;
         exists |= some ? bit : 0u;
         turned |= some && r.turned ? bit : 0u;
@@ -95,8 +109,10 @@ void show_to(Candidate t, uint rows) {
     }
 }
 
-// Shows an alpha-tested candidate to them. The alpha test is expensive: rows in which it decides nothing are left out.
-void show_masked_to(Candidate t, uint rows, vec2 center) {
+// Shows a candidate to them that is alpha-tested or BLEND. Reading its alpha is expensive: rows in which that decides nothing are
+// left out.
+void show_translucent_to(Candidate t, uint rows, vec2 center) {
+    bool blends = BLENDS && t.id > frame.first_blend;
     vec3 inner = thresholds(t);
     AlphaTest alpha = alpha_test(max(t.id, 1u) - 1u, center, place[0], mat2(0.0));
     uint asked = 0u;
@@ -111,7 +127,13 @@ void show_masked_to(Candidate t, uint rows, vec2 center) {
         uint row = pending == 0u ? 0u : uint(findLSB(pending));
         vec2 p = place[0];
         [[unroll]] for (int g = 1; g < ROWS; g++) p = row == uint(g) ? place[g] : p;
-        hidden |= alpha_passes(alpha, p) ? asked & pending & 1u << row : 0u;
+        float opacity = alpha_at(alpha, p);
+        uint mine = asked & pending & 1u << row;
+        hidden |= opacity >= (blends ? 1.0 : alpha.cutoff) ? mine : 0u;
+        if (BLENDS) {
+            uint more = blends ? uint(round(-STEPS * log2(clamp(1.0 - opacity, 1.0 / 16777216.0, 1.0)))) : 0u;
+            [[unroll]] for (int g = 0; g < ROWS; g++) absorbed[g] = min(absorbed[g] + (mine == 1u << g ? more : 0u), MOST_ABSORBED);
+        }
         pending &= pending - 1u;
     } while (pending != 0u);
 }
@@ -122,7 +144,11 @@ void test_in(uint its, uint mine) {
     uvec4 header = tiles[its];
     bool listed = (header.w & TILE_LISTED) != 0u;
     uint count = listed ? header.w >> TILE_COUNT_SHIFT : 0u;
-    if (mine != 0u && !listed) atomicAdd(left, 1u);
+    if (mine != 0u && !listed) {
+        atomicAdd(left, 1u);
+        if (counters[COUNTER_PAIRS] > frame.pair_capacity) atomicMax(pairs_needed, counters[COUNTER_PAIRS]);
+        else atomicMax(longest, header.x);
+    }
     vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
     float lowest = 3.4e38;
     uint pixels = 0u;
@@ -161,20 +187,20 @@ void test_in(uint its, uint mine) {
         my_entry = min(my_entry, max(count, 1u) - 1u);
         uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, my_entry, true));
         Candidate k = unpack_candidate(candidate_at(header.y, my_entry, count, true), its_last);
-        RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
-        bool shows = lane < held && test.touches && test.near > lowest, masked = HAS_MASK && k.id > frame.first_mask;
-        uint showing = team_ballot(shows && !masked);
+        RectangleTest test = test_rectangle(k, middle, half_side, TRANSLUCENT);
+        bool shows = lane < held && test.touches && test.near > lowest, translucent = TRANSLUCENT && k.id > frame.first_mask;
+        uint showing = team_ballot(shows && !translucent);
         trips += 3u + uint(bitCount(showing));
         do {
             show_to(shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u), showing != 0u ? mine : 0u);
             showing &= showing - 1u;
         } while (showing != 0u);
-        if (HAS_MASK) {
-            showing = team_ballot(shows && masked);
+        if (TRANSLUCENT) {
+            showing = team_ballot(shows && translucent);
             trips += uint(bitCount(showing));
             do {
                 Candidate t = shuffle_candidate(k, showing != 0u ? uint(findLSB(showing)) : 0u);
-                show_masked_to(t, showing != 0u ? mine : 0u, center);
+                show_translucent_to(t, showing != 0u ? mine : 0u, center);
                 showing &= showing - 1u;
             } while (showing != 0u);
         }
@@ -182,18 +208,21 @@ void test_in(uint its, uint mine) {
     } while (more);
 }
 
-// Stores whether the light is blocked at receiver `i`.
-void store(uint i, bool blocked) {
-    uint bit = 1u << (push.step_ & RECEIVERS_LIGHT);
-    if (push.step_ >> RECEIVERS_PROBE_SHIFT == 0u) {
-        uint place = push.first_place + i;
-        words[place] = ((push.step_ & RECEIVERS_BEGINS) != 0u ? 0u : words[place]) | (blocked ? bit : 0u);
+// Stores how much of the light passes to receiver `i`.
+void store(uint i, float share) {
+    uint light = push.step_ & OCCLUDE_LIGHT;
+    if (push.step_ >> OCCLUDE_PROBE_SHIFT == 0u) {
+        uint place = (push.first_place + i) * SHADOW_WORDS;
+        words[place] = ((push.step_ & OCCLUDE_BEGINS) != 0u ? 0u : words[place]) | (share < 1.0 ? 1u << light : 0u);
+        if (BLENDS && share < 1.0) words[place + 1u + light] = floatBitsToUint(share);
         return;
     }
-    bool centre_blocked = (words[i] & bit) != 0u;
+    uint at_centre = i * SHADOW_WORDS;
+    bool lit = (words[at_centre] >> light & 1u) == 0u;
+    float centre = lit ? 1.0 : BLENDS ? uintBitsToFloat(words[at_centre + 1u + light]) : 0.0;
     uvec2 pixel = split(i, push.region.x);
     uint tile = (pixel.y >> 2) * ((push.region.x + 7u) >> 3) + (pixel.x >> 3);
-    if (blocked != centre_blocked) atomicOr(marks_of_pixels[tile], 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)));
+    if (abs(share - centre) > ALIKE) atomicOr(marks_of_pixels[tile], 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)));
 }
 
 void main() {
@@ -208,7 +237,10 @@ void main() {
     } while (team_any(waits != 0u) && trips <= MOST_TRIPS);
     if (trips > MOST_TRIPS && member() == 0u) atomicAdd(left, 1u);
     // Probes whose surface is turned away show nothing of the shadows of others.
-    uint stored = push.step_ >> RECEIVERS_PROBE_SHIFT == 0u ? exists : asked;
+    uint stored = push.step_ >> OCCLUDE_PROBE_SHIFT == 0u ? exists : asked;
     hidden |= turned;
-    [[unroll]] for (int g = 0; g < ROWS; g++) if ((stored >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        float share = (hidden >> g & 1u) != 0u ? 0.0 : BLENDS ? exp2(-float(absorbed[g]) / STEPS) : 1.0;
+        if ((stored >> g & 1u) != 0u) store(receiver[g], share);
+    }
 }

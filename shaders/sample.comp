@@ -16,7 +16,6 @@
 //           place, and the index of its samples' nearest surface (include/layers.glsl).
 // Links lead to records with smaller indices. If cells are LOCATIONS, the first word of a record is its location. POINTS make a
 // record of each location that sees something; LAYERED: of the others, too.
-// OCCLUDERS start with the triangle and depth of their surface. They record another triangle that is nearer, or background.
 // Header of a cell's block: first record, number of records (LAYERED: of leaves).
 //
 // Loops are do-while with guarded bodies: DO_WHILE of workarounds.glsl.
@@ -190,7 +189,7 @@ void main() {
             records_made = record_layers(cell, cell_id);
 #else
             end_cell(cell);
-            if (POINTS && !OCCLUDERS) {
+            if (POINTS) {
                 records_made = record_points(cell);
             } else if (PER_SAMPLE) {
                 records_made = record_samples(cell, cell_id);

@@ -98,10 +98,6 @@ void show_to(Candidate t, vec3 least, vec2 center, Cell cell, uint s) {
     mat2 pixel = POINTS ? location_jacobian(location) : cell.pixel;
     float d;
     bool there = covers(t, least, p, d) && d > 0.0;
-    if (OCCLUDERS) {
-        uvec2 surface = texelFetch(locations, int(2u * location + 1u)).xy;
-        there = there && t.id != surface.y && d > uintBitsToFloat(surface.x);
-    }
     if (!there) return;
     uint o = cell.first_owner + s, depth = floatBitsToUint(d);
     uvec4 owner = candidates_out[o];

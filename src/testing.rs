@@ -10,7 +10,7 @@ pub use crate::engine::data::{
     Resources,
 };
 pub use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks, SampleOptions,
+    Distribute, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks, SampleOptions,
 };
 pub use crate::engine::pipelines::{FrameLayout, Pass};
 pub use crate::engine::sampler::Load;

@@ -1,4 +1,4 @@
-// The alpha test of MASK materials, at any position of any triangle. Invocations of a subgroup may test triangles with
+// The alpha of materials that are not opaque, and the alpha test of MASK ones, at any position of any triangle. Invocations of a subgroup may test triangles with
 // different textures, but can't index an array of textures by values that differ. So the alpha channels of all base colour
 // textures are stored in one buffer, the alpha atlas.
 //
@@ -85,9 +85,8 @@ float alpha_wrap(float u, uint mode) {
     return clamp(folded, 0.0, 1.0);
 }
 
-// Whether the triangle passes the alpha test at `p`: whether the product of the alphas of factor, vertex colour and texture
-// reaches the cutoff.
-bool alpha_passes(AlphaTest test, vec2 p) {
+// The triangle's alpha at `p`: the product of the alphas of factor, vertex colour and texture.
+float alpha_at(AlphaTest test, vec2 p) {
     vec3 at = vec3(p, 1.0);
     float w = 1.0 / dot(test.weight, at);
     float alpha = dot(test.opacity, at) * w;
@@ -97,8 +96,10 @@ bool alpha_passes(AlphaTest test, vec2 p) {
     float low = alpha_bilinear(test.first.x, test.size_low, uv, test.nearest);
     float high = alpha_bilinear(test.first.y, test.size_high, uv, test.nearest);
     float texel = mix(low, high, test.level_blend);
-    alpha *= (test.flags & ALPHA_TEXTURED) != 0u ? texel : 1.0;
-    return alpha >= test.cutoff;
+    return alpha * ((test.flags & ALPHA_TEXTURED) != 0u ? texel : 1.0);
 }
+
+// Whether the triangle passes the alpha test at `p`: whether its alpha reaches the cutoff.
+bool alpha_passes(AlphaTest test, vec2 p) { return alpha_at(test, p) >= test.cutoff; }
 
 #endif

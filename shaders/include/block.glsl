@@ -31,7 +31,6 @@ vec2 place[ROWS];           // LOCATIONS: positions of the samples relative to t
 vec2 block_middle, block_reach;      // the rectangle around the offsets: middle, half of the sides
 float depth[ROWS];          // depth of the nearest surface so far, larger is nearer; 0 for none
 uint id[ROWS];
-uint own[ROWS];             // OCCLUDERS: the triangle that the sample lies on, which can't hide it
 
 // For LAYERED samples: a bit for each batch of TEAM candidates, set if BLEND triangles of the batch may show. Batches from
 // the 32nd on share a bit.
@@ -83,14 +82,8 @@ void begin_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         depth[g] = 0.0;
         id[g] = 0u;
-        own[g] = 0u;
         if (LOCATIONS)
             place[g] = POINTS ? place_in_tile(texelFetch(locations, int(2u * location_of(cell, g)))) : cell.at + cell.pixel * offset[g];
-        if (OCCLUDERS) {
-            uvec2 surface = texelFetch(locations, int(2u * location_of(cell, g) + 1u)).xy;
-            depth[g] = uintBitsToFloat(surface.x);
-            own[g] = surface.y;
-        }
     }
 }
 
@@ -151,7 +144,7 @@ void see_owners(Cell cell, uint first) {
 #else
 // Whether triangle `by` at depth `d` is seen in place of what row `g` has seen so far.
 bool wins(float d, uint by, int g) {
-    return (!OCCLUDERS || by != own[g]) && (d > depth[g] || (d == depth[g] && by < id[g]));
+    return d > depth[g] || (d == depth[g] && by < id[g]);
 }
 
 void show_opaque(Cell cell, Candidate t, bool some) {
@@ -182,15 +175,14 @@ void show_masked(Cell cell, Candidate t, bool some) {
         rows &= rows - 1u;
         vec2 p = vec2(0.0);
         float depth_there = 0.0;
-        uint id_there = 0u, own_there = 0u;
+        uint id_there = 0u;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             p = row == g ? position_of(cell, g) : p;
             depth_there = row == g ? depth[g] : depth_there;
             id_there = row == g ? id[g] : id_there;
-            own_there = row == g ? own[g] : own_there;
         }
         float d;
-        bool there = covers(t, least, p, d) && row < ROWS && (!OCCLUDERS || t.id != own_there);
+        bool there = covers(t, least, p, d) && row < ROWS;
         if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, frame.sample_footprint * pixel_of(cell, row));
         bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
         [[unroll]] for (int g = 0; g < ROWS; g++) {

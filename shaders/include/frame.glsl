@@ -100,7 +100,7 @@ layout(std430, set = SET_DATA, binding = BINDING_ARGUMENTS) buffer Arguments { u
 layout(set = SET_DATA, binding = BINDING_PAIRS) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
 layout(std430, set = SET_DATA, binding = BINDING_PAIRS_OUT) writeonly buffer PairsOut { uvec2 pairs_out[]; };
 // Three words for each tile, a bit a pixel, in three arrays one after the other:
-// - pixels that a thin triangle crosses unseen (`thin`, `shadow`); later cells that a PROBE leaves
+// - pixels that a thin triangle crosses unseen (`thin`, `occlude`); later cells that a PROBE leaves
 // - the same for triangles close to a surface, like paint; later pixels that contrast with a superpixel beside them
 // - all superpixels before the last growth (`grow`)
 layout(std430, set = SET_DATA, binding = BINDING_MARKS) buffer Marks { uint marks[]; };

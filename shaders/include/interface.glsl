@@ -115,10 +115,6 @@
 #define PREFILTER_BINDING_TEXELS 0
 #define PREFILTER_BINDING_RAYS 1
 #define RECEIVERS_BINDING_LOCATIONS_OUT 0
-#define RECEIVERS_BINDING_WORDS 1
-#define SHADOW_BINDING_WORDS 0
-#define SHADOW_BINDING_LEFT 1
-#define SHADOW_BINDING_MARKS_OF_PIXELS 2
 #define TRANSFORM_BINDING_MATRICES 2
 #define TRANSFORM_BINDING_POSITIONS_OUT 3
 
@@ -134,7 +130,6 @@
 #define CONSTANT_ONE_TEXTURE_SIZE 19
 #define CONSTANT_LOCATIONS 20
 #define CONSTANT_POINTS 21
-#define CONSTANT_OCCLUDERS 22
 #define CONSTANT_INSTANCED 23
 #define CONSTANT_TEAMS 24
 #define CONSTANT_CELLS_OF_ENTRY 26
@@ -183,13 +178,12 @@
 #define ENCODE_CONSTANT_FORMAT 0
 #define GROW_CONSTANT_BEYOND 0
 #define INDIRECT_CONSTANT_STEP 0
-#define OCCLUDE_CONSTANT_HAS_MASK 2
+#define OCCLUDE_CONSTANT_TRANSLUCENT 2
 #define PATCH_CONSTANT_ENCODED 0
 #define PATCH_CONSTANT_GROWN 1
 #define PATCH_CONSTANT_ALL 2
 #define POINTS_CONSTANT_ATTRIBUTES 2
 #define RECEIVERS_CONSTANT_PIXELS 0
-#define RECEIVERS_CONSTANT_LOOKED_UP 1
 #define RECEIVERS_CONSTANT_DIFFUSE_TRANSMISSION 37
 #define RESOLVE_CONSTANT_BLOCK 2
 #define RESOLVE_CONSTANT_LAYERED 3
@@ -421,11 +415,11 @@
 // Number of samples from which on more pixels become superpixels, and a triangle is shaded once only where colours do not differ.
 #define MANY_SAMPLES 128u
 
-// What `receivers` takes in a word: the number of the light; a flag of the first step of all, which clears the shadow words; and,
+// What `occlude` takes in a word: the number of the light; a flag of the first step of all, which clears the shadow words; and,
 // shifted, the number of the probe, from 1 on, or 0 for none.
-#define RECEIVERS_LIGHT 31u
-#define RECEIVERS_BEGINS 32u
-#define RECEIVERS_PROBE_SHIFT 6u
+#define OCCLUDE_LIGHT 31u
+#define OCCLUDE_BEGINS 32u
+#define OCCLUDE_PROBE_SHIFT 6u
 
 // Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u

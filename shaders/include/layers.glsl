@@ -174,7 +174,7 @@ bool find_layers(Cell cell, uint layer) {
             vec3 least = some ? thresholds(t) : vec3(3.4e38);
             [[unroll]] for (int g = 0; g < ROWS; g++) {
                 float d;
-                bool there = covers(t, least, position_of(cell, g), d) && d > 0.0 && (!OCCLUDERS || t.id != own[g]);
+                bool there = covers(t, least, position_of(cell, g), d) && d > 0.0;
                 bool in_front = there && (d > depth[g] || (id[g] != 0u && d == depth[g] && t.id < id[g]));
                 bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
                 ahead[g] += in_front ? 1u : 0u;

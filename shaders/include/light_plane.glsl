@@ -1,4 +1,4 @@
-// Projection of a surface on the plane of a light. The shader pushes the members that this reads: see receivers.comp.
+// Projection of a surface on the plane of a light. The shader pushes the members that this reads: see occlude.comp.
 #ifndef LIGHT_PLANE_GLSL
 #define LIGHT_PLANE_GLSL
 #include "triangle.glsl"

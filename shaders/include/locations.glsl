@@ -9,11 +9,9 @@
 
 layout(constant_id = CONSTANT_LOCATIONS) const bool LOCATIONS = false;
 layout(constant_id = CONSTANT_POINTS) const bool POINTS = false;
-layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINTS on surfaces, seen from a light
 
 // Two vectors a location, floats as bits: (pixel x, y as signed integers, place in the pixel x, y from 0 to 1), (its Jacobian:
-// change of x and y per column of the output, change per row). OCCLUDERS: the second is (depth from which on something lies
-// before the location, ID of the surface's triangle, 0, 0).
+// change of x and y per column of the output, change per row).
 layout(set = SET_DATA, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
 // Two vectors a cell, floats as bits: (x, y of its middle relative to its tile's centre, half its width and height), (its
 // location, 1, 0, 0). POINTS: the second is (where in `location_order` its locations begin, how many it has, 0, 0).
@@ -32,10 +30,10 @@ layout(set = SET_DATA, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer 
 
 uint location_at(uint place) { return texelFetch(location_order, int(place)).x; }
 
-// The Jacobian of a location. OCCLUDERS have no extent, so that textures are read at their finest level.
+// The Jacobian of a location.
 mat2 location_jacobian(uint location) {
     vec4 j = uintBitsToFloat(texelFetch(locations, int(2u * location + 1u)));
-    return OCCLUDERS ? mat2(0.0) : mat2(j.xy, j.zw);
+    return mat2(j.xy, j.zw);
 }
 
 #endif

@@ -174,9 +174,7 @@ uvec2 record_samples(Cell cell, uint cell_id) {
     uint base = allocate_records(cell.samples, fits);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         uint s = sample_of(g);
-        if (fits && s < cell.samples)
-            records_out[base + s] = POINTS ? uvec4(location_at(cell_id + s) | POINT_VALUE, id[g], 0u, ~0u)
-                : uvec4(cell_id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
+        if (fits && s < cell.samples) records_out[base + s] = uvec4(cell_id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }

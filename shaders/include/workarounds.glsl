@@ -9,7 +9,7 @@
 // DO_WHILE (llvmpipe, Mesa 22.3.6): a loop that tests its condition first runs its body once more than needed, with all
 //   invocations masked, since the driver does not skip masked code. So loops test at their end, and guard what must not happen
 //   if there is nothing to do. `thin` of DutchShip, 480 x 270: 6.1 ms with conditions first, 5.0 ms so. Loops over lists
-//   of layers (`composite`, `shadow`, `points`) are exceptions: after a do-while loop, invocations that left it early would see
+//   of layers (`composite`, `points`) are exceptions: after a do-while loop, invocations that left it early would see
 //   what later trips made of the variables of the body.
 // BOUND_TWICE (llvmpipe, Mesa 22.3.6): texel buffers are faster to read, storage buffers faster to write. Data that one pass writes
 //   and others read has two bindings. The name of the second one ends in `_out`. With storage buffers alone, `resolve` of

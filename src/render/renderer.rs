@@ -5,7 +5,7 @@ use super::shadows::Casters;
 use super::{RenderError, Settings, Shadows};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::{Capacity, RoundPolicy};
-use crate::render::data::{GpuScene, SceneUploads};
+use crate::render::data::{AlphaUse, GpuScene, SceneUploads};
 use crate::render::passes::Encoding;
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
@@ -166,18 +166,19 @@ impl Renderer {
         if motion.is_some_and(|motion| !motion.is_of(pose)) {
             return Err(RenderError::OtherMotion);
         }
-        self.prepare_moving(scene, (pose, motion), max_memory)
+        self.prepare_moving(scene, (pose, motion), AlphaUse::Tests, max_memory)
     }
 
     pub(super) fn prepare_moving(
         &self,
         scene: &Scene,
         (pose, motion): (&Pose, Option<&Motion>),
+        alphas: AlphaUse,
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
         pose.geometry.check(scene.materials.len())?;
-        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, (pose, motion))?;
+        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, (pose, motion), alphas)?;
         Ok(PreparedScene {
             gpu_scene: Arc::new(gpu_scene),
             uploads,

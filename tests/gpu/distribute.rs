@@ -4,8 +4,7 @@ use gpc::bench::Random;
 use gpc::render::Headless;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
-    CellSizes, Cells, Counter, Distribute, FrameUniform, ListLength, ListRegion, ListedLocation, LocationSizes,
-    ResourceSizes,
+    CellSizes, Cells, Counter, Distribute, FrameUniform, ListRegion, ListedLocation, LocationSizes, ResourceSizes,
 };
 use twins::distribute::{ListBounds, PlacedLocation};
 
@@ -70,7 +69,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
         resources.record_upload(&recorder);
         resources.record_begin(&recorder, set, &FrameUniform::default());
         let region = ListRegion { tiles: TILES, count: list.len() as u32 };
-        distribute.record(&recorder, (resources, set), &region, ListLength::Known);
+        distribute.record(&recorder, (resources, set), &region);
         drop(recorder);
         for (from, to) in &kept {
             copy(gpu, commands, from, to);

@@ -44,7 +44,7 @@ pub const PROBES: [[f64; 2]; 3] = [[0.34375, 0.34375], [-0.296_875, 0.40625], [0
 /// the receiver itself.
 const BIAS: f64 = 1.0 / 131_072.0;
 
-/// Whether the place lies in shadow, as the passes `receivers` and `occlude`, or `receivers`, `sample` and `shadow`, decide it.
+/// Whether the place lies in shadow, as the passes `receivers` and `occlude` decide it.
 /// `None` if the decision is closer than `doubt`, a fraction of the lengths and of the triangles' sides.
 #[must_use]
 pub fn is_in_shadow(triangles: &[[DVec3; 3]], receiver: &Receiver, light: &Shining, doubt: f64) -> Option<bool> {

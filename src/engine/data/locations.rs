@@ -14,26 +14,18 @@ pub enum Cells {
     Superpixels,
     /// Several locations of a tile, each sampled once.
     Points,
-    /// Several locations of a tile on a light's plane, each sampled once for triangles nearer to the light than the
-    /// location's own.
-    Occluders,
 }
 
 impl Cells {
     /// Whether locations are sampled once each.
     #[must_use]
     pub fn are_points(self) -> bool {
-        matches!(self, Self::Points | Self::Occluders)
+        self == Self::Points
     }
 
     /// Whether cells consist of sampling locations.
     pub(crate) fn are_locations(self) -> bool {
         self != Self::Pixels
-    }
-
-    /// Whether cells search for occluders of their locations.
-    pub(crate) fn are_occluders(self) -> bool {
-        self == Self::Occluders
     }
 }
 
@@ -107,7 +99,7 @@ impl CellSizes {
     #[must_use]
     pub fn new(members: u32, cells: Cells, samples: u32) -> Self {
         let in_cell = match cells {
-            Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(members),
+            Cells::Points => Self::POINTS_IN_CELL.next_multiple_of(members),
             Cells::Superpixels | Cells::Pixels => 1,
         };
         Self { in_cell, in_group: members, samples }

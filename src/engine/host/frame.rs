@@ -10,7 +10,7 @@ use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Options, Shared};
 use crate::engine::data::{Content, FrameUniform, HostImage, IdViews, Offsets, Resources};
-use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
+use crate::engine::passes::{Patch, Patched, RasterTargets};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::plan::Plan;
@@ -416,7 +416,7 @@ impl Frame {
             // What the centres counted is not of superpixels.
             resources.record_begin(recorder, set, &uniform);
         }
-        let run = SamplerRun { resources, set, uniform: &uniform, list: (0, ListLength::Known), index: 0 };
+        let run = SamplerRun { resources, set, uniform: &uniform, locations: 0, index: 0 };
         work.sampler.record(recorder, &run, &shading);
         images.record_draw(recorder);
         let part = images.part(self.options.size);

@@ -8,7 +8,7 @@ use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
 use super::{Draw, Geometry, HostError, IndirectCounts, ListOptions, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
-use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::passes::RasterTargets;
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
@@ -365,7 +365,7 @@ impl List {
         }
         resources.record_begin(recorder, set, &uniform);
         let shading = lending.shading(shading, &work.visibility_set, resources);
-        let run = SamplerRun { resources, set, uniform: &uniform, list: (count, ListLength::Known), index: 0 };
+        let run = SamplerRun { resources, set, uniform: &uniform, locations: count, index: 0 };
         work.sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the host guarantees that the buffer has room for the colours of `capacity` locations.

@@ -1,10 +1,10 @@
 //! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells. It is no
 //! [`Pass`](crate::engine::pipelines::Pass), because the length and region of a list are known only when it is recorded.
 
-use crate::engine::data::{Argument, CellSizes, Cells, Resources, SampleSet};
+use crate::engine::data::{CellSizes, Cells, Resources, SampleSet};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv;
-use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, Texels, VulkanError};
+use crate::vulkan::{DescriptorSets, Recorder, Specialized, Texels, VulkanError};
 
 /// Steps of the shader, in their order.
 const STEPS: [u32; 4] =
@@ -18,16 +18,6 @@ pub struct ListRegion {
     pub tiles: [u32; 2],
     /// Number of locations in the list.
     pub count: u32,
-}
-
-/// Source of a list's length.
-#[derive(Clone, Copy)]
-pub enum ListLength<'a> {
-    /// The host knows the length: [`ListRegion::count`].
-    Known,
-    /// The device knows the length, which is at most [`ListRegion::count`]; the number of workgroups is in an indirect
-    /// dispatch.
-    Counted(&'a Buffer, Argument),
 }
 
 /// Sorts one list after another into the same memory.
@@ -66,13 +56,7 @@ impl Distribute {
     }
 
     /// Records the pass, after [`Resources::record_begin`] has begun the list's region. Later passes see the frame's `set` again.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        (resources, set): (&Resources, &SampleSet),
-        region: &ListRegion,
-        length: ListLength<'_>,
-    ) {
+    pub fn record(&self, recorder: &Recorder<'_>, (resources, set): (&Resources, &SampleSet), region: &ListRegion) {
         let push = spirv::DistributePush {
             tiles: region.tiles,
             count: region.count,
@@ -85,14 +69,10 @@ impl Distribute {
         recorder.pass(spirv::Distribute::INTERFACE, || {
             for (step, kernel) in STEPS.into_iter().zip(&self.steps) {
                 let tiles = region.tiles[0] * region.tiles[1];
-                let invocations = match (step, length) {
-                    (spirv::DISTRIBUTE_LAY_OUT, _) => tiles,
-                    (spirv::DISTRIBUTE_ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
-                    (_, ListLength::Known) => region.count,
-                    (_, ListLength::Counted(arguments, argument)) => {
-                        kernel.record_counted(recorder, &push, (arguments, argument));
-                        continue;
-                    }
+                let invocations = match step {
+                    spirv::DISTRIBUTE_LAY_OUT => tiles,
+                    spirv::DISTRIBUTE_ENCLOSE => self.sizes.most_cells(region.count, tiles),
+                    _ => region.count,
                 };
                 kernel.record(recorder, &push, invocations);
             }

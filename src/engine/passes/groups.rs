@@ -18,7 +18,6 @@ pub(crate) fn pass(layout: &FrameLayout, blocks: &SampleBlocks) -> Result<Pass, 
         cells_of_entry: layout.gpu.limits().teams.members,
         locations: cells.are_locations(),
         points: cells.are_points(),
-        occluders: cells.are_occluders(),
     })?;
     let sizes = arguments::of_samples(layout, CountedBy::Groups, blocks.teams)?;
     Ok(Pass::named(spirv::Groups::INTERFACE).dispatch(groups.dispatch((), Argument::Groups)).dispatch(sizes))

@@ -8,8 +8,7 @@
 //! - If the frame samples a list of locations, `distribute` replaces the passes from `raster` to `detect`, and `crossings` replaces
 //!   `thin`. `groups` runs after `enlist`, and `points` may replace `resolve`.
 //! - If lights may be hidden, `receivers` runs before `shade` and finds the places that lights may reach. `occlude` looks them up in the
-//!   lists of a light's plane. Scenes without such lists have `receivers` for each plane, and `shadow` after the `sample` pass of its
-//!   list.
+//!   lists of a light's plane.
 //!
 //! The file of a pass declares it as a [`Pass`](super::pipelines::Pass), or has a type and says why it can't be declared.
 //! A pass reads the results of the passes before it from device memory, which is in [`super::data`].
@@ -45,7 +44,7 @@ pub(crate) mod thin;
 pub(crate) mod transform;
 
 pub(crate) use centres::Centres;
-pub use distribute::{Distribute, ListLength, ListRegion};
+pub use distribute::{Distribute, ListRegion};
 pub(crate) use patch::{Patch, Patched};
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};

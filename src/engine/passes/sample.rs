@@ -250,7 +250,6 @@ impl SampleBlocks {
             long: options.long_lists.takes_one_cell(),
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
-            occluders: options.cells.are_occluders(),
             instanced: scene.is_instanced(),
         };
         let size = if left_cells { list.left() } else { list.cells() };

@@ -31,7 +31,6 @@ pub(super) fn kernel(
         header,
         lines,
         locations: shader.locations,
-        occluders: shader.occluders,
         instanced: shader.instanced,
     };
     layout.kernel(&shader)

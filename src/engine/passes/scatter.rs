@@ -18,7 +18,6 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, options: &SampleOp
         has_mask: options.has_mask,
         locations: options.cells.are_locations(),
         points: options.cells.are_points(),
-        occluders: options.cells.are_occluders(),
         instanced: scene.is_instanced(),
     })?;
     let step = |step, every, argument: Argument| scatter.dispatch(spirv::ScatterPush { step, every }, argument);

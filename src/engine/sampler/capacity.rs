@@ -8,8 +8,6 @@ use super::{EngineError, RoundPolicy};
 use crate::engine::data::Counter;
 use crate::engine::passes::LongLists;
 
-/// Factor for the number of rounds from which on more rounds no longer help.
-const MANY_ROUNDS: u32 = 8;
 /// Factor for the room for lists, and number of layers, from which on more of them is not tried.
 const MOST_GROWTH: u32 = 1 << 16;
 
@@ -27,9 +25,24 @@ pub(crate) struct Capacity {
     pub long_lists: LongLists,
     /// Whether tiles without a list of candidates are sampled.
     pub samples_unlisted: bool,
-    /// Whether receivers of light are looked up in the lists of the tiles of a light's plane. Otherwise they are sampled, which takes
-    /// several times as long, but does not need the lists.
-    pub looks_up_occluders: bool,
+    /// Room for the casters of shadows.
+    pub planes: PlaneRoom,
+}
+
+/// Room for the lists of casters of a light's plane, if more is needed than usual.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PlaneRoom {
+    /// Number of pairs of a caster and a tile.
+    pub pairs: u32,
+    /// Number of casters in a tile.
+    pub longest: u32,
+}
+
+impl PlaneRoom {
+    /// Room that suffices for both.
+    pub fn most(self, other: Self) -> Self {
+        Self { pairs: self.pairs.max(other.pairs), longest: self.longest.max(other.longest) }
+    }
 }
 
 impl Capacity {
@@ -68,34 +81,21 @@ impl Capacity {
         Self { samples_unlisted: false, ..self }
     }
 
-    /// This capacity for an owner whose memory may be limited. The lists in which receivers of light are looked up take much memory.
-    pub fn within(self, max_memory: Option<u64>) -> Self {
-        Self { looks_up_occluders: self.looks_up_occluders && max_memory.is_none(), ..self }
-    }
-
     /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
     /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
     /// because testing every triangle takes long.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
-        let looks_up_occluders = self.looks_up_occluders && shortfall.unshadowed == 0;
-        // If receivers could not be looked up, they are sampled with the capacity that there is.
-        let unshadowed = shortfall.unshadowed > 0 && !self.looks_up_occluders;
-        // The counters don't say what passes of lights lacked. Rounds are raised first, as long as there are few.
-        let of_lights = unshadowed && self.rounds.is_none_or(|rounds| rounds >= MANY_ROUNDS);
         let crowded = shortfall.crowded > 0;
-        // Lists are lengthened next, and layers are raised last.
-        let deeper = of_lights && self.long_lists == LongLists::Scattered;
-        let lists = factor(shortfall.dropped > 0 || of_lights, 2).max(factor(crowded, 4));
-        let rounds =
-            factor(shortfall.waiting > 0, 2).max(factor(unshadowed, 4)).max(shortfall.rounds.next_power_of_two());
+        let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
+        let rounds = factor(shortfall.waiting > 0, 2).max(shortfall.rounds.next_power_of_two());
         Self {
-            layers: self.layers.saturating_mul(factor(crowded, 4).max(factor(deeper, 2))),
+            layers: self.layers.saturating_mul(factor(crowded, 4)),
             rounds: self.rounds.map(|usual| usual.saturating_mul(rounds)),
-            long_lists: if of_lights || shortfall.stalled > 0 { self.long_lists.shorter() } else { self.long_lists },
+            long_lists: if shortfall.stalled > 0 { self.long_lists.shorter() } else { self.long_lists },
             samples_unlisted: self.samples_unlisted
                 || (shortfall.unlisted_tiles > 0 && (shortfall.rooms <= 1 || self.lists > 1)),
-            looks_up_occluders,
+            planes: self.planes.most(shortfall.planes),
             ..self.with_lists(lists.max(shortfall.rooms))
         }
     }
@@ -118,7 +118,7 @@ impl Default for Capacity {
             rounds: None,
             long_lists: LongLists::default(),
             samples_unlisted: true,
-            looks_up_occluders: true,
+            planes: PlaneRoom::default(),
         }
     }
 }
@@ -139,8 +139,10 @@ pub(crate) struct Shortfall {
     /// Number of triangles that did not fit into the list of triangles that may touch a cell, or into the list of thin
     /// triangles.
     pub dropped: u64,
-    /// Number of tiles, triangles and cells of lights' views that were not processed.
+    /// Number of receivers of light that no list was there for.
     pub unshadowed: u64,
+    /// Room that such lists need.
+    pub planes: PlaneRoom,
     /// Factor by which the room would have to grow to hold the dropped triangles and all pairs of a triangle and a
     /// tile.
     pub rooms: u32,
@@ -172,8 +174,7 @@ impl Shortfall {
 
     /// Number of cells and tiles that were not finished.
     pub fn left(&self) -> u64 {
-        let of_lights = self.unshadowed;
-        self.waiting + self.crowded + self.stalled + self.unlisted_tiles + self.dropped + of_lights
+        self.waiting + self.crowded + self.stalled + self.unlisted_tiles + self.dropped + self.unshadowed
     }
 
     /// Returns an error if any work was not finished.
@@ -215,16 +216,13 @@ mod tests {
         let more = Capacity::default().without_unlisted_tiles().more(outgrown);
         assert_eq!((more.lists, more.samples_unlisted), (2, false));
         assert!(more.more(outgrown).samples_unlisted);
-        // Lights may lack rounds.
-        let unshadowed = Shortfall { unshadowed: 1, ..Shortfall::default() };
+        // Planes of lights get the room that they need, and keep what they have.
+        let unshadowed =
+            |pairs, longest| Shortfall { unshadowed: 1, planes: PlaneRoom { pairs, longest }, ..Shortfall::default() };
+        let more = Capacity::default().more(unshadowed(1000, 0)).more(unshadowed(0, 70));
+        let planes = PlaneRoom { pairs: 1000, longest: 70 };
+        assert_eq!(more, Capacity { planes, ..Capacity::default() });
         let few = Capacity { rounds: Some(2), ..Capacity::default() };
-        let few = few.more(unshadowed);
-        assert_eq!((few.rounds, few.looks_up_occluders), (Some(2), false));
-        let more = few.more(unshadowed);
-        let unlike = |capacity: &Capacity| (capacity.rounds, capacity.lists, capacity.long_lists);
-        assert_eq!(unlike(&more), (Some(8), 1, LongLists::SeveralCells));
-        let longer = more.more(unshadowed);
-        assert_eq!(unlike(&longer), (Some(32), 2, LongLists::OneCell));
         let late = Shortfall { waiting: 5, rounds: 3, ..Shortfall::default() };
         assert_eq!(few.more(late).rounds, Some(8));
         assert_eq!(Capacity::default().more(Shortfall::default()), Capacity::default());

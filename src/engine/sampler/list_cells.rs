@@ -54,8 +54,8 @@ impl ListCells {
         let tiles = tile_count(region);
         let most = u64::from(locations);
         let records = match self.cells {
-            Cells::Points | Cells::Occluders if scene.has_blend() => u64::from(Capacity::LAYERS) * most,
-            Cells::Points | Cells::Occluders => most,
+            Cells::Points if scene.has_blend() => u64::from(Capacity::LAYERS) * most,
+            Cells::Points => most,
             Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(options, scene),
         };
         let triangles = u64::from(scene.triangle_slots());
@@ -68,11 +68,9 @@ impl ListCells {
             if self.cells.are_points() { u64::from(locations.places) / ResourceSizes::CANDIDATE_TEXELS } else { 0 };
         let candidates = candidates.max(if scene.has_blend() { 2 * points } else { points });
         let at_most = |room: u64, most: u64| (room * u64::from(capacity.lists)).min(most) as u32;
-        // If the device turned out to need more layers, each location has room for all layers of its samples; for
-        // occluders, a sixteenth of the locations has.
+        // If the device turned out to need more layers, each location has room for all layers of its samples.
         let of_location = match self.cells {
             Cells::Points => 1,
-            Cells::Occluders => most.div_ceil(16),
             Cells::Superpixels | Cells::Pixels => u64::from(options.samples),
         };
         let layered = if scene.has_blend() { capacity.layered(of_location).min(most_records(limits)) } else { 0 };
@@ -116,7 +114,6 @@ impl ListCells {
         Sampler::new(context, &options, source, |blocks| {
             let of_points = (self.attributes, self.shadow_words);
             match self.cells {
-                Cells::Occluders => Ok(Vec::new()),
                 Cells::Points => Ok(vec![points::pass(layout, scene, output, of_points)?]),
                 Cells::Superpixels | Cells::Pixels => averaging(context, blocks, ResolveTarget::Nothing, None),
             }

@@ -1,8 +1,7 @@
 //! Sampler: finds the colours of cells, in rounds.
 //!
-//! Cells come from one of three sources: the pixels of an image that `detect` marks ([`PixelCells`]), a list of the
-//! caller's sample locations, or a list of places that a light may reach (both [`ListCells`]). The sampler treats all
-//! cells alike: it finds the triangles that may be visible in a tile, chooses the tiles of each round, and turns
+//! Cells come from one of two sources: the pixels of an image that `detect` marks ([`PixelCells`]), or a list of the
+//! caller's sample locations ([`ListCells`]). The sampler treats all cells alike: it finds the triangles that may be visible in a tile, chooses the tiles of each round, and turns
 //! visibility samples into results.
 //!
 //! `docs/architecture.md` has drawings of the order of passes, made from what the library records.
@@ -25,7 +24,7 @@ mod tile_lists;
 pub(crate) mod uniform;
 
 pub use crate::vulkan::timings::PassTime;
-pub(crate) use capacity::{Capacity, Shortfall};
+pub(crate) use capacity::{Capacity, PlaneRoom, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
@@ -46,8 +45,8 @@ use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{
-    Distribute, ListLength, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite, cull, groups, resolve,
-    sample, schedule, setup, sort, tally,
+    Distribute, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite, cull, groups, resolve, sample,
+    schedule, setup, sort, tally,
 };
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::sampling::Pattern;
@@ -64,9 +63,6 @@ pub(crate) trait RecordShading {
 
     /// Records marking of pixels that show more than their centres, in addition to the marks of `thin`.
     fn record_marks(&self, _recorder: &Recorder<'_>) {}
-
-    /// Records passes that read a round's visibility samples after they were shaded.
-    fn record_round_end(&self, _recorder: &Recorder<'_>) {}
 }
 
 /// Arguments for making a [`Sampler`].
@@ -81,7 +77,7 @@ pub(crate) struct SamplerContext<'a> {
     /// Sizes of the memory in which the sampler works.
     pub sizes: &'a ResourceSizes,
     pub capacity: Capacity,
-    /// Number of runs of a recording whose counters the host reads; 0 if it reads none.
+    /// Number of runs of a recording.
     pub runs: usize,
 }
 
@@ -114,9 +110,9 @@ pub(crate) struct Sampler {
     candidates: [Pass; 3],
     /// Passes of a round up to the visibility samples.
     visibility: Vec<Pass>,
-    /// Pass that sorts visibility samples; `None` if only their triangles are needed, not their colours.
-    sort: Option<Pass>,
-    /// Passes of a round that turn shaded visibility samples into colours; none if no colours are needed.
+    /// Pass that sorts visibility samples.
+    sort: Pass,
+    /// Passes of a round that turn shaded visibility samples into colours.
     colors: Vec<Pass>,
     options: SampleOptions,
     capacity: Capacity,
@@ -145,8 +141,8 @@ pub(crate) struct SamplerRun<'a> {
     pub resources: &'a Resources,
     pub set: &'a SampleSet,
     pub uniform: &'a FrameUniform,
-    /// Number of locations of a list, or an upper bound of it, and the source of the exact number; ignored for pixels.
-    pub list: (u32, ListLength<'a>),
+    /// Number of locations of a list; ignored for pixels.
+    pub locations: u32,
     /// Index of this run in the recording, from 0.
     pub index: usize,
 }
@@ -178,9 +174,7 @@ impl Sampler {
                     visibility.push(groups::pass(layout, &blocks)?);
                 }
                 visibility.push(setup::pass(layout, scene, ListOrder::Whole)?);
-                let is_shaded = cells != Cells::Occluders || scene.has_blend();
-                let sort = || sort::pass(layout, scene, scene.bin_count() == 1);
-                let sort = is_shaded.then(sort).transpose()?;
+                let sort = sort::pass(layout, scene, scene.bin_count() == 1)?;
                 Ok::<_, EngineError>((source()?, candidates, visibility, sort, colors(&blocks)?))
             })();
             let sample = sample.join();
@@ -243,9 +237,8 @@ impl Sampler {
                 detect.record_for(recorder, tiles);
             }
             Source::List(distribute) => {
-                let (count, length) = run.list;
-                let region = ListRegion { tiles: uniform.tiles, count };
-                distribute.record(recorder, (resources, set), &region, length);
+                let region = ListRegion { tiles: uniform.tiles, count: run.locations };
+                distribute.record(recorder, (resources, set), &region);
             }
         }
         let growths = self.source.growths();
@@ -276,14 +269,11 @@ impl Sampler {
             for pass in &self.visibility {
                 pass.record(recorder);
             }
-            if let Some(sort) = &self.sort {
-                sort.record(recorder);
-                shading.record(recorder, resources);
-            }
+            self.sort.record(recorder);
+            shading.record(recorder, resources);
             for pass in &self.colors {
                 pass.record(recorder);
             }
-            shading.record_round_end(recorder);
         });
     }
 

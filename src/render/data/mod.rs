@@ -9,4 +9,4 @@ mod scene;
 pub use geometry::FrameGeometry;
 pub use output_cells::{OutputCells, OutputPlane};
 pub(in crate::render) use scene::MaterialBin;
-pub use scene::{FrameLook, GpuScene, SceneUploads};
+pub use scene::{AlphaUse, FrameLook, GpuScene, SceneUploads};

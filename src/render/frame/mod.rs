@@ -9,7 +9,7 @@ mod uniform;
 
 pub use target::Target;
 
-use super::shadows::{Casters, ShadowFinder};
+use super::shadows::{Casters, ShadowFinder, ShadowRequest};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
 use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
@@ -73,7 +73,6 @@ impl Frame {
     ) -> Result<Self, RenderError> {
         let settings = &settings.clone().with_shadowed_samples();
         let sampler = settings.sampler();
-        let capacity = capacity.within(settings.scene.max_memory);
         let casters = match settings.scene.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
@@ -81,11 +80,15 @@ impl Frame {
         let gpu = scene.memory().gpu().clone();
         let taken = scene.memory_bytes() + reserved;
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
-        let pixels = drawn_pixels(settings);
-        let of_others = |sizes: &ResourceSizes| {
-            let bytes = |casters| ShadowFinder::bytes(layout, casters, &sampler, capacity, (pixels, sizes));
-            beside_regions + casters.map_or(0, |casters| bytes(casters))
-        };
+        let shadows = casters.map(|casters| ShadowRequest {
+            layout,
+            casters,
+            settings: &sampler,
+            capacity,
+            places: drawn_pixels(settings),
+            max_memory: settings.scene.max_memory,
+        });
+        let of_others = |sizes: &ResourceSizes| beside_regions + shadows.map_or(0, |request| request.bytes(sizes));
         let plan = Plan::new(
             &settings.image(),
             &**scene,
@@ -108,11 +111,8 @@ impl Frame {
         let resources =
             Resources::new(layout, &memory, &**scene, &shown, &targets.views(), plan.sizes, &[centre, offsets])?;
         let passes = Passes::new(layout, &memory, scene, (settings, &sampler), &plan, encoding)?;
-        let shadows = |casters| {
-            let shading = (&**scene, Cells::Pixels, &resources);
-            ShadowFinder::new(layout, &memory, casters, &sampler, capacity, shading, pixels)
-        };
-        let shadows = casters.map(shadows).transpose()?;
+        let shadows = shadows.map(|request| ShadowFinder::new(&request, &memory, scene, Cells::Pixels, &resources));
+        let shadows = shadows.transpose()?;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),

@@ -5,7 +5,7 @@ use super::target::Target;
 use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
 use crate::engine::data::Resources;
-use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::Pass;
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
@@ -98,7 +98,6 @@ impl Recording<'_> {
             pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
             whole: [DVec2::ZERO, place(self.settings.size)],
             part: [low, low + place(region.outer())],
-            places: super::drawn_pixels(self.settings),
             origin: self.scene.origin(),
         }))
     }
@@ -160,7 +159,7 @@ impl Recording<'_> {
             shading.record(recorder, resources);
             resolve.record(recorder);
         }
-        let run = |set, uniform| SamplerRun { resources, set, uniform, list: (0, ListLength::Known), index };
+        let run = |set, uniform| SamplerRun { resources, set, uniform, locations: 0, index };
         if let Some(sampler) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
             sampler.record(recorder, &run(main, &whole), &shading);

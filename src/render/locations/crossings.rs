@@ -6,7 +6,7 @@ use super::run::RunMemory;
 use crate::camera::Pinhole;
 use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
 use crate::engine::passes::cull::{self, CullFilter};
-use crate::engine::passes::{Distribute, ListLength, bin};
+use crate::engine::passes::{Distribute, bin};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{CounterLog, SamplerRun, Shortfall};
 use crate::render::passes::{MarkedOutput, SeenLocation, crossings};
@@ -92,7 +92,7 @@ impl CrossingFinder {
         let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, _| {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
-            distribute.record(recorder, (resources, set), &region, ListLength::Known);
+            distribute.record(recorder, (resources, set), &region);
             cull.record(recorder);
             bin.record(recorder);
             crossings.record(recorder);

@@ -16,7 +16,7 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::data::{OutputCells, OutputPlane};
-use crate::render::passes::{LightPlane, MarkedOutput, neighbours};
+use crate::render::passes::{MarkedOutput, PROBES, neighbours};
 use crate::render::{CellOptions, Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -142,7 +142,7 @@ impl Headless {
         let points = (&settings.scene, settings.filter());
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            for probe in LightPlane::PROBES {
+            for probe in PROBES {
                 let probes: Vec<SampleLocation> = locations.iter().map(|location| location.at(probe)).collect();
                 let seen = self.sample_filtered_points(scene, pinhole, &probes, points)?;
                 statistics.append(seen.statistics);

@@ -16,16 +16,18 @@ mod sampler;
 
 pub use error::LocationError;
 
-use super::shadows::Sight;
+use super::shadows::{Casters, ShadowRequest, Sight};
 use super::{CellOptions, Headless, PreparedScene, RenderError, SceneSettings, Shading, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::Cells;
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{Capacity, SamplerSettings};
 use partition::Partition;
 use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Colour and nearest surfaces of a scene at a sampling location.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,6 +58,20 @@ type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
 struct ListSettings {
     scene: SceneSettings,
     sampler: SamplerSettings,
+}
+
+impl ListSettings {
+    /// Request for shadows of these casters on `places` locations.
+    fn shadows<'a>(
+        &'a self,
+        layout: &'a Arc<FrameLayout>,
+        casters: &'a Arc<Casters>,
+        capacity: Capacity,
+        places: u64,
+    ) -> ShadowRequest<'a> {
+        let max_memory = self.scene.max_memory;
+        ShadowRequest { layout, casters, settings: &self.sampler, capacity, places, max_memory }
+    }
 }
 
 /// Values at the locations of a run.
@@ -181,7 +197,6 @@ impl Headless {
                     pinhole: *pinhole,
                     whole: [low - beyond, high + beyond],
                     part: window.rectangle(beyond),
-                    places: partition.places(),
                     origin: scene.gpu_scene.origin(),
                 };
                 // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.

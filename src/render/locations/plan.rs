@@ -8,10 +8,10 @@ use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::Capacity;
 use crate::render::data::FrameGeometry;
 use crate::render::plane::PlaneWindow;
-use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{EngineError, PreparedScene, RenderError, Shadows};
 use crate::vulkan::VulkanError;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Largest number of locations of a run; more would not make sampling faster.
 const MOST_LOCATIONS: usize = 1 << 18;
@@ -39,18 +39,17 @@ impl LocationPlan {
     /// [`EngineError::Memory`](crate::render::EngineError::Memory) if not even short runs fit, [`VulkanError::TooLarge`] if these
     /// exceed a limit of the device, [`RenderError::NoCasters`] if shadows are asked for and the scene was not prepared for them.
     pub fn new(
-        layout: &FrameLayout,
+        layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &ListSettings,
         partition: &Partition<'_>,
         may_stop: bool,
         capacity: Capacity,
     ) -> Result<Self, RenderError> {
-        let capacity = capacity.within(settings.scene.max_memory);
         let (limits, scene) = (layout.gpu.limits(), &*prepared.gpu_scene);
         let casters = match settings.scene.shadows {
             Shadows::None => None,
-            Shadows::Exact => Some(prepared.casters.as_deref().ok_or(RenderError::NoCasters)?),
+            Shadows::Exact => Some(prepared.casters.as_ref().ok_or(RenderError::NoCasters)?),
         };
         let cells = partition.cells;
         let samples = match cells.are_points() {
@@ -65,12 +64,10 @@ impl LocationPlan {
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
-            let words = casters.map_or(0, Casters::shadow_words);
+            let words = casters.map_or(0, |casters| casters.shadow_words());
             let sizes = list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, room, capacity);
-            let of_shadows = casters.map_or(0, |casters| {
-                let places = (places, &sizes);
-                ShadowFinder::bytes(layout, casters, &settings.sampler, capacity, places)
-            });
+            let shadows = |casters| settings.shadows(layout, casters, capacity, places);
+            let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes(&sizes));
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;
             let fits = sizes.largest_storage() <= limits.max_storage_bytes

@@ -33,7 +33,9 @@ impl Headless {
             }
             log::debug!("{} locations lacked room: {shortfall:?}", run.len());
             let more = capacity.more(shortfall);
-            if run.len() > 1 && more.long_lists == capacity.long_lists {
+            // A plane of a light needs as much room for half of the locations.
+            let helps = more.long_lists == capacity.long_lists && more.planes == capacity.planes;
+            if run.len() > 1 && helps {
                 waiting.extend(halves(&run));
             } else if capacity.lists < MOST_LISTS {
                 capacity = more;

@@ -3,7 +3,7 @@
 use super::ListSettings;
 use crate::camera::Pinhole;
 use crate::engine::data::{Cells, Content, ListedLocation, Offsets, ResourceSizes, Resources};
-use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::SamplerRun;
 use crate::render::data::{FrameGeometry, FrameLook};
@@ -99,7 +99,7 @@ impl RunMemory {
             let sizes = StrokeSizes::new(&settings.scene, 1);
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
         }
-        let run = SamplerRun { resources, set, uniform: &uniform, list: (count as u32, ListLength::Known), index: 0 };
+        let run = SamplerRun { resources, set, uniform: &uniform, locations: count as u32, index: 0 };
         record(recorder, &run, is_first);
     }
 

@@ -69,8 +69,8 @@ impl LocationSampler {
         // SAFETY: the list lives as long as the resources, and has room for that many locations.
         let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
         let shadows = |casters| {
-            let shading = (scene, *cells, resources);
-            ShadowFinder::new(layout, &run.memory, casters, &settings.sampler, capacity, shading, *places)
+            let request = settings.shadows(layout, casters, capacity, *places);
+            ShadowFinder::new(&request, &run.memory, scene, *cells, resources)
         };
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;

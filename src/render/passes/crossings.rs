@@ -47,12 +47,8 @@ pub(crate) unsafe fn pass(
         (crossings_set::SEEN, seen.into()),
         (crossings_set::CELL_MARKS, marks.into()),
     ];
-    let crossings = layout.kernel(&spirv::Crossings {
-        blend_ids: scene.has_blend(),
-        folds,
-        occluders: false,
-        instanced: scene.is_instanced(),
-    })?;
+    let crossings =
+        layout.kernel(&spirv::Crossings { blend_ids: scene.has_blend(), folds, instanced: scene.is_instanced() })?;
     // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
     let own = Arc::new(unsafe { layout.own_set(spirv::Crossings::INTERFACE, &shown) }?);
     Ok(Pass::named(spirv::Crossings::INTERFACE)

@@ -2,12 +2,41 @@
 //! It is no [`Pass`](crate::engine::pipelines::Pass), because the lights, and what is shadowed, are known only when a
 //! frame is recorded.
 
-use super::{LightPlane, Receiving, Unshadowed};
+use super::{Receiving, Unshadowed};
 use crate::engine::data::{Argument, Content, Resources};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv::{self, occlude_set};
 use crate::render::data::GpuScene;
 use crate::vulkan::{DescriptorSets, Recorder, Specialized, VulkanError};
+
+/// Plane of a light, as the pass takes it; `shaders/occlude.comp` describes the fields.
+pub use crate::engine::spirv::OccludePush as LightPlane;
+
+impl LightPlane {
+    /// Face of a plane that does not belong to a cube.
+    pub const SINGLE: u32 = spirv::SINGLE_PLANE;
+    /// Flag in `step`: the pass initialises the shadow words.
+    pub const BEGINS: u32 = spirv::OCCLUDE_BEGINS;
+}
+
+/// Use of what is found out about the receivers of a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadowTarget {
+    /// Writes shadow words of places, from this index on.
+    Words(u32),
+    /// Marks pixels in which the probe with this number gets another share of the light than the centre.
+    Marks(u32),
+}
+
+impl ShadowTarget {
+    /// Number of the probe whose receivers are tested.
+    pub fn probe(self) -> Option<u32> {
+        match self {
+            Self::Words(_) => None,
+            Self::Marks(probe) => Some(probe),
+        }
+    }
+}
 
 /// Width and height of the pixels of a team, as in `shaders/occlude.comp`.
 const SIDE: u32 = 8;
@@ -47,8 +76,9 @@ impl Occlude {
             local_size: teams.workgroup(),
             team: teams.members,
             teams: teams.in_workgroup,
-            has_mask: casters.has_mask(),
+            translucent: casters.has_mask() || casters.has_blend(),
             instanced: casters.is_instanced(),
+            shadow_words: receivers.sizes().shadow_words,
         };
         Ok(Self {
             kernel: layout.kernel_variant(code_for(teams.members), &shader)?,
@@ -57,29 +87,25 @@ impl Occlude {
         })
     }
 
-    /// Records the pass for the lists of a plane, whose set passes use. The receivers are those of `resources`; the first one's
-    /// place is `first_place`.
+    /// Records the pass for the lists of a plane, whose set passes use, and the surfaces that `receivers` has found. Visibility
+    /// samples are those of `resources`.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
-        (receiving, resources): (Receiving, &Resources),
+        receiving: Receiving,
+        resources: &Resources,
         plane: &LightPlane,
-        first_place: u32,
+        target: ShadowTarget,
     ) {
+        let (first_place, step) = match target {
+            ShadowTarget::Words(first) => (first, plane.step),
+            ShadowTarget::Marks(probe) => (0, plane.step & spirv::OCCLUDE_LIGHT | probe << spirv::OCCLUDE_PROBE_SHIFT),
+        };
         let region = match receiving {
             Receiving::Pixels(size) => size,
             Receiving::Records => [0; 2],
         };
-        let push = spirv::OccludePush {
-            to_plane: plane.to_plane,
-            light: plane.light,
-            cone: plane.cone,
-            range: plane.range,
-            step: plane.step,
-            face: plane.face,
-            first_place,
-            region,
-        };
+        let push = LightPlane { step, first_place, region, ..*plane };
         recorder.show(&self.own);
         match receiving {
             Receiving::Pixels(size) => {

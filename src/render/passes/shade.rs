@@ -52,7 +52,6 @@ pub(crate) fn pass(
         tinted: output.tinted,
         environment: scene.has_environment(),
         locations: cells.are_locations(),
-        occluders: cells.are_occluders(),
         instanced: scene.is_instanced(),
         shadow_words,
         tonemap: output.tonemap,

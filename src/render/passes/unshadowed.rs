@@ -1,22 +1,26 @@
-//! Count of the shadows that passes could not find.
+//! Count of the shadows that `occlude` could not find.
 
+use crate::engine::sampler::{PlaneRoom, Shortfall};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// Count of the receivers and tiles that the passes of a frame's shadows could not finish, on the device and in a copy
-/// that the host reads.
+/// Count of the receivers that `occlude` has left in a frame, and the room that their lists need, on the device and in a
+/// copy that the host reads.
 pub struct Unshadowed {
     counted: Buffer,
     kept: Buffer,
 }
 
 impl Unshadowed {
+    /// Number of words, which `shaders/occlude.comp` describes.
+    const WORDS: usize = 3;
+
     /// Makes the buffers.
     ///
     /// # Errors
     /// If memory runs out.
     pub fn new(memory: &Memory) -> Result<Self, VulkanError> {
-        let words = |name, usage, place| memory.buffer(name, 4, usage, place);
+        let words = |name, usage, place| memory.buffer(name, 4 * Self::WORDS as u64, usage, place);
         let transfer = vk::BufferUsageFlags::TRANSFER_DST;
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         Ok(Self {
@@ -25,7 +29,7 @@ impl Unshadowed {
         })
     }
 
-    /// Buffer with the count, as `shaders/shadow.comp` describes it.
+    /// Buffer with the count, as `shaders/occlude.comp` describes it.
     pub fn buffer(&self) -> &Buffer {
         &self.counted
     }
@@ -40,12 +44,15 @@ impl Unshadowed {
         recorder.copy(&self.counted, self.counted.size(), &self.kept, 0);
     }
 
-    /// Number of receivers and tiles that the last frame could not finish.
+    /// Adds what the last frame could not finish.
     ///
     /// # Errors
     /// If the count can't be read.
-    pub fn read(&self) -> Result<u32, VulkanError> {
-        let words: &[u32] = self.kept.read(1)?;
-        Ok(words.first().copied().unwrap_or(0))
+    pub(crate) fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
+        if let [left, pairs, longest] = *self.kept.read::<u32>(Self::WORDS)? {
+            shortfall.unshadowed += u64::from(left);
+            shortfall.planes = shortfall.planes.most(PlaneRoom { pairs, longest });
+        }
+        Ok(())
     }
 }

@@ -1,19 +1,15 @@
 //! Passes and memory that find shadows.
 
 use super::casters::{Casters, Lit, caster_moment};
-use super::light::{LightView, Sight, most_planes, views};
-use crate::engine::data::{Argument, Cells, Content, FrameUniform, Offsets, ResourceSizes, Resources, SampleSet};
-use crate::engine::passes::{ListLength, RasterTargets};
-use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::{
-    Capacity, ListCells, RecordShading, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall, TileLists,
-};
+use super::light::{LightView, Sight, most_planes, plane_side, views};
+use crate::engine::data::{Cells, Offsets, ResourceSizes, Resources, SampleSet};
+use crate::engine::passes::RasterTargets;
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::sampler::{Capacity, SamplerSettings, Shortfall, TileLists};
 use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
-use crate::render::passes::{
-    LightPlane, Occlude, PosePass, Receivers, Receiving, ShadeSource, Shadow, ShadowTarget, Unshadowed, shade,
-};
+use crate::render::passes::{Occlude, PROBES, PosePass, Receivers, Receiving, ShadowTarget, Unshadowed};
 use crate::scene::Moment;
 use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
 use ash::vk;
@@ -26,36 +22,32 @@ pub(in crate::render) struct ShadowFinder {
     /// Moment that is shown instead of the first pose.
     moment: Option<Moment>,
     settings: SamplerSettings,
+    /// Side of the lights' planes in pixels.
+    side: u32,
     receivers: Receivers,
-    search: Search,
+    lists: TileLists,
+    occlude: Occlude,
     unshadowed: Unshadowed,
     pose: Option<PosePass>,
     geometry: FrameGeometry,
     look: FrameLook,
-    /// Memory for the casters that a plane shows: that of each plane, or of one after the other.
+    /// Memory for the lists of planes: of each plane, or of one after the other.
     planes: Vec<Resources>,
     targets: RasterTargets,
-    _locations: TexelBuffer,
+    _surfaces: TexelBuffer,
 }
 
-/// Search for the occluders of receivers.
-enum Search {
-    /// The triangles of each tile of each plane are listed, and receivers are looked up in these lists.
-    Lists { lists: TileLists, occlude: Occlude },
-    /// Receivers are sampled, as other lists of locations are.
-    Samples {
-        sampler: Box<Sampler>,
-        /// Shading of casters that let light pass; `None` without such casters.
-        shade: Option<Pass>,
-        shadow: Shadow,
-    },
-}
-
-/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer.
-/// Receivers before BLEND casters are always sampled, for which lists are made anew in each round. In other scenes, the
-/// result must not depend on whether receivers are looked up or sampled.
-fn pixels_per_place(casters: &GpuScene) -> f64 {
-    if casters.has_blend() { 2.0 } else { 8.0 }
+/// Casters and lights for whose shadows memory is planned, and what these fall on.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct ShadowRequest<'a> {
+    pub layout: &'a Arc<FrameLayout>,
+    pub casters: &'a Arc<Casters>,
+    pub settings: &'a SamplerSettings,
+    pub capacity: Capacity,
+    /// Number of pixels of the whole image, or of locations of the whole list.
+    pub places: u64,
+    /// Limit for all device memory in bytes; `None` for no limit.
+    pub max_memory: Option<u64>,
 }
 
 /// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
@@ -69,179 +61,87 @@ pub(in crate::render) struct Shadowed<'a> {
     pub views: &'a [LightView],
 }
 
-/// Client of the sampler that finds occluders between a plane of a light and receivers.
-struct Occlusion<'a> {
-    shade: Option<&'a Pass>,
-    shadow: &'a Shadow,
-    target: ShadowTarget,
-    /// Bit of the light in the words of receivers.
-    light: u32,
-}
-
-impl Shadowed<'_> {
-    fn pixels(&self) -> u32 {
-        self.size[0] * self.size[1]
-    }
-}
-
-impl RecordShading for Occlusion<'_> {
-    /// Shades casters that let light pass, to get their opacities.
-    fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
-        if let Some(shade) = self.shade {
-            shade.record(recorder);
-        }
-    }
-
-    fn record_round_end(&self, recorder: &Recorder<'_>) {
-        self.shadow.record(recorder, self.target, self.light);
-    }
-}
-
-/// Kind of the lists with which casters are sampled.
-const OCCLUDERS: ListCells = ListCells { cells: Cells::Occluders, attributes: false, shadow_words: 0, lent: true };
-
-/// Number of bytes that the lists of all planes of the lights may take. With more, receivers are sampled.
+/// Number of bytes that the lists of all planes of the lights may take, and their share of a limit for memory. If they take
+/// more, memory has room for the lists of one plane, which are made for each search.
 const MOST_LIST_BYTES: u64 = 768 << 20;
+const LIST_SHARE: u64 = 4;
 
-/// Plan of a search: the memory of a plane, and the number of planes in memory at once.
-struct SearchPlan {
+/// Memory for the lists of planes.
+struct PlanePlan {
+    side: u32,
     sizes: ResourceSizes,
+    /// Number of planes whose lists are in memory at once.
     planes: u32,
-    looks_up: bool,
 }
 
-impl SearchPlan {
-    /// Plan for an image or list of `places` places, whose owner has memory of the sizes `shading`.
-    fn new(
-        layout: &FrameLayout,
-        casters: &Casters,
-        settings: &SamplerSettings,
-        capacity: Capacity,
-        (places, shading): (u64, &ResourceSizes),
-    ) -> Self {
-        let (scene, options) = (&*casters.scene, &settings.cells);
-        let region = [LightView::side(places, pixels_per_place(scene)); 2];
-        let listed = Self {
-            sizes: TileLists::sizes(layout, scene, options, region, capacity),
-            planes: most_planes(&casters.lit, casters.scene.moves()).max(1),
-            looks_up: true,
-        };
-        let fits = listed.sizes.check("the lists of a light", layout.gpu.limits());
-        // Opacities of casters are known only where they are sampled.
-        let looks_up = capacity.looks_up_occluders && !scene.has_blend() && fits.is_ok();
-        if looks_up && u64::from(listed.planes) * listed.sizes.bytes() <= MOST_LIST_BYTES {
-            return listed;
-        }
-        let room = (shading.receivers(), region);
-        Self { sizes: OCCLUDERS.sizes(layout, scene, options, room, capacity), planes: 1, looks_up: false }
+impl ShadowRequest<'_> {
+    fn plan(&self) -> PlanePlan {
+        let Self { layout, casters, settings, capacity, places, max_memory } = *self;
+        let side = plane_side(places, capacity.planes.longest);
+        let sizes = TileLists::sizes(layout, &*casters.scene, &settings.cells, [side; 2], capacity);
+        let planes = most_planes(&casters.lit, casters.scene.moves()).max(1);
+        let most = max_memory.map_or(MOST_LIST_BYTES, |limit| MOST_LIST_BYTES.min(limit / LIST_SHARE));
+        let is_room = u64::from(planes) * sizes.bytes() <= most;
+        PlanePlan { side, sizes, planes: if is_room { planes } else { 1 } }
     }
 
-    fn bytes(&self) -> u64 {
-        u64::from(self.planes) * self.sizes.bytes()
+    /// Number of bytes of a finder for places whose owner has memory of the sizes `shading`.
+    pub fn bytes(&self, shading: &ResourceSizes) -> u64 {
+        let PlanePlan { sizes, planes, .. } = self.plan();
+        let surfaces = 32 * u64::from(shading.receivers());
+        let scene = &*self.casters.scene;
+        surfaces + u64::from(planes) * sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 }
 
 impl ShadowFinder {
-    /// Approximate number of bytes for an image or list of `places` places; the places' owner has memory of the sizes
-    /// `sizes`.
-    pub fn bytes(
-        layout: &FrameLayout,
-        casters: &Casters,
-        settings: &SamplerSettings,
-        capacity: Capacity,
-        (places, shading): (u64, &ResourceSizes),
-    ) -> u64 {
-        let plan = SearchPlan::new(layout, casters, settings, capacity, (places, shading));
-        let list = 32 * u64::from(shading.receivers());
-        let scene = &*casters.scene;
-        list + plan.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
-    }
-
-    /// Makes pipelines and memory for cells of a scene that are shaded with `resources`, in an image or list of
-    /// `places` places.
+    /// Makes pipelines and memory for cells of a scene that are shaded with the memory `shading`.
     ///
     /// # Errors
     /// If the driver refuses something, or memory runs out.
     pub fn new(
-        layout: &Arc<FrameLayout>,
+        request: &ShadowRequest<'_>,
         memory: &Memory,
-        casters: &Arc<Casters>,
-        settings: &SamplerSettings,
-        capacity: Capacity,
-        (scene, cells, shading): (&GpuScene, Cells, &Resources),
-        places: u64,
+        scene: &GpuScene,
+        cells: Cells,
+        shading: &Resources,
     ) -> Result<Self, RenderError> {
+        let ShadowRequest { layout, casters, settings, .. } = *request;
         let occluding = &*casters.scene;
-        let plan = SearchPlan::new(layout, casters, settings, capacity, (places, shading.sizes()));
-        let sizes = plan.sizes;
-        sizes.check("the largest list of shadows", layout.gpu.limits())?;
-        let (offsets, count) = OCCLUDERS.offsets(layout, &settings.cells)?;
-        let offsets = Offsets { all: &offsets, count };
-        let once = vk::SampleCountFlags::TYPE_1;
-        let targets = RasterTargets::new(memory, 1, 1, once, false)?;
+        let PlanePlan { side, sizes, planes } = request.plan();
+        sizes.check("the lists of a light", layout.gpu.limits())?;
+        let targets = RasterTargets::new(memory, 1, 1, vk::SampleCountFlags::TYPE_1, false)?;
         let geometry = FrameGeometry::new(memory, occluding, true)?;
         let look = FrameLook::new(memory, occluding)?;
         let mut shown = geometry.shown(occluding);
         shown.extend(look.shown(occluding));
-        let locations = memory.texel_buffer(
+        let surfaces = memory.texel_buffer(
             "receivers of light",
             2 * u64::from(shading.sizes().receivers()),
             vk::Format::R32G32B32A32_UINT,
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
             MemoryUse::Device,
         )?;
-        shown.push((frame_set::LOCATIONS, locations.texels().into()));
-        let plane = |_| {
-            let views = targets.views();
-            Resources::new(layout, memory, occluding, &shown, &views, sizes, &[offsets])
-        };
-        let planes = (0..plan.planes).map(plane).collect::<Result<Vec<_>, _>>()?;
-        let output = settings.color_constants(occluding);
-        let context = SamplerContext {
-            layout,
-            memory,
-            scene: occluding,
-            settings,
-            output: &output,
-            sizes: &sizes,
-            capacity: Capacity { samples_unlisted: !plan.looks_up, ..capacity },
-            // `shadow` and `occlude` count on the device, so that no runs are counted here.
-            runs: 0,
-        };
+        shown.push((frame_set::LOCATIONS, surfaces.texels().into()));
+        let centre = Offsets { all: &[[0.0; 2]], count: 1 };
+        let plane = |_| Resources::new(layout, memory, occluding, &shown, &targets.views(), sizes, &[centre]);
         let unshadowed = Unshadowed::new(memory)?;
-        let search = match planes.first() {
-            Some(resources) if !plan.looks_up => {
-                // SAFETY: the list lives as long as this, and has room for that many locations.
-                let sampler = unsafe { OCCLUDERS.sampler(&context, (resources, locations.texels())) }?;
-                let opacities = || {
-                    let source = ShadeSource::Records { cells: Cells::Occluders };
-                    shade::pass(layout, occluding, (source, 0), &output)
-                };
-                Search::Samples {
-                    sampler: Box::new(sampler),
-                    shade: occluding.has_blend().then(opacities).transpose()?,
-                    shadow: Shadow::new(layout, shading, &unshadowed)?,
-                }
-            }
-            _ => Search::Lists {
-                lists: TileLists::new(&context)?,
-                occlude: Occlude::new(layout, occluding, shading, &unshadowed)?,
-            },
-        };
         Ok(Self {
-            receivers: Receivers::new(layout, scene, cells, shading, (&locations.buffer, plan.looks_up))?,
-            search,
+            side,
+            receivers: Receivers::new(layout, scene, cells, &surfaces.buffer)?,
+            lists: TileLists::new(layout, occluding)?,
+            occlude: Occlude::new(layout, occluding, shading, &unshadowed)?,
             unshadowed,
             pose: occluding.moves().then(|| PosePass::new(layout)).transpose()?,
             lit: casters.lit.clone(),
             moment: None,
             casters: casters.clone(),
             settings: settings.clone(),
+            planes: (0..planes).map(plane).collect::<Result<_, _>>()?,
             geometry,
             look,
-            planes,
             targets,
-            _locations: locations,
+            _surfaces: surfaces,
         })
     }
 
@@ -257,8 +157,7 @@ impl ShadowFinder {
 
     /// Views of the lights onto the visible part of the scene.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
-        let per_place = pixels_per_place(&self.casters.scene);
-        views(&self.lit, sight, per_place)
+        views(&self.lit, sight, self.side)
     }
 
     /// Shows another moment of the casters' motion, from the next recording on.
@@ -286,28 +185,30 @@ impl ShadowFinder {
         self.unshadowed.record_end(recorder);
     }
 
-    /// Records what all searches of a region or list have in common. Passes use the sets `set` afterwards.
+    /// Records the lists that all searches of a region or list have in common. Passes use the sets `set` afterwards.
     pub fn record_planes(&self, recorder: &Recorder<'_>, views: &[LightView], set: &SampleSet) {
-        let Search::Lists { lists, .. } = &self.search else {
-            return;
-        };
-        recorder.section(PassTime::SHADOWS, || {
-            for (view, resources) in views.iter().zip(&self.planes) {
-                if let Some(set) = resources.set(0) {
-                    let uniform = self.uniform(view, 1, resources);
-                    lists.record(recorder, (resources, set), &uniform);
+        if self.keeps_lists(views) {
+            recorder.section(PassTime::SHADOWS, || {
+                for (view, plane) in views.iter().zip(&self.planes) {
+                    self.record_lists(recorder, view, plane);
                 }
-            }
-            set.show(recorder);
-        });
+                set.show(recorder);
+            });
+        }
     }
 
-    /// Uniform block of a plane, for cells of `samples` samples.
-    fn uniform(&self, view: &LightView, samples: u32, resources: &Resources) -> FrameUniform {
-        let (scene, settings, sizes) = (&*self.casters.scene, &self.settings, resources.sizes());
-        let cells = (Cells::Occluders, samples);
-        let window = &view.window;
-        window.uniform(scene, &view.pinhole, settings, cells, sizes)
+    /// Whether the lists of all planes are in memory at once.
+    fn keeps_lists(&self, views: &[LightView]) -> bool {
+        views.len() <= self.planes.len()
+    }
+
+    fn record_lists(&self, recorder: &Recorder<'_>, view: &LightView, plane: &Resources) {
+        let Some(set) = plane.set(0) else {
+            return;
+        };
+        let (scene, cells) = (&*self.casters.scene, (Cells::Points, 1));
+        let uniform = view.window.uniform(scene, &view.pinhole, &self.settings, cells, plane.sizes());
+        self.lists.record(recorder, plane, set, uniform);
     }
 
     /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
@@ -320,10 +221,9 @@ impl ShadowFinder {
             }
             let first_place = match receiving {
                 Receiving::Pixels(_) => 0,
-                Receiving::Records => shaded.pixels(),
+                Receiving::Records => shaded.size[0] * shaded.size[1],
             };
-            let target = ShadowTarget::Words { first_place };
-            self.record_search(recorder, shaded, receiving, |plane| plane, target);
+            self.record_search(recorder, shaded, receiving, ShadowTarget::Words(first_place));
         });
     }
 
@@ -331,63 +231,23 @@ impl ShadowFinder {
     /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
     pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.section(PassTime::SHADOWS, || {
-            let receiving = Receiving::Pixels(shaded.size);
-            let target = ShadowTarget::Marks { width: shaded.size[0] };
-            for probe in LightPlane::probes() {
-                self.record_search(recorder, shaded, receiving, |plane| plane.of(probe), target);
+            for probe in 1..=PROBES.len() as u32 {
+                self.record_search(recorder, shaded, Receiving::Pixels(shaded.size), ShadowTarget::Marks(probe));
             }
         });
     }
 
-    /// Records the search for all lights. `plane` is what `receivers` takes for the plane of a light.
-    fn record_search(
-        &self,
-        recorder: &Recorder<'_>,
-        shaded: Shadowed<'_>,
-        receiving: Receiving,
-        plane: impl Fn(LightPlane) -> LightPlane,
-        target: ShadowTarget,
-    ) {
-        match &self.search {
-            Search::Lists { occlude, .. } => {
-                let (first_place, _) = target.pushed();
-                let planes: Vec<_> = shaded.views.iter().map(|view| plane(view.plane)).collect();
-                if let Some(any) = planes.first() {
-                    self.receivers.record(recorder, shaded.set, receiving, any);
-                }
-                for (plane, resources) in planes.iter().zip(&self.planes) {
-                    if let Some(set) = resources.set(0) {
-                        set.show(recorder);
-                        let receivers = (receiving, shaded.resources);
-                        occlude.record(recorder, receivers, plane, first_place);
-                    }
-                }
+    /// Records the search for all lights.
+    fn record_search(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving, target: ShadowTarget) {
+        self.receivers.record(recorder, shaded.set, receiving, target.probe());
+        let has_lists = self.keeps_lists(shaded.views);
+        for (view, plane) in shaded.views.iter().zip(self.planes.iter().cycle()) {
+            if !has_lists {
+                self.record_lists(recorder, view, plane);
+            } else if let Some(set) = plane.set(0) {
+                set.show(recorder);
             }
-            Search::Samples { sampler, shade, shadow } => {
-                let Some(resources) = self.planes.first() else {
-                    return;
-                };
-                let Some(set) = resources.set(0) else {
-                    return;
-                };
-                let (most, length) = match receiving {
-                    Receiving::Pixels([width, height]) => (width * height, ListLength::Known),
-                    Receiving::Records => {
-                        let shading = shaded.resources;
-                        let length = ListLength::Counted(&shading.arguments, Argument::Records);
-                        (shading.sizes().record_capacity, length)
-                    }
-                };
-                for view in shaded.views {
-                    self.receivers.record(recorder, shaded.set, receiving, &plane(view.plane));
-                    let uniform = self.uniform(view, sampler.samples(), resources);
-                    resources.record_begin(recorder, set, &uniform);
-                    let run = SamplerRun { resources, set, uniform: &uniform, list: (most, length), index: 0 };
-                    let occlusion = Occlusion { shade: shade.as_ref(), shadow, target, light: view.bit };
-                    sampler.record(recorder, &run, &occlusion);
-                    shadow.record_left(recorder);
-                }
-            }
+            self.occlude.record(recorder, receiving, shaded.resources, &view.plane, target);
         }
         shaded.set.show(recorder);
     }
@@ -397,7 +257,6 @@ impl ShadowFinder {
     /// # Errors
     /// If its counters can't be read.
     pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
-        shortfall.unshadowed += u64::from(self.unshadowed.read()?);
-        Ok(())
+        self.unshadowed.add_shortfall(shortfall)
     }
 }

@@ -22,6 +22,8 @@ const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
 /// Distance of the near plane of point and spot lights, as a share of the scene's diagonal; nothing nearer casts a
 /// shadow.
 const NEAR: f64 = 1e-6;
+/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer.
+const PIXELS_OF_PLACE: u64 = 8;
 /// Smallest and largest number of pixels along a side of a light's plane, which is one region of the sampler.
 const SIDES: [f64; 2] = [64.0, 2_000.0];
 /// Margin around the visible part of a distant light's plane, as a share of that part's side. The margin covers the
@@ -38,8 +40,6 @@ pub(in crate::render) struct Sight {
     pub whole: Rectangle,
     /// Rectangle of the plane that is shaded at once.
     pub part: Rectangle,
-    /// Number of pixels of the whole image, or of locations of the whole list.
-    pub places: u64,
     /// World position to which positions on the device are relative.
     pub origin: DVec3,
 }
@@ -49,18 +49,18 @@ pub(in crate::render) struct LightView {
     pub(super) pinhole: Pinhole,
     pub(super) window: PlaneWindow,
     pub(super) plane: LightPlane,
-    /// Bit of the light in the words of receivers.
-    pub(super) bit: u32,
 }
 
-impl LightView {
-    /// Side in pixels of a plane for a number of pixels or locations, with `per_place` pixels for each of them.
-    pub fn side(places: u64, per_place: f64) -> u32 {
-        let [fewest, most] = SIDES;
-        let side = (per_place * places as f64).sqrt().clamp(fewest, most);
-        // The side is a whole number of tiles.
-        (side as u32).next_multiple_of(8)
-    }
+/// Side in pixels of a plane for the lights of `places` pixels or locations. A list of the plane has room for `longest`
+/// triangles.
+pub(super) fn plane_side(places: u64, longest: u32) -> u32 {
+    let [fewest, most] = SIDES;
+    // A pair has as many bits for its rank in a list as the numbers of tiles leave: see `shaders/include/pairs.glsl`.
+    let tiles = (1_u64 << longest.leading_zeros()) - 1;
+    let with_ranks = (tiles as f64 * (TILE[0] * TILE[1]) as f64).sqrt();
+    let side = (PIXELS_OF_PLACE as f64 * places as f64).sqrt().clamp(fewest, most);
+    // The side is a whole number of tiles.
+    (side as u32).next_multiple_of(8).min(with_ranks as u32 / 8 * 8).max(8)
 }
 
 /// Largest number of views that [`views`] makes, if lights have only one moment or may be changed by others.
@@ -74,13 +74,12 @@ pub(super) fn most_planes(lit: &Lit, moves: bool) -> u32 {
 }
 
 /// Views of all lights that together cover the visible part of the scene; empty for a scene without extent. Planes have
-/// `per_place` pixels for each place.
-pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> {
+/// `side` pixels along each side.
+pub(super) fn views(lit: &Lit, sight: &Sight, side: u32) -> Vec<LightView> {
     let Some(bounds) = lit.bounds else {
         return Vec::new();
     };
-    let side = LightView::side(sight.places, per_place);
-    let mut views = Vec::new();
+    let mut views: Vec<LightView> = Vec::new();
     for (bit, light) in (0..).zip(&lit.lights) {
         let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();
         let single = pinholes.len() == 1;
@@ -103,15 +102,13 @@ pub(super) fn views(lit: &Lit, sight: &Sight, per_place: f64) -> Vec<LightView> 
                     to_plane: to_plane.as_mat4().to_cols_array(),
                     light: place.extend(if parallel { 0.0 } else { 1.0 }).as_vec4().to_array(),
                     cone: light.direction.extend(cosine).as_vec4().to_array(),
-                    low: [0, 1].map(|axis| window.low[axis] as i32 - middle[axis] as i32),
-                    size: window.size(),
                     range: light.range.unwrap_or(f32::INFINITY),
                     step: bit | begins,
                     face: if single { LightPlane::SINGLE } else { face },
+                    ..LightPlane::default()
                 },
                 pinhole,
                 window,
-                bit,
             });
         }
     }
@@ -265,7 +262,6 @@ mod tests {
             pinhole: pinhole.unwrap(),
             whole: [DVec2::ZERO, DVec2::new(100.0, 50.0)],
             part: [DVec2::ZERO, DVec2::new(100.0, 50.0)],
-            places: 5000,
             origin: DVec3::ZERO,
         }
     }
@@ -318,5 +314,17 @@ mod tests {
         let width = 2.0 * 2.0 * 10.0 * 20.0_f64.to_radians().tan();
         let found = pinhole.steps()[0].length() * 128.0;
         assert!((found / width - 1.0).abs() < 0.01, "{found} {width}");
+    }
+
+    /// The bits of a pair hold the number of a plane's tile and the rank of a triangle in its list.
+    #[test]
+    fn long_lists_leave_planes_fewer_tiles() {
+        for longest in [0, 1, 30_000, 40_000, 1 << 20, u32::MAX] {
+            let side = plane_side(1 << 20, longest);
+            let tiles = side.div_ceil(8) * side.div_ceil(4);
+            let ranks = 1_u64 << tiles.leading_zeros();
+            assert!(ranks >= longest.into(), "{longest}: {side}");
+            assert!(side == 2000 || 2 * u64::from(longest) > ranks / 4, "{longest}: {side}");
+        }
     }
 }

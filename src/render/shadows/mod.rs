@@ -1,8 +1,8 @@
 //! Exact shadows.
 //!
 //! The places at which surfaces are shaded, including those of every sample of a superpixel, are projected onto the
-//! image plane of each light. There they are looked up in lists of the casters of each tile, or sampled as other lists of sample
-//! locations are. Either way the triangles are found that occlude a place. There is no depth map, which could alias.
+//! image plane of each light. There they are looked up in lists of the casters of each tile, which finds the triangles that
+//! occlude a place. There is no depth map, which could alias.
 //!
 //! A place is in shadow in two cases. First, if another triangle, opaque or passing its alpha test, is nearer to the
 //! light by more than 2^-17 of the distance (of the scene's depth for a distant light). Second, if the visible side of
@@ -16,10 +16,7 @@
 //!
 //! ```text
 //! casters ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ setup ─▶ lists of the tiles of a plane ─┐
-//! shaded next: pixels or records ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ a word for each ─▶ shade
-//!
-//! BLEND casters, or lists that do not fit into memory; for each plane:
-//! shaded next ─▶ receivers ─▶ a list on the plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each ─▶ shade
+//! shaded next: pixels or records ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ words for each ─▶ shade
 //! ```
 
 mod casters;
@@ -27,8 +24,10 @@ mod finder;
 mod light;
 
 pub(super) use casters::Casters;
-pub(super) use finder::{ShadowFinder, Shadowed};
+pub(super) use finder::{ShadowFinder, ShadowRequest, Shadowed};
 pub(super) use light::{LightView, Rectangle, Sight};
+
+use crate::render::data::AlphaUse;
 
 use super::{PreparedScene, RenderError, Renderer, SceneRequest, Shadows};
 use casters::caster_scene;
@@ -56,7 +55,7 @@ impl Renderer {
         let used = prepared.memory_bytes();
         let left = request.max_memory.map(|most| most.saturating_sub(used));
         let (scene, caster_pose) = caster_scene(request.scene, pose);
-        let made = self.prepare_moving(&scene, (&caster_pose, motion), left)?;
+        let made = self.prepare_moving(&scene, (&caster_pose, motion), AlphaUse::Opacities, left)?;
         let casters = Casters::new(made.gpu_scene, &caster_pose, motion);
         prepared.casters = Some(Arc::new(casters));
         prepared.caster_uploads = made.uploads;

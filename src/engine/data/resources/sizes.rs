@@ -112,13 +112,13 @@ impl ResourceSizes {
         self.locations.map_or(u64::from(self.pixels()), |locations| u64::from(locations.locations))
     }
 
-    /// Largest number of places that are shaded at once with shadows; 0 without shadows.
+    /// Largest number of places that are shaded at once with shadows, in whole workgroups of 64; 0 without shadows.
     #[must_use]
     pub fn receivers(&self) -> u32 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
         match self.shadow_words {
             0 => 0,
-            _ => pixels.max(self.record_capacity),
+            _ => pixels.max(self.record_capacity).next_multiple_of(64),
         }
     }
 

@@ -6,23 +6,38 @@ use crate::engine::data::alpha_flags::{
 };
 use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, Wrap};
 
-/// Alpha channels of the base colour textures of MASK materials, with their mipmaps.
+/// Materials whose alpha passes read from the atlas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlphaUse {
+    /// MASK materials: their alpha is tested. Textures have the opacities of others.
+    Tests,
+    /// MASK and BLEND materials, for casters of shadows, which no pass shades.
+    Opacities,
+}
+
+/// Alpha channels of the base colour textures of materials that are not opaque, with their mipmaps.
 #[derive(Debug)]
 pub(super) struct AlphaAtlas {
     pub(super) words: Vec<u32>,
     placed: Vec<(u32, u32, [u32; 4])>,
+    of: AlphaUse,
 }
 
 impl AlphaAtlas {
     /// Atlas with one untextured entry, for materials without a texture.
-    pub(super) fn new() -> Self {
-        Self { words: vec![0; 8], placed: Vec::new() }
+    pub(super) fn new(of: AlphaUse) -> Self {
+        Self { words: vec![0; 8], placed: Vec::new(), of }
     }
 
     /// Adds a material's alpha texture, unless the atlas has it already; returns the material's vector `MATERIAL_ALPHA`.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
-        let (AlphaMode::Mask { .. }, Some(used)) = (material.alpha_mode, material.base_color_texture) else {
+        let is_read = match material.alpha_mode {
+            AlphaMode::Opaque => false,
+            AlphaMode::Mask { .. } => true,
+            AlphaMode::Blend => self.of == AlphaUse::Opacities,
+        };
+        let Some(used) = material.base_color_texture.filter(|_| is_read) else {
             return none;
         };
         let Some(texture) = scene.textures.get(used.texture as usize) else {

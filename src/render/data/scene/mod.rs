@@ -24,6 +24,7 @@ use crate::engine::pipelines::FrameLayout;
 use crate::scene::{DrawClass, Environment, Moment, Motion, Pose, Scene};
 use crate::vulkan::{Buffer, Memory, Recorder, TexelBuffer, VulkanError};
 use alpha_atlas::AlphaAtlas;
+pub use alpha_atlas::AlphaUse;
 use ash::vk;
 use bins::Bins;
 use environment::{EnvironmentUpload, GpuEnvironment};
@@ -95,6 +96,7 @@ impl GpuScene {
         memory: &Memory,
         scene: &Scene,
         (pose, motion): (&Pose, Option<&Motion>),
+        alphas: AlphaUse,
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
@@ -102,7 +104,7 @@ impl GpuScene {
         let slots = looks.iter().map(|material| Slots::of(scene, material)).collect::<Result<Vec<_>, _>>()?;
         let bins = Bins::new(scene, (&looks, geometry), &slots, &mut textures)?;
         let triangles = Triangles::new(&looks, geometry, &bins);
-        let mut atlas = AlphaAtlas::new();
+        let mut atlas = AlphaAtlas::new(alphas);
         let alphas: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
         let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &alphas));
         let materials = MaterialTable::new(&looks, slots, alphas);
