@@ -6,8 +6,8 @@
 //! duties of everything that follows, so that safe code outside of the crate can't cause undefined behaviour.
 
 pub use crate::engine::data::{
-    Argument, CellSizes, Cells, Content, Counter, FrameUniform, ListedLocation, LocationSizes, Offsets, ResourceSizes,
-    Resources,
+    Argument, CellSizes, Cells, Content, Counter, Data, FrameUniform, ListedLocation, LocationSizes, Offsets,
+    ResourceRequest, ResourceSizes, Resources, ShownIds,
 };
 pub use crate::engine::passes::{
     Distribute, ListRegion, LongLists, RasterTargets, RecordRate, SampleBlocks, SampleOptions,

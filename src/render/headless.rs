@@ -125,9 +125,6 @@ pub struct PixelAttributes {
     pub padding: u32,
 }
 
-/// Number of times that a frame's capacity is raised before its error is reported.
-const RETRIES: u32 = 10;
-
 impl Headless {
     /// Opens a device and makes a renderer on it.
     ///
@@ -286,17 +283,18 @@ impl Headless {
         frame: &mut Frame,
         camera: &Camera,
     ) -> Result<Rendered<P>, RenderError> {
-        for _ in 0..RETRIES {
-            match self.render_once(frame, camera) {
-                Err(RenderError::Engine(EngineError::Unfinished { .. })) => {
-                    *frame = self.renderer.prepare_again(frame)?;
-                }
+        loop {
+            let rendered = self.render_once(frame, camera);
+            if !matches!(rendered, Ok(_) | Err(RenderError::Engine(EngineError::Unfinished { .. }))) {
+                return rendered;
+            }
+            let shortfall = frame.shortfall()?;
+            match rendered {
                 Ok(image) => {
                     // The image is complete: in tiles whose list of candidates outgrew its memory, every triangle was
                     // tried, which is slow.
-                    let rooms = frame.shortfall()?.rooms;
-                    if rooms > 1 && frame.lists_can_grow() {
-                        let larger = frame.capacity().with_lists(rooms);
+                    if shortfall.rooms > 1 && frame.lists_can_grow() {
+                        let larger = frame.capacity().with_lists(shortfall.rooms);
                         match self.renderer.prepare_like(frame, larger) {
                             Ok(larger) => *frame = larger,
                             Err(error) => {
@@ -306,10 +304,15 @@ impl Headless {
                     }
                     return Ok(image);
                 }
-                failed => return failed,
+                Err(unfinished) => {
+                    let Some(more) = frame.capacity().next(&shortfall) else {
+                        return Err(unfinished);
+                    };
+                    log::debug!("the frame lacked room and is made again: {shortfall:?}");
+                    *frame = self.renderer.prepare_like(frame, more)?;
+                }
             }
         }
-        self.render_once(frame, camera)
     }
 
     /// Checks that a scene can be shown by this device.

@@ -211,7 +211,8 @@ impl Renderer {
     pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
         let shortfall = frame.shortfall()?;
         log::debug!("the frame lacked room and is made again: {shortfall:?}");
-        self.prepare_like(frame, frame.capacity().more(shortfall))
+        let present = frame.capacity();
+        self.prepare_like(frame, present.next(&shortfall).unwrap_or(present))
     }
 
     /// Capacity for the first frame of a scene.

@@ -3,70 +3,32 @@
 use ash::vk;
 use gpc::render::Headless;
 use gpc::testing::{
-    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes, Resources, frame_layout,
+    Buffer, FrameLayout, Memory, MemoryUse, Offsets, ResourceRequest, ResourceSizes, Resources, ShownIds, frame_layout,
     memory,
 };
 use std::sync::Arc;
-
-/// Scene that these passes do not read.
-pub struct Unread;
-
-impl Content for Unread {
-    fn triangle_slots(&self) -> u32 {
-        1
-    }
-
-    fn is_instanced(&self) -> bool {
-        false
-    }
-
-    fn has_mask(&self) -> bool {
-        false
-    }
-
-    fn has_blend(&self) -> bool {
-        false
-    }
-
-    fn has_high_frequency(&self) -> bool {
-        true
-    }
-
-    fn is_tinted(&self) -> bool {
-        false
-    }
-
-    fn bin_count(&self) -> u32 {
-        1
-    }
-}
 
 /// Resources of given sizes.
 pub struct Bare {
     pub memory: Memory,
     pub layout: Arc<FrameLayout>,
     pub resources: Resources,
-    /// Images that descriptors refer to but no pass reads.
-    _targets: RasterTargets,
 }
 
 impl Bare {
     pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
         // SAFETY: passes are run with the sizes of these resources, and tests wait for their commands.
         let (layout, memory) = unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
-        let targets = RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
         let offsets = vec![[0.0; 2]; samples as usize];
-        let resources = Resources::new(
-            &layout,
-            &memory,
-            &Unread,
-            &[],
-            &targets.views(),
+        let request = ResourceRequest {
             sizes,
-            &[Offsets { all: &offsets, count: samples }],
-        )
-        .unwrap();
-        Self { memory, layout, resources, _targets: targets }
+            others: &[],
+            ids: ShownIds::Unread,
+            offsets: &[Offsets { all: &offsets, count: samples }],
+            scratch: None,
+        };
+        let resources = Resources::new(&layout, &memory, &request).unwrap();
+        Self { memory, layout, resources }
     }
 
     /// A buffer in host memory to which another one may be copied.

@@ -4,7 +4,7 @@ use gpc::bench::Random;
 use gpc::render::Headless;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
-    CellSizes, Cells, Counter, Distribute, FrameUniform, ListRegion, ListedLocation, LocationSizes, ResourceSizes,
+    CellSizes, Cells, Counter, Data, Distribute, FrameUniform, ListRegion, ListedLocation, LocationSizes, ResourceSizes,
 };
 use twins::distribute::{ListBounds, PlacedLocation};
 
@@ -30,38 +30,20 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
     let team = gpu.gpu().limits().teams.members;
     let cell_sizes = CellSizes::new(team, cells, SAMPLES);
     let tiles = TILES[0] * TILES[1];
+    let limits = gpu.gpu().limits();
     let sizes = ResourceSizes {
-        region: [8 * TILES[0], 4 * TILES[1]],
-        team,
         locations: Some(LocationSizes::new(list.len() as u32, tiles, &cell_sizes)),
-        survivor_capacity: 1,
-        filtered_triangles: 0,
-        pair_capacity: 1,
-        list_capacity: 1,
-        record_capacity: 1,
-        filtered: 0,
-        shadow_words: 0,
-        attributes: false,
-        encoded: 0,
+        ..ResourceSizes::new([8 * TILES[0], 4 * TILES[1]], 1, limits)
     };
     let mut bare = Bare::new(gpu, sizes, 1);
     for (to, location) in bare.resources.listed_mut(list.len()).unwrap().iter_mut().zip(list) {
         *to = ListedLocation { pixel: location.pixel, within: location.within, jacobian: location.jacobian };
     }
     let resources = &bare.resources;
-    let listed = resources.listed().unwrap();
-    // SAFETY: the list lives as long as the resources, which outlive this.
-    let distribute = unsafe { Distribute::new(&bare.layout, cells, cell_sizes, resources, listed) }.unwrap();
-    let own = &resources.locations;
-    let kept = [
-        &resources.counters,
-        &resources.masks,
-        &own.tile_loads,
-        &own.order.buffer,
-        &own.cells.buffer,
-        &own.groups.buffer,
-    ]
-    .map(|buffer| (buffer, bare.like(buffer)));
+    let distribute = Distribute::new(&bare.layout, cells, cell_sizes, resources).unwrap();
+    let kept =
+        [Data::Counters, Data::Masks, Data::TileLoads, Data::LocationOrder, Data::LocationCells, Data::LocationGroups]
+            .map(|data| (resources.buffer(data), bare.like(resources.buffer(data))));
     submit(gpu.gpu(), |commands| {
         // SAFETY: the commands are waited for, and everything to which they refer outlives them.
         let recorder = unsafe { Recorder::new(gpu.gpu(), commands, None) };

@@ -26,6 +26,7 @@ mod lines;
 mod lobes;
 mod locations;
 mod mask;
+mod memory;
 #[path = "../common/meshes.rs"]
 mod meshes;
 mod methods;

@@ -3,7 +3,7 @@
 use gpc::bench::Random;
 use gpc::render::Headless;
 use gpc::testing::{
-    Argument, Buffer, Cells, Counter, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder, ResourceSizes,
+    Argument, Buffer, Cells, Counter, Data, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder, ResourceSizes,
     SampleBlocks, SampleOptions, load_passes,
 };
 use twins::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
@@ -99,7 +99,11 @@ struct Kept {
 impl Kept {
     fn new(bare: &Bare) -> Self {
         let (resources, like) = (&bare.resources, |buffer| bare.like(buffer));
-        Self { counters: like(&resources.counters), tiles: like(&resources.tiles), work: like(&resources.tile_lists) }
+        Self {
+            counters: like(resources.buffer(Data::Counters)),
+            tiles: like(resources.buffer(Data::Tiles)),
+            work: like(resources.buffer(Data::TileLists)),
+        }
     }
 
     fn read(&self, tiles: usize) -> Found {
@@ -122,18 +126,10 @@ struct Passes<'a> {
 impl<'a> Passes<'a> {
     fn new(gpu: &'a Headless, case: &Case) -> Self {
         let sizes = ResourceSizes {
-            region: [8 * case.size[0], 4 * case.size[1]],
-            team: gpu.gpu().limits().teams.members,
-            locations: None,
-            survivor_capacity: 1,
-            filtered_triangles: 0,
             pair_capacity: 1,
             list_capacity: case.candidates,
             record_capacity: case.records,
-            filtered: 0,
-            shadow_words: 0,
-            attributes: false,
-            encoded: 0,
+            ..ResourceSizes::new([8 * case.size[0], 4 * case.size[1]], 1, gpu.gpu().limits())
         };
         let bare = Bare::new(gpu, sizes, case.samples);
         let options = SampleOptions {
@@ -213,16 +209,16 @@ impl<'a> Passes<'a> {
             };
             resources.record_upload(&recorder());
             resources.record_begin(&recorder(), set, uniform);
-            copy(gpu, commands, &mask_upload, &resources.masks);
-            copy(gpu, commands, &tile_upload, &resources.tiles);
-            copy(gpu, commands, &counter_upload, &resources.counters);
-            copy(gpu, commands, &argument_upload, &resources.arguments);
+            copy(gpu, commands, &mask_upload, resources.buffer(Data::Masks));
+            copy(gpu, commands, &tile_upload, resources.buffer(Data::Tiles));
+            copy(gpu, commands, &counter_upload, resources.buffer(Data::Counters));
+            copy(gpu, commands, &argument_upload, resources.buffer(Data::Arguments));
             tally.record(&shown());
             for kept in &kept {
                 schedule.record(&shown());
-                copy(gpu, commands, &resources.counters, &kept.counters);
-                copy(gpu, commands, &resources.tiles, &kept.tiles);
-                copy(gpu, commands, &resources.tile_lists, &kept.work);
+                copy(gpu, commands, resources.buffer(Data::Counters), &kept.counters);
+                copy(gpu, commands, resources.buffer(Data::Tiles), &kept.tiles);
+                copy(gpu, commands, resources.buffer(Data::TileLists), &kept.work);
             }
         });
         kept.iter().map(|kept| kept.read(content.len())).collect()

@@ -1,8 +1,8 @@
 //! Lists of sampling locations on the device; they are sampled instead of pixels.
 
-use super::Resources;
-use crate::engine::spirv::{LOAD_WORDS, distribute_set};
-use crate::vulkan::{BoundDescriptor, Buffer, Memory, MemoryUse, TexelBuffer, Texels, VulkanError};
+use super::{Data, Resources};
+use crate::engine::spirv::distribute_set;
+use crate::vulkan::{BoundDescriptor, Descriptor, VulkanError};
 use ash::vk;
 
 /// Kind of a cell.
@@ -57,14 +57,6 @@ impl LocationSizes {
             lent: false,
         }
     }
-
-    /// Number of bytes of the buffers that locations need in addition to those of pixels, over `tiles` tiles.
-    #[must_use]
-    pub fn bytes(&self, tiles: u64) -> u64 {
-        let [locations, cells, places, groups] = [self.locations, self.cells, self.places, self.groups].map(u64::from);
-        let listed = if self.lent { 0 } else { locations };
-        32 * (listed + cells) + 4 * places + 16 * groups + (16 + 4 * LocationBuffers::LOAD) * tiles
-    }
 }
 
 /// A sampling location, laid out as in `shaders/include/locations.glsl`.
@@ -116,51 +108,6 @@ fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
     count.min((count / size).saturating_add(tiles))
 }
 
-/// Buffers of a list: see `shaders/include/locations.glsl`.
-pub struct LocationBuffers {
-    /// The list; `None` if an application lends it.
-    pub locations: Option<TexelBuffer>,
-    /// Indices of the locations that are sampled once each, cell by cell.
-    pub order: TexelBuffer,
-    /// Two vectors for each cell.
-    pub cells: TexelBuffer,
-    /// A vector for each group.
-    pub groups: TexelBuffer,
-    /// For each tile: number of cells, number of samples, and index of the first cell.
-    pub tile_loads: Buffer,
-    /// Words with which `distribute` counts, for each tile: see `shaders/include/tile_locations.glsl`.
-    pub(crate) loads: Buffer,
-}
-
-impl LocationBuffers {
-    /// Number of words of a tile in `loads`: see `shaders/include/tile_locations.glsl`.
-    const LOAD: u64 = LOAD_WORDS as u64;
-
-    pub(crate) fn new(memory: &Memory, sizes: &LocationSizes, tiles: u64) -> Result<Self, VulkanError> {
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
-        let texels = |name, count: u32, format, place| {
-            let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | storage;
-            memory.texel_buffer(name, count.into(), format, usage, place)
-        };
-        let uint4 = vk::Format::R32G32B32A32_UINT;
-        let vectors = |name, count| texels(name, count, uint4, MemoryUse::Device);
-        let listed = || texels("locations", 2 * sizes.locations, uint4, MemoryUse::Upload);
-        let tiles = if sizes.locations == 0 { 0 } else { tiles };
-        let words = |name, count: u64| {
-            let usage = storage | vk::BufferUsageFlags::TRANSFER_DST;
-            memory.buffer(name, 4 * count, usage, MemoryUse::Device)
-        };
-        Ok(Self {
-            locations: (!sizes.lent).then(listed).transpose()?,
-            order: texels("order of locations", sizes.places, vk::Format::R32_UINT, MemoryUse::Device)?,
-            cells: vectors("cells of locations", 2 * sizes.cells)?,
-            groups: vectors("groups of cells", sizes.groups)?,
-            tile_loads: words("cells and samples of tiles", 4 * tiles)?,
-            loads: words("loads of tiles", Self::LOAD * tiles)?,
-        })
-    }
-}
-
 impl Resources {
     /// First `count` locations of the list, to be written while the device is idle.
     ///
@@ -168,42 +115,29 @@ impl Resources {
     /// If there is no room for them, or the driver did not map the buffer.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         let bytes = count * size_of::<ListedLocation>();
-        let scratch = self.own_scratch().ok_or(UNMAPPED)?;
-        let listed = scratch.locations.locations.as_mut().ok_or(UNMAPPED)?;
-        Ok(bytemuck::cast_slice_mut(mapped(&mut listed.buffer, bytes)?))
-    }
-
-    /// View of the whole list.
-    ///
-    /// # Errors
-    /// If an application lends the list.
-    pub fn listed(&self) -> Result<Texels, VulkanError> {
-        let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
-        Ok(listed.texels())
+        let listed = self.buffer_mut(Data::Locations).ok_or(UNMAPPED)?;
+        let listed = listed.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)?;
+        Ok(bytemuck::cast_slice_mut(listed))
     }
 
     /// Buffers that `distribute` reads and writes.
-    pub(crate) fn location_buffers(&self, locations: Texels) -> [BoundDescriptor; 10] {
-        let LocationBuffers { order, cells, groups, tile_loads, loads, .. } = &self.locations;
+    pub(crate) fn location_buffers(&self, locations: Descriptor) -> [BoundDescriptor; 10] {
+        let whole = |data| self.buffer(data).into();
         [
-            (distribute_set::LOADS, loads.into()),
+            (distribute_set::LOADS, whole(Data::Loads)),
             // The buffer is free, because nothing has been shaded yet.
-            (distribute_set::RANKS, (&self.shade_order).into()),
-            (distribute_set::ORDER_OUT, (&order.buffer).into()),
-            (distribute_set::CELLS_OUT, (&cells.buffer).into()),
-            (distribute_set::GROUPS_OUT, (&groups.buffer).into()),
-            (distribute_set::TILE_LOADS, tile_loads.into()),
-            (distribute_set::MASKS, (&self.masks).into()),
-            (distribute_set::COUNTERS, (&self.counters).into()),
-            (distribute_set::LOCATIONS, locations.into()),
-            (distribute_set::ORDER, order.texels().into()),
+            (distribute_set::RANKS, whole(Data::ShadeOrder)),
+            (distribute_set::ORDER_OUT, whole(Data::LocationOrder)),
+            (distribute_set::CELLS_OUT, whole(Data::LocationCells)),
+            (distribute_set::GROUPS_OUT, whole(Data::LocationGroups)),
+            (distribute_set::TILE_LOADS, whole(Data::TileLoads)),
+            (distribute_set::MASKS, whole(Data::Masks)),
+            (distribute_set::COUNTERS, whole(Data::Counters)),
+            (distribute_set::LOCATIONS, locations),
+            (distribute_set::ORDER, self.texels(Data::LocationOrder)),
         ]
     }
 }
 
 const UNMAPPED: VulkanError =
     VulkanError::Call { call: "mapping locations", result: vk::Result::ERROR_MEMORY_MAP_FAILED };
-
-fn mapped(buffer: &mut Buffer, bytes: usize) -> Result<&mut [u8], VulkanError> {
-    buffer.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)
-}

@@ -22,6 +22,6 @@ pub use counters::{Argument, Counter};
 pub(crate) use draws::{Draws, HostDraw};
 pub(crate) use host_image::HostImage;
 pub use locations::{CellSizes, Cells, ListedLocation, LocationSizes};
-pub use resources::{IdViews, Offsets, ResourceSizes, Resources, SampleSet, Scratch};
+pub use resources::{Data, IdViews, Offsets, ResourceRequest, ResourceSizes, Resources, SampleSet, Scratch, ShownIds};
 pub(crate) use triangle_word::TriangleWord;
 pub(crate) use visibility::{VisibilityUniform, VisibleGeometry, visibility_layout};

@@ -1,7 +1,7 @@
 //! Data about a frame that a host's shaders can read: the set of `shaders/include/gpc_visibility.glsl`.
 
-use super::Resources;
 use super::draws::Draws;
+use super::{Data, Resources};
 use crate::engine::spirv::gpc_visibility_set;
 use crate::vulkan::{Buffer, Descriptor, DescriptorSets, Gpu, SetLayout, VulkanError};
 use ash::vk;
@@ -43,12 +43,12 @@ impl Resources {
         let draw_of = Descriptor::from(geometry.draw_of);
         let buffers = [
             (gpc_visibility_set::GPC_FRAME, uniform.into()),
-            (gpc_visibility_set::GPC_KEYS, (&self.bins).into()),
-            (gpc_visibility_set::GPC_ORDER, (&self.shade_order).into()),
-            (gpc_visibility_set::GPC_RECORDS, (&self.records.buffer).into()),
+            (gpc_visibility_set::GPC_KEYS, self.buffer(Data::Bins).into()),
+            (gpc_visibility_set::GPC_ORDER, self.buffer(Data::ShadeOrder).into()),
+            (gpc_visibility_set::GPC_RECORDS, self.buffer(Data::Records).into()),
             (gpc_visibility_set::GPC_TRIANGLES, geometry.triangles.into()),
             (gpc_visibility_set::GPC_POSITIONS, geometry.positions.into()),
-            (gpc_visibility_set::GPC_SHADED, (&self.shaded.buffer).into()),
+            (gpc_visibility_set::GPC_SHADED, self.buffer(Data::Shaded).into()),
             (gpc_visibility_set::GPC_DRAWS, (&geometry.draws.table).into()),
             (gpc_visibility_set::GPC_DRAW_OF, draw_of),
             // Without a list, shaders don't read this binding.

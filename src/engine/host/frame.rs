@@ -4,20 +4,20 @@ use super::base::Base;
 use super::draw::PlacedDraws;
 use super::growth::Growth;
 use super::lending::Lending;
+use super::sampling::Sampling;
 use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Options, Shared};
-use crate::engine::data::{Content, FrameUniform, HostImage, IdViews, Offsets, Resources};
+use crate::engine::data::{FrameUniform, HostImage, IdViews, Offsets, ResourceRequest, ShownIds};
 use crate::engine::passes::{Patch, Patched, RasterTargets};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun};
-use crate::engine::sampler::{SamplerSettings, Statistics};
-use crate::vulkan::{DescriptorSets, Memory, Recorder, Timings};
+use crate::engine::sampler::{Job, JobRecording, PixelCells, SamplerRun, Statistics};
+use crate::vulkan::{DescriptorSets, Memory};
 use ash::vk;
 use std::sync::Arc;
 
@@ -70,25 +70,20 @@ pub struct Frame {
     kinds: ImageKinds,
     options: Options,
     growth: Growth,
+    /// Number of triangles of the last recording.
+    triangles: u32,
     /// Last: layouts go after what was made with them.
     shared: Arc<Shared>,
 }
 
 /// What a frame has for images of its size.
 struct Work {
-    settings: SamplerSettings,
-    plan: Plan,
-    resources: Resources,
-    sampler: Sampler,
+    sampling: Sampling,
     base: Base,
     /// The host's image of colours, where these are read.
     image: Option<Arc<HostImage>>,
     patch: Patch,
     visibility_set: DescriptorSets,
-    timings: Timings,
-    /// Whether a recording with the upload was executed.
-    is_uploaded: bool,
-    memory: Memory,
     scratch: Arc<FrameScratch>,
 }
 
@@ -117,25 +112,20 @@ impl Work {
         let allowed = |taken| options.max_memory.map(|most| most.saturating_sub(taken));
         let scratch = shared.scratch.get(
             layout,
-            &ScratchRequest {
-                sizes: plan.sizes,
-                bin_count: content.bin_count(),
-                targets: !kinds.ids,
-                allowed: allowed(lending.bytes()),
-            },
+            &ScratchRequest { sizes: plan.sizes, targets: !kinds.ids, allowed: allowed(lending.bytes()) },
         )?;
         let memory = Memory::new(gpu.clone(), allowed(lending.bytes() + scratch.bytes()));
         let offsets = method.offsets()?;
         let count = offsets.len() as u32;
-        let resources = Resources::with_scratch(
-            layout,
-            &memory,
-            &scratch.passes,
-            &content.shown(),
-            plan.sizes,
-            &[Offsets { all: &offsets, count }],
-        )?;
-        let output = settings.color_constants(content);
+        let request = ResourceRequest {
+            sizes: plan.sizes,
+            others: &content.shown(),
+            ids: ShownIds::Later,
+            offsets: &[Offsets { all: &offsets, count }],
+            scratch: Some(&scratch.passes),
+        };
+        let job = Job::new(layout, memory, &settings, capacity, &request)?;
+        let context = job.context(content, 1);
         let drawn =
             (!options.shade_all).then(|| HostImage::new(layout, kinds.color_encoded)).transpose()?.map(Arc::new);
         let cells = PixelCells {
@@ -147,38 +137,23 @@ impl Work {
             depth_of_image: if kinds.ids { lending.geometry.clip.depth_of_image() } else { cells.depth_of_image },
             ..cells
         };
-        let mut sampler = cells.sampler(&SamplerContext {
-            layout,
-            memory: &memory,
-            scene: content,
-            settings: &settings,
-            output: &output,
-            sizes: &plan.sizes,
-            capacity,
-            runs: 1,
-        })?;
+        let mut sampler = cells.sampler(&context)?;
         if let Some(most) = options.max_rounds {
             sampler.limit_rounds(most);
         }
         // SAFETY: the set goes with the frame, as does what it shows.
-        let visibility_set = unsafe { lending.visibility_set(shared, &resources, None) }?;
+        let visibility_set = unsafe { lending.visibility_set(shared, job.resources(), None) }?;
         let patched = match (options.shade_all, sampler.growths()) {
             (true, _) => Patched::All,
             (false, 0) => Patched::Superpixels,
             (false, _) => Patched::Grown,
         };
         Ok(Self {
-            base: Base::new(shared, content, drawn.as_ref(), (!kinds.ids).then_some(filters), &output)?,
+            base: Base::new(shared, content, drawn.as_ref(), (!kinds.ids).then_some(filters), &context.output)?,
             patch: Patch::new(layout, (kinds.color_format, kinds.color_encoded), options.keep_alpha, patched)?,
-            timings: Timings::new(gpu),
-            settings,
-            plan,
-            resources,
-            sampler,
+            sampling: Sampling { job, sampler },
             image: drawn,
             visibility_set,
-            is_uploaded: false,
-            memory,
             scratch,
         })
     }
@@ -198,7 +173,7 @@ impl Work {
         // SAFETY: passed on to the caller.
         unsafe {
             if let Some(views) = images.ids.map(lent).or_else(drawn) {
-                self.resources.show_ids(&views);
+                self.sampling.job.resources().show_ids(&views);
             }
             if let Some(image) = &self.image {
                 image.show(images.color.view);
@@ -251,6 +226,7 @@ impl Frame {
             kinds: *kinds,
             options: options.clone(),
             growth: Growth::default(),
+            triangles: 0,
             shared: shared.clone(),
         })
     }
@@ -264,7 +240,7 @@ impl Frame {
     /// Number of bytes of device memory in use, without the host's buffers and images: the frame's own, and those that it shares.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.lending.bytes() + self.work.memory.used() + self.shared_memory_bytes()
+        self.lending.bytes() + self.work.sampling.job.memory().used() + self.shared_memory_bytes()
     }
 
     /// Number of those bytes that the frames of the antialiaser share.
@@ -277,7 +253,7 @@ impl Frame {
     /// [`Options::shade_all`] adds one call.
     #[must_use]
     pub fn rounds(&self) -> u32 {
-        self.work.sampler.rounds()
+        self.work.sampling.sampler.rounds()
     }
 
     /// Changes the size of the images, in pixels. Pipelines are kept, and so is shared memory that suffices. Memory of the frame alone,
@@ -291,12 +267,13 @@ impl Frame {
     /// As [`super::Antialiaser::prepare`]; the commands of the last recording are done, or will never be executed.
     pub unsafe fn resize(&mut self, size: [u32; 2]) -> Result<(), HostError> {
         let options = Options { size, ..self.options.clone() };
-        let capacity = self.work.sampler.capacity();
+        let capacity = self.work.sampling.job.capacity();
         let (shared, lending) = (&self.shared, &self.lending);
-        self.work = Work::new(shared, lending, &self.kinds, &options, capacity)?;
+        let resized = Work::new(shared, lending, &self.kinds, &options, capacity)?;
+        self.lending.note(&self.work.sampling.job);
+        self.work = resized;
         self.options = options;
         self.growth = Growth::default();
-        self.lending.forget_recording();
         Ok(())
     }
 
@@ -305,16 +282,14 @@ impl Frame {
         if self.options.fixed_memory {
             return Ok(());
         }
-        let tiles = self.work.plan.sizes.tiles();
-        let sampler = &self.work.sampler;
-        let Some(capacity) = self.growth.wanted(&self.lending, sampler, tiles)? else {
+        let Some(capacity) = self.growth.wanted(&self.work.sampling)? else {
             return Ok(());
         };
         let (shared, lending) = (&self.shared, &self.lending);
         let larger = Work::new(shared, lending, &self.kinds, &self.options, capacity);
         if let Some(larger) = self.growth.made(capacity, larger)? {
+            self.lending.note(&self.work.sampling.job);
             self.work = larger;
-            self.lending.forget_recording();
         }
         Ok(())
     }
@@ -329,8 +304,7 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let work = &self.work;
-        let capacity = self.lending.more(&work.sampler, work.plan.sizes.tiles())?;
+        let capacity = self.work.sampling.next_capacity()?;
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(&self.shared, &self.lending.geometry, &self.kinds, &self.options, capacity) }
     }
@@ -376,30 +350,28 @@ impl Frame {
         if scenery.projection[1][1] == 0.0 {
             return Err(HostError::FlatProjection);
         }
-        let gpu = self.shared.gpu.clone();
-        images.check(&self.kinds, &self.options, gpu.limits().max_image_side)?;
+        images.check(&self.kinds, &self.options, self.shared.gpu.limits().max_image_side)?;
         let plane = self.plane(scenery, images)?;
         self.make_room()?;
         let uniform = self.uniform(&placed, scenery, images, &plane);
         let work = &mut self.work;
-        let Some(set) = work.resources.set(0) else {
-            return Ok(());
-        };
         // SAFETY: passed on to the caller.
         unsafe { work.show(images) };
-        let resources = &work.resources;
-        // SAFETY: passed on to the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
-        let recorder = &recorder;
-        let lending = &mut self.lending;
-        lending.record_begin(recorder, placed.drawn_triangles, &mut work.is_uploaded, |recorder| {
-            resources.record_upload(recorder);
-        });
+        self.triangles = placed.drawn_triangles;
+        self.lending.note(&work.sampling.job);
         let lending = &self.lending;
+        let Sampling { job, sampler } = &mut work.sampling;
+        // SAFETY: passed on to the caller.
+        let recording = unsafe { job.begin(commands, |_| ()) };
+        let JobRecording { recorder, resources, settings, .. } = &recording;
+        let Some(set) = resources.set(0) else {
+            return Ok(());
+        };
+        recorder.begin();
+        lending.record_alpha(recorder);
         images.record_begin(recorder);
         lending.record_triangles(recorder, &placed);
         let shading = lending.shading(shading, &work.visibility_set, resources);
-        let settings = &work.settings;
         let footprints = Footprints::new(settings.filter, settings.cells.samples);
         let boxes = settings.filter == TextureFilter::Boxes;
         let at_centres = Lending::visible(&plane, footprints.centre, false);
@@ -417,12 +389,12 @@ impl Frame {
             resources.record_begin(recorder, set, &uniform);
         }
         let run = SamplerRun { resources, set, uniform: &uniform, locations: 0, index: 0 };
-        work.sampler.record(recorder, &run, &shading);
+        sampler.record(recorder, &run, &shading);
         images.record_draw(recorder);
         let part = images.part(self.options.size);
         work.patch.record(recorder, images.color.view, part);
         images.record_end(recorder);
-        lending.record_end(recorder);
+        recording.end();
         Ok(())
     }
 
@@ -432,8 +404,8 @@ impl Frame {
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
     /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
-        let work = &self.work;
-        self.lending.outcome((&work.sampler, &work.plan.sizes), (&work.timings, self.memory_bytes()))
+        let beside = self.lending.bytes() + self.shared_memory_bytes();
+        self.work.sampling.outcome(self.triangles, &self.lending, beside)
     }
 
     /// Where clip space lies on the images.
@@ -446,7 +418,8 @@ impl Frame {
     }
 
     fn uniform(&self, placed: &PlacedDraws, scenery: &Scenery<'_>, images: &Images, plane: &ClipPlane) -> FrameUniform {
-        let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
+        let (job, geometry) = (&self.work.sampling.job, &self.lending.geometry);
+        let settings = job.settings();
         let threshold = u32::from(self.options.superpixels().threshold());
         let plane = PlaneBlock {
             gap: gap(&scenery.projection, plane.scale[1].abs()),
@@ -459,7 +432,7 @@ impl Frame {
         };
         let samples = settings.cells.samples;
         let footprints = Footprints::new(settings.filter, samples);
-        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &footprints), &self.work.plan.sizes)
+        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &footprints), job.resources().sizes())
     }
 }
 

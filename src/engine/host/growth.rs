@@ -1,8 +1,8 @@
 //! Growth of the memory of frames and lists whose last recording was not finished.
 
 use super::HostError;
-use super::lending::Lending;
-use crate::engine::sampler::{Capacity, EngineError, Sampler};
+use super::sampling::Sampling;
+use crate::engine::sampler::{Capacity, EngineError};
 use crate::vulkan::VulkanError;
 
 /// Growth of a frame or list in its recordings.
@@ -13,17 +13,16 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Capacity with more of what the last recording of `sampler` lacked, over `tiles` tiles. `None` if it lacked nothing, if
-    /// its commands are not done, or if more would not help or can't be had.
+    /// Capacity with more of what the last recording lacked. `None` if it lacked nothing, if its commands are not done, or if
+    /// more would not help or can't be had.
     ///
     /// # Errors
     /// If the device is lost, or counters can't be read.
-    pub fn wanted(&self, lending: &Lending, sampler: &Sampler, tiles: u32) -> Result<Option<Capacity>, HostError> {
-        let present = sampler.capacity();
-        match lending.more(sampler, tiles) {
-            Ok(more) => {
-                let is_more = more != present && present.can_grow();
-                Ok((is_more && self.refused != Some(more)).then_some(more))
+    pub fn wanted(&self, sampling: &Sampling) -> Result<Option<Capacity>, HostError> {
+        match sampling.shortfall() {
+            Ok(shortfall) => {
+                let more = sampling.job.capacity().next(&shortfall);
+                Ok(more.filter(|more| self.refused != Some(*more)))
             }
             Err(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone | VulkanError::NotRecorded))) => Ok(None),
             Err(error) => Err(error),

@@ -6,10 +6,10 @@ use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::viewport::ClipPlane;
-use super::{Geometry, HostError, IndirectCounts, Outcome, Shared};
-use crate::engine::data::{ResourceSizes, Resources, VisibilityUniform, VisibleGeometry};
-use crate::engine::sampler::{Capacity, Sampler, Shortfall, Statistics};
-use crate::vulkan::{Buffer, Completion, DescriptorSets, Memory, MemoryUse, Recorder, Timings};
+use super::{Geometry, HostError, IndirectCounts, Shared};
+use crate::engine::data::{Data, Resources, VisibilityUniform, VisibleGeometry};
+use crate::engine::sampler::Job;
+use crate::vulkan::{Buffer, DescriptorSets, Memory, MemoryUse, Recorder};
 use ash::vk;
 use std::sync::Arc;
 
@@ -20,12 +20,9 @@ pub(super) struct Lending {
     alpha: AlphaReading,
     adoption: Adoption,
     visibility: Buffer,
-    completion: Completion,
     /// Whether the device has executed a recording that reads the alpha maps.
     has_alpha: bool,
     memory: Memory,
-    /// Number of triangles of the last recording, without those of indirect draws.
-    triangles: u32,
 }
 
 impl Lending {
@@ -44,17 +41,7 @@ impl Lending {
             vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryUse::Device,
         )?;
-        Ok(Self {
-            geometry: geometry.clone(),
-            content,
-            alpha,
-            adoption,
-            visibility,
-            completion: Completion::new(&shared.gpu)?,
-            has_alpha: false,
-            memory,
-            triangles: 0,
-        })
+        Ok(Self { geometry: geometry.clone(), content, alpha, adoption, visibility, has_alpha: false, memory })
     }
 
     /// Makes the descriptor set for the host's shaders; `locations` is the buffer of a list's locations, if a list is
@@ -80,57 +67,21 @@ impl Lending {
         Ok(unsafe { resources.visibility_set(layout, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording. `upload` records copies to the device. These are recorded again until the device has
-    /// executed a recording with them; `is_uploaded` says whether it has.
-    pub fn record_begin(
-        &mut self,
-        recorder: &Recorder<'_>,
-        triangles: u32,
-        is_uploaded: &mut bool,
-        upload: impl FnOnce(&Recorder<'_>),
-    ) {
-        self.triangles = triangles;
-        let was_executed = self.completion.begin(recorder);
-        *is_uploaded |= was_executed;
-        self.has_alpha |= was_executed;
-        if !*is_uploaded {
-            upload(recorder);
-        }
-        recorder.begin();
+    /// Records that the commands of `job` up to now are done, or will never be executed.
+    pub fn note(&mut self, job: &Job) {
+        self.has_alpha |= job.check().is_ok();
+    }
+
+    /// Records the reading of the alpha maps, until the device has executed a recording with it.
+    pub fn record_alpha(&self, recorder: &Recorder<'_>) {
         if !self.has_alpha {
             self.alpha.record(recorder, &self.content);
         }
     }
 
-    /// Forgets the last recording, whose commands are done or will never be executed.
-    pub fn forget_recording(&mut self) {
-        self.has_alpha |= self.completion.forget();
-    }
-
     /// Number of bytes of device memory in use.
     pub fn bytes(&self) -> u64 {
         self.memory.used()
-    }
-
-    /// Ends a recording.
-    pub fn record_end(&self, recorder: &Recorder<'_>) {
-        self.completion.end(recorder);
-    }
-
-    /// Work that the last recording of `sampler` could not finish, over `tiles` tiles.
-    fn shortfall(&self, sampler: &Sampler, tiles: u32) -> Result<Shortfall, HostError> {
-        self.completion.check()?;
-        let mut shortfall = Shortfall::default();
-        sampler.add_shortfall([tiles], &mut shortfall)?;
-        Ok(shortfall)
-    }
-
-    /// Capacity with more of what the last recording of `sampler` lacked, over `tiles` tiles.
-    ///
-    /// # Errors
-    /// If the commands are not done, or counters can't be read.
-    pub fn more(&self, sampler: &Sampler, tiles: u32) -> Result<Capacity, HostError> {
-        Ok(sampler.capacity().more(self.shortfall(sampler, tiles)?))
     }
 
     /// Records positions in clip space and triangles.
@@ -166,31 +117,19 @@ impl Lending {
             shading,
             samples: VisibilitySamples {
                 set: visibility_set.first(),
-                arguments: resources.arguments.handle(),
+                arguments: resources.buffer(Data::Arguments).handle(),
                 keys: self.geometry.keys,
                 condition: None,
             },
         }
     }
 
-    /// Result of the last recording of `sampler`, whose memory has `sizes`.
+    /// Counts of the last recording's indirect draws, once its commands are done.
     ///
     /// # Errors
-    /// If the commands are not done, or timestamps can't be read.
-    pub fn outcome(
-        &self,
-        (sampler, sizes): (&Sampler, &ResourceSizes),
-        (timings, memory_bytes): (&Timings, u64),
-    ) -> Result<Outcome, HostError> {
-        let shortfall = self.shortfall(sampler, sizes.tiles())?;
-        let mut statistics = Statistics { regions: 1, memory_bytes, ..Statistics::default() };
+    /// If they can't be read.
+    pub fn indirect_counts(&self) -> Result<IndirectCounts, HostError> {
         let indirect = self.adoption.indirect.as_ref();
-        let indirect = indirect.map_or(Ok(IndirectCounts::default()), |placing| placing.counts())?;
-        statistics.triangles.total = u64::from(self.triangles) + indirect.triangles;
-        sampler.add_statistics([sizes.tiles()], &mut statistics)?;
-        for time in timings.read()? {
-            statistics.add_time(time);
-        }
-        Ok(Outcome { statistics, left_over: shortfall.left(), indirect })
+        Ok(indirect.map_or(Ok(IndirectCounts::default()), |placing| placing.counts())?)
     }
 }

@@ -3,19 +3,18 @@
 use super::draw::PlacedDraws;
 use super::growth::Growth;
 use super::lending::Lending;
+use super::sampling::Sampling;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
 use super::{Draw, Geometry, HostError, IndirectCounts, ListOptions, Outcome, Shared};
-use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
-use crate::engine::passes::RasterTargets;
+use crate::engine::data::{Cells, FrameUniform, Offsets, ResourceRequest, ShownIds, VisibilityUniform};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
-use crate::engine::sampler::{SamplerSettings, Statistics, check_image_size};
+use crate::engine::sampler::{Job, JobRecording, ListCells, SamplerRun, Statistics, check_image_size};
 use crate::engine::spirv::frame_set;
-use crate::vulkan::{DescriptorSets, Memory, Recorder, TexelView, Timings};
+use crate::vulkan::{DescriptorSets, Memory, TexelView};
 use ash::vk;
 use std::sync::Arc;
 
@@ -73,20 +72,16 @@ pub struct List {
     list: LocationList,
     options: ListOptions,
     growth: Growth,
+    /// Number of triangles of the last recording.
+    triangles: u32,
     /// Dropped last, because layouts must outlive the objects that were made with them.
     shared: Arc<Shared>,
 }
 
 /// Objects of a list that depend on its capacity.
 struct Work {
-    settings: SamplerSettings,
-    resources: Resources,
-    targets: RasterTargets,
-    sampler: Sampler,
+    sampling: Sampling,
     visibility_set: DescriptorSets,
-    timings: Timings,
-    memory: Memory,
-    is_uploaded: bool,
     _locations: TexelView,
 }
 
@@ -147,56 +142,32 @@ impl Work {
         };
         let room = (list.capacity, padded(options.size));
         let sizes = cells.sizes(layout, content, &settings.cells, room, capacity);
-        sizes.check("the largest list of a recording", gpu.limits())?;
+        sizes.check(gpu.limits())?;
         let (offsets, count) = cells.offsets(layout, &settings.cells)?;
-        let single = vk::SampleCountFlags::TYPE_1;
-        let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         // SAFETY: passed on to the caller.
         let locations = unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.shown();
         shown.push((frame_set::LOCATIONS, locations.texels().into()));
-        let resources = Resources::new(
-            layout,
-            &memory,
-            content,
-            &shown,
-            &targets.views(),
+        let request = ResourceRequest {
             sizes,
-            &[Offsets { all: &offsets, count }],
-        )?;
-        let output = settings.color_constants(content);
-        let context = SamplerContext {
-            layout,
-            memory: &memory,
-            scene: content,
-            settings: &settings,
-            output: &output,
-            sizes: &sizes,
-            capacity,
-            runs: 1,
+            others: &shown,
+            ids: ShownIds::Unread,
+            offsets: &[Offsets { all: &offsets, count }],
+            scratch: None,
         };
+        let job = Job::new(layout, memory, &settings, capacity, &request)?;
         // SAFETY: the caller guarantees the list's buffers; the others live as long as this value.
         let (mut sampler, visibility_set) = unsafe {
             (
-                cells.sampler(&context, (&resources, locations.texels()))?,
-                lending.visibility_set(shared, &resources, Some(list.info()))?,
+                cells.sampler(&job.context(content, 1), (job.resources(), locations.texels().into()))?,
+                lending.visibility_set(shared, job.resources(), Some(list.info()))?,
             )
         };
         if let Some(most) = options.max_rounds {
             sampler.limit_rounds(most);
         }
-        Ok(Self {
-            timings: Timings::new(gpu),
-            settings,
-            resources,
-            targets,
-            sampler,
-            visibility_set,
-            memory,
-            is_uploaded: false,
-            _locations: locations,
-        })
+        Ok(Self { sampling: Sampling { job, sampler }, visibility_set, _locations: locations })
     }
 }
 
@@ -243,6 +214,7 @@ impl List {
             list: *list,
             options: options.clone(),
             growth: Growth::default(),
+            triangles: 0,
             shared: shared.clone(),
         })
     }
@@ -256,7 +228,7 @@ impl List {
     /// Number of bytes of device memory in use, without the host's buffers.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.lending.bytes() + self.work.memory.used()
+        self.lending.bytes() + self.work.sampling.job.memory().used()
     }
 
     /// Makes a list for the same buffers, with more of the memory that the last recording lacked. If it lacked none,
@@ -269,8 +241,7 @@ impl List {
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let tiles = self.work.resources.sizes().tiles();
-        let capacity = self.lending.more(&self.work.sampler, tiles)?;
+        let capacity = self.work.sampling.next_capacity()?;
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
@@ -284,16 +255,14 @@ impl List {
         if self.options.fixed_memory {
             return Ok(());
         }
-        let (work, lending) = (&self.work, &self.lending);
-        let tiles = work.resources.sizes().tiles();
-        let Some(capacity) = self.growth.wanted(lending, &work.sampler, tiles)? else {
+        let Some(capacity) = self.growth.wanted(&self.work.sampling)? else {
             return Ok(());
         };
         // SAFETY: passed on to the caller.
-        let larger = unsafe { Work::new(&self.shared, lending, &self.list, &self.options, capacity) };
+        let larger = unsafe { Work::new(&self.shared, &self.lending, &self.list, &self.options, capacity) };
         if let Some(larger) = self.growth.made(capacity, larger)? {
+            self.lending.note(&self.work.sampling.job);
             self.work = larger;
-            self.lending.forget_recording();
         }
         Ok(())
     }
@@ -342,22 +311,20 @@ impl List {
         let uniform = self.uniform(&placed);
         let plane = self.plane();
         let footprints = self.footprints();
-        let gpu = self.shared.gpu.clone();
-        let work = &mut self.work;
-        let resources = &work.resources;
+        self.triangles = placed.drawn_triangles;
+        self.lending.note(&self.work.sampling.job);
+        let (work, lending) = (&mut self.work, &self.lending);
+        let Sampling { job, sampler } = &mut work.sampling;
+        // SAFETY: passed on to the caller.
+        let recording = unsafe { job.begin(commands, |_| ()) };
+        let JobRecording { recorder, resources, settings, .. } = &recording;
         let Some(set) = resources.set(0) else {
             return Ok(());
         };
-        // SAFETY: passed on to the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut work.timings)) };
-        let recorder = &recorder;
-        self.lending.record_begin(recorder, placed.drawn_triangles, &mut work.is_uploaded, |recorder| {
-            resources.record_upload(recorder);
-            work.targets.record_unused(recorder);
-        });
-        let lending = &self.lending;
+        recorder.begin();
+        lending.record_alpha(recorder);
         lending.record_triangles(recorder, &placed);
-        let boxes = work.settings.filter == TextureFilter::Boxes;
+        let boxes = settings.filter == TextureFilter::Boxes;
         let visible = VisibilityUniform { list: 1, ..Lending::visible(&plane, footprints.place, boxes) };
         lending.record_visible(recorder, &visible);
         if count > 0 {
@@ -366,11 +333,11 @@ impl List {
         resources.record_begin(recorder, set, &uniform);
         let shading = lending.shading(shading, &work.visibility_set, resources);
         let run = SamplerRun { resources, set, uniform: &uniform, locations: count, index: 0 };
-        work.sampler.record(recorder, &run, &shading);
+        sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the host guarantees that the buffer has room for the colours of `capacity` locations.
         unsafe { resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes) };
-        lending.record_end(recorder);
+        recording.end();
         Ok(())
     }
 
@@ -382,14 +349,14 @@ impl List {
     /// runs, [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; also if counters
     /// or timestamps can't be read.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let Outcome { statistics, left_over, indirect } = self
-            .lending
-            .outcome((&self.work.sampler, self.work.resources.sizes()), (&self.work.timings, self.memory_bytes()))?;
-        Ok(ListOutcome { statistics, left_over, indirect, left_out: self.work.sampler.left_out()? })
+        let sampling = &self.work.sampling;
+        let Outcome { statistics, left_over, indirect } =
+            sampling.outcome(self.triangles, &self.lending, self.lending.bytes())?;
+        Ok(ListOutcome { statistics, left_over, indirect, left_out: sampling.sampler.left_out()? })
     }
 
     fn footprints(&self) -> Footprints {
-        let settings = &self.work.settings;
+        let settings = self.work.sampling.job.settings();
         Footprints::new(settings.filter, settings.cells.samples)
     }
 
@@ -398,14 +365,14 @@ impl List {
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
-        let (settings, geometry) = (&self.work.settings, &self.lending.geometry);
-        let sizes = self.work.resources.sizes();
+        let (job, geometry) = (&self.work.sampling.job, &self.lending.geometry);
+        let (settings, sizes) = (job.settings(), job.resources().sizes());
         let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border, also outside of the image.
             size: sizes.region,
             ..plane_block(&geometry.clip, &self.plane(), self.options.size)
         };
-        let samples = self.work.sampler.samples();
+        let samples = self.work.sampling.sampler.samples();
         frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &self.footprints()), sizes)
     }
 }

@@ -30,6 +30,7 @@ mod lending;
 mod list;
 mod mesh;
 mod options;
+mod sampling;
 mod scratch;
 mod shader;
 mod shading;

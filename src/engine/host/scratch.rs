@@ -19,7 +19,6 @@ pub(super) struct FrameScratch {
 /// Requirements of a frame for scratch memory.
 pub(super) struct ScratchRequest {
     pub sizes: ResourceSizes,
-    pub bin_count: u32,
     /// Whether the frame draws IDs and depth.
     pub targets: bool,
     /// Largest number of bytes; `None` for no limit.
@@ -60,7 +59,7 @@ impl FrameScratch {
             Ok::<_, VulkanError>((made, region))
         };
         Ok(Self {
-            passes: Arc::new(Scratch::new(layout, &memory, request.bin_count, &request.sizes)?),
+            passes: Arc::new(Scratch::new(&memory, &request.sizes)?),
             targets: request.targets.then(targets).transpose()?,
             memory,
         })
@@ -69,7 +68,7 @@ impl FrameScratch {
     fn suffices(&self, request: &ScratchRequest) -> bool {
         let holds = |[width, height]: [u32; 2]| width >= request.sizes.region[0] && height >= request.sizes.region[1];
         let has_targets = self.targets.as_ref().is_some_and(|(_, size)| holds(*size));
-        self.passes.suffices(&request.sizes, request.bin_count)
+        self.passes.suffices(&request.sizes)
             && (has_targets || !request.targets)
             && request.allowed.is_none_or(|most| self.bytes() <= most)
     }

@@ -1,10 +1,10 @@
 //! distribute: sorts the sampling locations of a list into tiles, cells and groups of cells. It is no
 //! [`Pass`](crate::engine::pipelines::Pass), because the length and region of a list are known only when it is recorded.
 
-use crate::engine::data::{CellSizes, Cells, Resources, SampleSet};
+use crate::engine::data::{CellSizes, Cells, Data, Resources, SampleSet};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv;
-use crate::vulkan::{DescriptorSets, Recorder, Specialized, Texels, VulkanError};
+use crate::vulkan::{Descriptor, DescriptorSets, Recorder, Specialized, VulkanError};
 
 /// Steps of the shader, in their order.
 const STEPS: [u32; 4] =
@@ -28,19 +28,33 @@ pub struct Distribute {
 }
 
 impl Distribute {
-    /// Makes the pipelines, and a set with `locations` and the buffers of `resources` for locations.
+    /// Makes the pipelines, and a set with the buffers of `resources` for locations.
     ///
     /// # Errors
     /// If the driver refuses one.
-    ///
-    /// # Safety
-    /// The view `locations` outlives the returned value, and has as many locations as the resources have room for.
-    pub unsafe fn new(
+    pub fn new(
         layout: &FrameLayout,
         cells: Cells,
         sizes: CellSizes,
         resources: &Resources,
-        locations: Texels,
+    ) -> Result<Self, VulkanError> {
+        // SAFETY: the list lives as long as the other buffers, and has room for as many locations.
+        unsafe { Self::of_lent(layout, cells, sizes, resources, resources.texels(Data::Locations)) }
+    }
+
+    /// As [`Self::new`], for a list with another owner.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    ///
+    /// # Safety
+    /// The list `locations` outlives the returned value, and has as many locations as the resources have room for.
+    pub(crate) unsafe fn of_lent(
+        layout: &FrameLayout,
+        cells: Cells,
+        sizes: CellSizes,
+        resources: &Resources,
+        locations: Descriptor,
     ) -> Result<Self, VulkanError> {
         let step = |step: u32| {
             let points = cells.are_points();
@@ -64,7 +78,7 @@ impl Distribute {
             in_group: self.sizes.in_group,
             samples: self.sizes.samples,
         };
-        recorder.clear(&resources.locations.loads);
+        recorder.clear(resources.buffer(Data::Loads));
         recorder.show(&self.own);
         recorder.pass(spirv::Distribute::INTERFACE, || {
             for (step, kernel) in STEPS.into_iter().zip(&self.steps) {

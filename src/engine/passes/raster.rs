@@ -80,13 +80,6 @@ impl RasterTargets {
             placeholder: self.placeholder.as_ref().map(|image| image.view),
         }
     }
-
-    /// Changes single-sampled images to the layout that descriptors need, for frames that draw nothing.
-    pub fn record_unused(&self, recorder: &Recorder<'_>) {
-        for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()].into_iter().flatten() {
-            recorder.transition(image, vk::ImageLayout::UNDEFINED, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
-        }
-    }
 }
 
 /// Format of IDs: four bytes. A multisampled attachment need not support integers, so it has four 8-bit channels.

@@ -1,14 +1,14 @@
 //! Capacity of a recording, and the shortfall of one that was not finished.
 //!
 //! A recording is made with a [`Capacity`], before anyone knows how much work there will be. Once its commands have run, its
-//! [`Shortfall`] says what was left undone. [`Capacity::more`] is the capacity with which it is made again. Frames, lists and
+//! [`Shortfall`] says what was left undone. [`Capacity::next`] is the capacity with which it is made again. Frames, lists and
 //! hosts all use this.
 
 use super::{EngineError, RoundPolicy};
 use crate::engine::data::Counter;
 use crate::engine::passes::LongLists;
 
-/// Factor for the room for lists, and number of layers, from which on more of them is not tried.
+/// Factor for the room for lists and rounds, and number of layers, from which on more of them is not tried.
 const MOST_GROWTH: u32 = 1 << 16;
 
 /// Capacity of a frame. It is raised if a frame turns out to need more.
@@ -65,9 +65,12 @@ impl Capacity {
         }
     }
 
-    /// Whether more than this may be tried: memory that has grown so much no longer helps.
-    pub fn can_grow(&self) -> bool {
-        self.lists.max(self.layers) < MOST_GROWTH
+    /// Capacity with which a recording is made again that lacked some of this one; `None` if it lacked nothing, or if more
+    /// can't be had or no longer helps.
+    pub fn next(self, shortfall: &Shortfall) -> Option<Self> {
+        let more = self.more(*shortfall);
+        let has_grown = self.lists.max(self.layers).max(self.rounds.unwrap_or(0));
+        (more != self && has_grown < MOST_GROWTH).then_some(more)
     }
 
     /// Factor by which the memory has grown since the first frame.
@@ -84,7 +87,7 @@ impl Capacity {
     /// Capacity for a frame that needed more than this one: several times as much of each lacking resource, or as much
     /// as the frame is known to need. Tiles without a list are sampled only if more room for lists did not help,
     /// because testing every triangle takes long.
-    pub fn more(self, shortfall: Shortfall) -> Self {
+    fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool, factor: u32| if lacked { factor } else { 1 };
         let crowded = shortfall.crowded > 0;
         let lists = factor(shortfall.dropped > 0, 2).max(factor(crowded, 4));
@@ -226,5 +229,16 @@ mod tests {
         let late = Shortfall { waiting: 5, rounds: 3, ..Shortfall::default() };
         assert_eq!(few.more(late).rounds, Some(8));
         assert_eq!(Capacity::default().more(Shortfall::default()), Capacity::default());
+    }
+
+    /// A recording is made again with more of what it lacked, until that no longer helps.
+    #[test]
+    fn growth_ends() {
+        let crowded = Shortfall { crowded: 1, ..Shortfall::default() };
+        let grown = std::iter::successors(Some(Capacity::default()), |capacity| capacity.next(&crowded));
+        assert_eq!(grown.last().map(|capacity| capacity.layers), Some(MOST_GROWTH));
+        // All rounds are recorded already, so more can't be had.
+        let late = Shortfall { waiting: 1, rounds: 2, ..Shortfall::default() };
+        assert_eq!(Capacity::default().next(&late), None);
     }
 }

@@ -8,7 +8,7 @@ use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel};
 use crate::engine::sampler::{Capacity, CellOptions, EngineError};
-use crate::vulkan::Texels;
+use crate::vulkan::Descriptor;
 
 /// Kind of the cells of a list, and the results that are computed for them.
 #[derive(Clone, Copy, Debug)]
@@ -75,18 +75,14 @@ impl ListCells {
         };
         let layered = if scene.has_blend() { capacity.layered(of_location).min(most_records(limits)) } else { 0 };
         ResourceSizes {
-            region,
-            team: limits.teams.members,
             locations: Some(locations),
             survivor_capacity: scene.triangle_slots(),
-            filtered_triangles: 0,
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records.clamp(1 << 16, MOST_RECORDS).max(layered) as u32,
-            filtered: 0,
             shadow_words: self.shadow_words,
             attributes: self.attributes,
-            encoded: 0,
+            ..ResourceSizes::new(region, scene.bin_count(), limits)
         }
     }
 
@@ -100,15 +96,15 @@ impl ListCells {
     pub unsafe fn sampler(
         &self,
         context: &SamplerContext<'_>,
-        (resources, locations): (&Resources, Texels),
+        (resources, locations): (&Resources, Descriptor),
     ) -> Result<Sampler, EngineError> {
-        let SamplerContext { layout, scene, settings, output, .. } = *context;
+        let SamplerContext { layout, scene, settings, ref output, .. } = *context;
         let sizes = self.cell_sizes(layout, &settings.cells);
         let samples = if self.cells.are_points() { sizes.in_cell } else { settings.cells.samples };
         let options = context.sample_options(self.cells, samples);
         let source = || {
             // SAFETY: guaranteed by the caller.
-            let distribute = unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
+            let distribute = unsafe { Distribute::of_lent(layout, self.cells, sizes, resources, locations) }?;
             Ok(Source::List(distribute))
         };
         Sampler::new(context, &options, source, |blocks| {

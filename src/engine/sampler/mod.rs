@@ -12,6 +12,7 @@ mod counter_log;
 mod error;
 pub(crate) mod footprint;
 pub(crate) mod image_state;
+mod job;
 mod list_cells;
 mod load;
 mod method;
@@ -28,6 +29,7 @@ pub(crate) use capacity::{Capacity, PlaneRoom, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
+pub(crate) use job::{Job, JobRecording};
 pub(crate) use list_cells::ListCells;
 pub use load::Load;
 pub use method::{CellOptions, Detection, Method, MethodKind, Shading, SuperpixelOptions};
@@ -39,7 +41,7 @@ pub use statistics::{Statistics, TriangleCounts};
 pub(crate) use tile_lists::TileLists;
 
 use crate::engine::data::{
-    Cells, ColorConstants, Content, Counter, FrameUniform, HostImage, ResourceSizes, Resources, SampleSet,
+    Cells, ColorConstants, Content, Counter, Data, FrameUniform, HostImage, ResourceSizes, Resources, SampleSet,
 };
 use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
@@ -73,7 +75,7 @@ pub(crate) struct SamplerContext<'a> {
     pub scene: &'a dyn Content,
     pub settings: &'a SamplerSettings,
     /// Colour constants of `shaders/include/color.glsl`.
-    pub output: &'a ColorConstants,
+    pub output: ColorConstants,
     /// Sizes of the memory in which the sampler works.
     pub sizes: &'a ResourceSizes,
     pub capacity: Capacity,
@@ -209,11 +211,6 @@ impl Sampler {
         first + grown * self.growths() as u32
     }
 
-    /// Capacity with which the sampler was made.
-    pub fn capacity(&self) -> Capacity {
-        self.capacity
-    }
-
     /// Number of samples of a cell; for locations that are sampled once, the number of locations in a cell.
     pub fn samples(&self) -> u32 {
         self.options.samples
@@ -243,7 +240,7 @@ impl Sampler {
         }
         let growths = self.source.growths();
         if !growths.is_empty() || self.options.by_lines() {
-            recorder.clear(&resources.marks);
+            recorder.clear(resources.buffer(Data::Marks));
         }
         let slots = 1 + growths.len();
         let first_slot = slots * run.index;
@@ -351,7 +348,7 @@ fn averaging(
     target: ResolveTarget,
     behind: Option<&Arc<HostImage>>,
 ) -> Result<Vec<Pass>, EngineError> {
-    let (layout, output) = (context.layout, context.output);
+    let (layout, output) = (context.layout, &context.output);
     let resolve = resolve::pass(layout, blocks, target, output, behind)?;
     Ok(match context.scene.has_blend() {
         true => vec![composite::pass(layout, output)?, resolve],

@@ -71,8 +71,6 @@ impl Region {
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// Capacity for which the regions were planned.
-    pub capacity: Capacity,
     /// Whether the device's limits allow longer lists.
     pub lists_can_grow: bool,
 }
@@ -123,8 +121,8 @@ pub(crate) fn records_of_superpixel(options: &CellOptions, scene: &dyn Content) 
 
 impl Plan {
     /// Plans an image. Its pixels take `encoded_bytes` bytes each in the buffer of encoded pixels (0 without one), and
-    /// its places have `shadow_words` shadow words. `taken` returns, for memory of some sizes, the bytes that others
-    /// use of the memory that the request allows.
+    /// its places have `shadow_words` shadow words. Others use `taken` bytes of the
+    /// memory that the request allows.
     ///
     /// # Errors
     /// [`EngineError::Memory`] if not even a region of 8 x 8 pixels fits.
@@ -134,7 +132,7 @@ impl Plan {
         limits: &Limits,
         (encoded_bytes, shadow_words): (u64, u32),
         capacity: Capacity,
-        taken: &dyn Fn(&ResourceSizes) -> u64,
+        taken: u64,
     ) -> Result<Self, EngineError> {
         let side = image.method.side();
         let [width, height] = image.size;
@@ -157,9 +155,7 @@ impl Plan {
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
             let needed = plan.shrink(scene, image, allowed, taken);
-            let fits = pixels <= most
-                && plan.sizes.largest_storage() <= limits.max_storage_bytes
-                && plan.sizes.largest_texels() <= limits.max_texel_elements;
+            let fits = pixels <= most && plan.sizes.check(limits).is_ok();
             if fits && allowed.is_none_or(|allowed| needed <= allowed) {
                 return Ok(plan);
             }
@@ -189,8 +185,8 @@ impl Plan {
         plan.sizes.survivor_capacity = scene.triangle_slots();
         let usual = || Some(RoundPolicy::of(limits).usual_memory(capacity)? + taken);
         let wanted = image.max_memory.or_else(usual);
-        let needed = plan.shrink(scene, image, wanted, &|_| taken);
-        plan.sizes.check("the largest list of a frame", limits)?;
+        let needed = plan.shrink(scene, image, wanted, taken);
+        plan.sizes.check(limits)?;
         match image.max_memory {
             Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
             _ => Ok(plan),
@@ -199,14 +195,8 @@ impl Plan {
 
     /// Reduces the room for visibility samples, which makes more rounds, until the plan and all other users fit into
     /// `wanted` bytes, if possible. Returns the number of bytes.
-    fn shrink(
-        &mut self,
-        scene: &dyn Content,
-        image: &ImageRequest<'_>,
-        wanted: Option<u64>,
-        taken: &dyn Fn(&ResourceSizes) -> u64,
-    ) -> u64 {
-        let all = |plan: &Self| plan.bytes(scene, image) + taken(&plan.sizes);
+    fn shrink(&mut self, scene: &dyn Content, image: &ImageRequest<'_>, wanted: Option<u64>, taken: u64) -> u64 {
+        let all = |plan: &Self| plan.bytes(scene, image) + taken;
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
         while wanted.is_some_and(|wanted| needed > wanted) && self.sizes.record_capacity > 1 << 16 {
@@ -295,9 +285,6 @@ impl Plan {
             && scene.triangle_slots() >= FILTER_TRIANGLES
             && triangles * 12 <= limits.max_storage_bytes;
         let sizes = ResourceSizes {
-            region: outer,
-            team: limits.teams.members,
-            locations: None,
             // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4).min(scene.triangle_slots()),
             filtered_triangles: if filters { scene.triangle_slots() } else { 0 },
@@ -305,7 +292,6 @@ impl Plan {
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,
             filtered: filtered as u32,
-            shadow_words: 0,
             attributes: image.attributes,
             encoded: match encoded_bytes {
                 0 => 0,
@@ -314,8 +300,9 @@ impl Plan {
                     u64::from(ENCODE_THRESHOLD_WORDS) * 4 + bytes * pixels
                 }
             },
+            ..ResourceSizes::new(outer, scene.bin_count(), limits)
         };
-        Ok(Self { regions, sizes, capacity, lists_can_grow: u64::from(sizes.pair_capacity) < most_listed })
+        Ok(Self { regions, sizes, lists_can_grow: u64::from(sizes.pair_capacity) < most_listed })
     }
 
     fn bytes(&self, scene: &dyn Content, image: &ImageRequest<'_>) -> u64 {

@@ -41,15 +41,6 @@ impl Completion {
         was_done
     }
 
-    /// Forgets the last recording, whose commands have run, or will never be executed.
-    ///
-    /// Returns whether the commands have run.
-    pub fn forget(&mut self) -> bool {
-        let was_done = self.check().is_ok();
-        self.is_recorded = false;
-        was_done
-    }
-
     /// Ends a recording. The CPU may read its results once the commands have run.
     pub fn end(&self, recorder: &Recorder<'_>) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;

@@ -1,7 +1,7 @@
 //! Contents of an output's cells, uploaded by the host for `detect`.
 
 use crate::engine::data::tiles::tile_count;
-use crate::engine::data::{IdViews, Resources};
+use crate::engine::data::{Data, IdViews, Resources};
 use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
@@ -122,20 +122,20 @@ impl OutputCells {
             recorder.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
         }
         let bytes = Self::bytes_of([self.size[0], rows]);
-        self.record_copy(recorder, OutputPlane::Codes, &resources.display.buffer, bytes);
+        self.record_copy(recorder, OutputPlane::Codes, resources.buffer(Data::Display), bytes);
         if resources.sizes().shadow_words > 0 {
-            let shadows = &resources.shadow_words.buffer;
+            let shadows = resources.buffer(Data::ShadowWords);
             self.record_copy(recorder, OutputPlane::Shadows, shadows, bytes);
         }
         let tiles = tile_count([self.size[0], rows]);
-        recorder.clear(&resources.marks);
-        self.record_copy(recorder, OutputPlane::Marks, &resources.marks, 4 * tiles);
+        recorder.clear(resources.buffer(Data::Marks));
+        self.record_copy(recorder, OutputPlane::Marks, resources.buffer(Data::Marks), 4 * tiles);
     }
 
     /// Records the upload of the colours of the first `rows` rows.
     pub fn record_colors(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
         let bytes = 4 * Self::bytes_of([self.size[0], rows]);
-        let colors = &resources.color.buffer;
+        let colors = resources.buffer(Data::Color);
         self.record_copy(recorder, OutputPlane::Colors, colors, bytes);
     }
 

@@ -1,7 +1,8 @@
 //! Copies of a region's colours to the frame's target.
 
-use super::recording::Recording;
+use super::recording::FrameRecording;
 use super::target::{COPIED_TO, Target};
+use crate::engine::data::Data;
 use crate::engine::sampler::plan::Region;
 use crate::render::passes::encode::FIRST_PIXEL;
 use crate::vulkan::Recorder;
@@ -24,21 +25,23 @@ impl Source {
     }
 }
 
-impl Recording<'_> {
+impl FrameRecording<'_> {
     /// Copies the wanted pixels of a region to their place in the target.
     pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
         let resources = self.resources;
         let source = match &self.passes.encode {
-            Some((encoding, _)) => {
-                Source { buffer: resources.encoded.handle(), first: FIRST_PIXEL, bytes: encoding.encoded_bytes() }
-            }
-            None => Source::floats(resources.color.buffer.handle(), 16),
+            Some((encoding, _)) => Source {
+                buffer: resources.buffer(Data::Encoded).handle(),
+                first: FIRST_PIXEL,
+                bytes: encoding.encoded_bytes(),
+            },
+            None => Source::floats(resources.buffer(Data::Color).handle(), 16),
         };
         match self.target {
             Target::Buffer { colors, attributes } => {
                 self.copy_rows(recorder, region, source, *colors);
                 if let (Some(to), Some(_)) = (attributes, &self.passes.attributes) {
-                    let source = Source::floats(resources.attributes.handle(), 32);
+                    let source = Source::floats(resources.buffer(Data::Attributes).handle(), 32);
                     self.copy_rows(recorder, region, source, *to);
                 }
             }

@@ -12,18 +12,18 @@ pub use target::Target;
 use super::shadows::{Casters, ShadowFinder, ShadowRequest};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
-use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
+use crate::engine::data::{Cells, Content, Offsets, ResourceRequest, ShownIds};
 use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Plan;
-use crate::engine::sampler::{Capacity, CounterLog, SamplerSettings};
+use crate::engine::sampler::{Capacity, Job};
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::Encoding;
 use crate::scene::Moment;
-use crate::vulkan::{Completion, Memory, Recorder, Timings};
+use crate::vulkan::{Memory, Recorder};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::Recording;
+use recording::FrameRecording;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -38,20 +38,12 @@ pub struct Frame {
     encoding: Option<Encoding>,
     reserved: u64,
     settings: Settings,
-    sampler: SamplerSettings,
     plan: Plan,
     passes: Passes,
     targets: RasterTargets,
     geometry: FrameGeometry,
     look: FrameLook,
-    resources: Resources,
-    /// Counters of the whole frame, as the device wrote them.
-    counters: CounterLog,
-    timings: Timings,
-    memory: Memory,
-    completion: Completion,
-    /// Whether a recording that uploads constant data has been executed.
-    uploaded: bool,
+    job: Job,
 }
 
 /// Number of pixels of the whole image at the resolution that is rasterized.
@@ -88,14 +80,13 @@ impl Frame {
             places: drawn_pixels(settings),
             max_memory: settings.scene.max_memory,
         });
-        let of_others = |sizes: &ResourceSizes| beside_regions + shadows.map_or(0, |request| request.bytes(sizes));
         let plan = Plan::new(
             &settings.image(),
             &**scene,
             gpu.limits(),
             (encoding.map_or(0, Encoding::encoded_bytes), casters.map_or(0, |casters| casters.shadow_words())),
             capacity,
-            &of_others,
+            beside_regions + shadows.map_or(0, |request| request.bytes()),
         )?;
         let memory = Memory::new(gpu.clone(), settings.scene.max_memory.map(|limit| limit.saturating_sub(taken)));
         let [width, height] = plan.sizes.region;
@@ -108,11 +99,17 @@ impl Frame {
         let look = FrameLook::new(&memory, scene)?;
         let mut shown = geometry.shown(scene);
         shown.extend(look.shown(scene));
-        let resources =
-            Resources::new(layout, &memory, &**scene, &shown, &targets.views(), plan.sizes, &[centre, offsets])?;
-        let passes = Passes::new(layout, &memory, scene, (settings, &sampler), &plan, encoding)?;
-        let shadows = shadows.map(|request| ShadowFinder::new(&request, &memory, scene, Cells::Pixels, &resources));
-        let shadows = shadows.transpose()?;
+        let request = ResourceRequest {
+            sizes: plan.sizes,
+            others: &shown,
+            ids: ShownIds::Drawn(targets.views()),
+            offsets: &[centre, offsets],
+            scratch: None,
+        };
+        let job = Job::new(layout, memory, &sampler, capacity, &request)?.with_repetitions(settings.scene.time_rounds);
+        let passes = Passes::new(layout, &job, scene, settings, plan.regions.len(), encoding)?;
+        let finder = |request| ShadowFinder::new(&request, job.memory(), scene, Cells::Pixels, job.resources());
+        let shadows = shadows.map(finder).transpose()?;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -124,15 +121,9 @@ impl Frame {
             targets,
             geometry,
             look,
-            resources,
-            counters: CounterLog::new(&memory, 1)?,
-            timings: Timings::new(&gpu).with_repetitions(settings.scene.time_rounds),
             settings: settings.clone(),
-            sampler,
             plan,
-            completion: Completion::new(&gpu)?,
-            memory,
-            uploaded: false,
+            job,
         })
     }
 
@@ -183,7 +174,7 @@ impl Frame {
 
     /// Capacity with which the frame was planned.
     pub(super) fn capacity(&self) -> Capacity {
-        self.plan.capacity
+        self.job.capacity()
     }
 
     /// Whether [`Capacity::with_lists`] makes a difference.
@@ -194,7 +185,7 @@ impl Frame {
     /// Bytes of device memory of the frame, without its scene.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.memory.used()
+        self.job.memory().used()
     }
 
     /// Records a frame into `commands`. It submits nothing, waits for nothing and allocates nothing.
@@ -232,50 +223,50 @@ impl Frame {
         target: &Target,
         regions: Range<usize>,
     ) {
-        let gpu = self.memory.gpu().clone();
-        // SAFETY: guaranteed by the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let is_last = regions.end == self.plan.regions.len();
-        if regions.start == 0 {
-            self.uploaded |= self.completion.begin(&recorder);
-            if !self.uploaded {
-                self.geometry.record_upload(&recorder, &self.scene);
-                self.look.record_upload(&recorder, &self.scene);
-                self.resources.record_upload(&recorder);
+        let recording = if regions.start == 0 {
+            let upload = |recorder: &Recorder<'_>| {
+                self.geometry.record_upload(recorder, &self.scene);
+                self.look.record_upload(recorder, &self.scene);
                 if let Some(shadows) = &self.shadows {
-                    shadows.record_upload(&recorder);
+                    shadows.record_upload(recorder);
                 }
-            }
+            };
+            // SAFETY: guaranteed by the caller.
+            let recording = unsafe { self.job.begin(commands, upload) };
             if let Some(shadows) = &mut self.shadows {
-                shadows.record_begin(&recorder);
+                shadows.record_begin(&recording.recorder);
             }
             if let Some(moment) = &self.moment {
                 self.geometry.write_moment(moment);
             }
-            self.look.record(&recorder);
-        }
+            self.look.record(&recording.recorder);
+            recording
+        } else {
+            // SAFETY: guaranteed by the caller.
+            unsafe { self.job.go_on(commands) }
+        };
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
         let side = self.settings.method.side();
         let image = self.settings.size.map(|pixels| pixels * side);
         self.geometry.place(&self.scene, &to_clip, Some(image));
-        let recording = Recording {
+        let regions_of_frame = FrameRecording {
             settings: &self.settings,
-            sampler: &self.sampler,
+            sampler: recording.settings,
             plan: &self.plan,
             passes: &self.passes,
             targets: &self.targets,
             geometry: &self.geometry,
-            resources: &self.resources,
+            resources: recording.resources,
             shadows: self.shadows.as_ref(),
-            counters: &self.counters,
             scene: &self.scene,
             moment: self.moment.as_deref(),
             camera,
             target,
         };
-        recording.record(&recorder, regions);
+        regions_of_frame.record(&recording.recorder, regions);
         if is_last {
-            self.completion.end(&recorder);
+            recording.end();
         }
     }
 }

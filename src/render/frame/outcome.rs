@@ -1,8 +1,9 @@
 //! Counters of a frame, read once its commands have run.
 
 use super::Frame;
-use crate::engine::data::tiles::tiles;
+use crate::engine::data::tiles::tile_count;
 use crate::engine::sampler::Shortfall;
+use crate::engine::sampler::plan::Region;
 use crate::engine::spirv;
 use crate::render::{RenderError, Statistics};
 use crate::vulkan::Specialized;
@@ -10,12 +11,8 @@ use crate::vulkan::Specialized;
 impl Frame {
     /// Work that the last recording could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
-        self.completion.check()?;
-        let mut shortfall = Shortfall::default();
         let samplers = [&self.passes.blended, &self.passes.superpixels];
-        for sampler in samplers.into_iter().flatten() {
-            sampler.add_shortfall(self.tiles(), &mut shortfall)?;
-        }
+        let mut shortfall = self.job.shortfall(samplers.into_iter().flatten(), &self.tiles())?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
@@ -23,12 +20,10 @@ impl Frame {
     }
 
     /// Number of tiles of each region.
-    fn tiles(&self) -> impl Iterator<Item = u32> {
+    fn tiles(&self) -> Vec<u32> {
         let side = self.settings.method.side();
-        self.plan.regions.iter().map(move |region| {
-            let [columns, rows] = tiles(region.outer().map(|pixels| pixels * side));
-            columns * rows
-        })
+        let tiles_of = |region: &Region| tile_count(region.outer().map(|pixels| pixels * side)) as u32;
+        self.plan.regions.iter().map(tiles_of).collect()
     }
 
     /// Statistics of the last recording, available from the end of its commands until the next recording. The call does
@@ -39,16 +34,11 @@ impl Frame {
     /// [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the last recording has not been executed, or its
     /// counters or times can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
-        let mut statistics = Statistics {
-            regions: self.plan.regions.len() as u64,
-            memory_bytes: self.memory.used() + self.scene.memory_bytes(),
-            ..Statistics::default()
-        };
-        statistics.triangles.total = self.scene.triangle_count();
         self.shortfall()?.check()?;
-        if let Some(superpixels) = &self.passes.superpixels {
-            superpixels.add_statistics(self.tiles(), &mut statistics)?;
-        }
+        let superpixels = self.passes.superpixels.as_ref();
+        let (triangles, of_scene) = (self.scene.triangle_count(), self.scene.memory_bytes());
+        let mut statistics = self.job.statistics(superpixels, &self.tiles(), triangles, of_scene)?;
+        statistics.regions = self.plan.regions.len() as u64;
         if self.passes.blended.is_none() {
             statistics.skipped_passes.push(Statistics::BLEND);
         }
@@ -58,7 +48,6 @@ impl Frame {
             let names = of_superpixels.map(|shader| shader.pass());
             statistics.skipped_passes.extend(names);
         }
-        statistics.passes = self.timings.read()?;
         Ok(statistics)
     }
 }

@@ -4,13 +4,11 @@ use crate::engine::data::{Cells, Content};
 use crate::engine::passes::detect::DetectMode;
 use crate::engine::passes::{Raster, RecordRate, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::plan::Plan;
-use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerSettings, record_rate};
+use crate::engine::sampler::{Job, PixelCells, Sampler, record_rate};
 use crate::render::data::GpuScene;
 use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
 use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
-use crate::vulkan::Memory;
 use ash::vk;
 use std::sync::Arc;
 
@@ -53,19 +51,20 @@ pub(super) fn raster_samples(settings: &Settings) -> vk::SampleCountFlags {
 }
 
 impl Passes {
-    /// Makes the pipelines; `encoding` is that of the target.
+    /// Makes the pipelines, for recordings of `regions` regions in the memory of `job`; `encoding` is that of the target.
     ///
     /// # Errors
     /// [`RenderError`] if the driver refuses a pipeline.
     pub fn new(
         layout: &Arc<FrameLayout>,
-        memory: &Memory,
+        job: &Job,
         scene: &GpuScene,
-        (settings, sampler): (&Settings, &SamplerSettings),
-        plan: &Plan,
+        settings: &Settings,
+        regions: usize,
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
-        let output = sampler.color_constants(scene);
+        let context = job.context(scene, regions);
+        let output = context.output;
         let multisampled = matches!(settings.method, Method::Msaa { .. });
         let antialiased = matches!(settings.method, Method::Superpixel(_));
         let superpixels = settings.superpixels();
@@ -73,8 +72,8 @@ impl Passes {
         let grows = antialiased && superpixels.growth_count() > 0;
         let side = settings.method.side();
         let compares = !matches!(detection, Detection::Exact | Detection::Every);
-        let by_part = record_rate(sampler.cells.shading, scene) == RecordRate::Part;
-        let words = plan.sizes.shadow_words;
+        let by_part = record_rate(context.settings.cells.shading, scene) == RecordRate::Part;
+        let words = context.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
@@ -89,16 +88,6 @@ impl Passes {
         let (pixels, shading) =
             rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_records.then(shading).transpose());
         let (pixels, shading) = (pixels?, shading?.map(Arc::new));
-        let context = SamplerContext {
-            layout,
-            memory,
-            scene,
-            settings: sampler,
-            output: &output,
-            sizes: &plan.sizes,
-            capacity: plan.capacity,
-            runs: plan.regions.len(),
-        };
         let blended = PixelCells {
             mode: DetectMode::Blended,
             thin: false,
@@ -120,7 +109,7 @@ impl Passes {
         Ok(Self {
             pose: scene.moves().then(|| PosePass::new(layout)).transpose()?,
             stroke: scene.has_strokes().then(|| StrokePass::new(layout)).transpose()?,
-            raster: Raster::new(layout, raster_samples(settings), scene, plan.sizes.filtered_triangles > 0)?,
+            raster: Raster::new(layout, raster_samples(settings), scene, context.sizes.filtered_triangles > 0)?,
             pixels,
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,

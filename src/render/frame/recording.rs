@@ -4,12 +4,12 @@ use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
-use crate::engine::data::Resources;
+use crate::engine::data::{Data, Resources};
 use crate::engine::passes::RasterTargets;
 use crate::engine::pipelines::Pass;
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
-use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, SamplerSettings};
+use crate::engine::sampler::{RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::render::passes::{Encoding, Receiving, StrokeSizes, encode};
@@ -25,7 +25,7 @@ const CENTRE: usize = 0;
 const OFFSETS: usize = 1;
 
 /// A recording of a frame: the frame's parts, borrowed without its timings, with the camera and the target.
-pub(super) struct Recording<'a> {
+pub(super) struct FrameRecording<'a> {
     pub settings: &'a Settings,
     pub sampler: &'a SamplerSettings,
     pub plan: &'a Plan,
@@ -34,7 +34,6 @@ pub(super) struct Recording<'a> {
     pub geometry: &'a FrameGeometry,
     pub resources: &'a Resources,
     pub shadows: Option<&'a ShadowFinder>,
-    pub counters: &'a CounterLog,
     pub scene: &'a GpuScene,
     pub moment: Option<&'a Moment>,
     pub camera: &'a Camera,
@@ -65,7 +64,7 @@ impl RecordShading for SceneShading<'_> {
     }
 }
 
-impl Recording<'_> {
+impl FrameRecording<'_> {
     /// Records some of the frame's regions. The first region also begins the frame, and the last one ends it.
     pub fn record(&self, recorder: &Recorder<'_>, regions: Range<usize>) {
         if regions.start == 0 {
@@ -80,7 +79,6 @@ impl Recording<'_> {
             self.record_region(recorder, index, region);
         }
         if regions.end == count {
-            self.counters.record(recorder, self.resources, 0);
             if let Some(shadows) = self.shadows {
                 shadows.record_end(recorder);
             }
@@ -179,7 +177,7 @@ impl Recording<'_> {
         if let Some((encoding, encode)) = &passes.encode {
             if *encoding == Encoding::StraightRgba8 {
                 let thresholds = bytemuck::cast_slice(encode::thresholds());
-                recorder.update(&resources.encoded, 0, thresholds);
+                recorder.update(resources.buffer(Data::Encoded), 0, thresholds);
             }
             encode.record_for(recorder, filtered);
         }

@@ -1,6 +1,6 @@
 //! The uniform block of a region of an image.
 
-use super::recording::Recording;
+use super::recording::FrameRecording;
 use crate::camera::{Camera, Projection};
 use crate::engine::data::FrameUniform;
 use crate::engine::sampler::footprint::Footprints;
@@ -10,7 +10,7 @@ use crate::render::Settings;
 use crate::render::data::GpuScene;
 use glam::DMat4;
 
-impl Recording<'_> {
+impl FrameRecording<'_> {
     /// Uniform block of a region whose superpixels have `samples` samples. With `owned`, only the wanted pixels of the
     /// region can become superpixels; the pixels of its halo can't.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {

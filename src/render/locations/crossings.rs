@@ -2,7 +2,7 @@
 
 use super::ListSettings;
 use super::plan::LocationPlan;
-use super::run::RunMemory;
+use super::run::{ListRun, RunMemory};
 use crate::camera::Pinhole;
 use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
 use crate::engine::passes::cull::{self, CullFilter};
@@ -43,10 +43,10 @@ impl CrossingFinder {
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
         let offsets = Offsets { all: &[[0.0; 2]], count: 1 };
-        let run = RunMemory::new(layout, prepared, settings, plan.sizes, offsets)?;
-        let (resources, locations) = (&run.resources, run.resources.listed()?);
+        let run = RunMemory::new(layout, prepared, settings, plan, offsets)?;
+        let (resources, memory) = (run.job.resources(), run.job.memory());
         let count = plan.sizes.locations.map_or(0, |sizes| sizes.locations);
-        let seen = run.memory.storage_buffer(
+        let seen = memory.storage_buffer(
             "what locations see",
             u64::from(count) * size_of::<SeenLocation>() as u64,
             vk::BufferUsageFlags::STORAGE_BUFFER,
@@ -55,15 +55,14 @@ impl CrossingFinder {
         let cells = Cells::Superpixels;
         let sizes = CellSizes::new(layout.gpu.limits().teams.members, cells, 1);
         Ok(Self {
-            // SAFETY: the list lives as long as the resources, and has room for that many locations.
-            distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
+            distribute: Distribute::new(layout, cells, sizes, resources)?,
             cull: cull::pass(layout, scene, CullFilter::Thin)?,
             bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
             crossings: unsafe { crossings::pass(layout, scene, resources, (&seen, marks), output, folds) }?,
             seen,
-            counters: CounterLog::new(&run.memory, 1)?,
+            counters: CounterLog::new(memory, 1)?,
             run,
         })
     }
@@ -73,7 +72,7 @@ impl CrossingFinder {
     pub fn listed_mut(&mut self, count: usize) -> Result<(&mut [ListedLocation], &mut [SeenLocation]), VulkanError> {
         let bytes = count * size_of::<SeenLocation>();
         let seen = self.seen.bytes_mut().get_mut(..bytes).unwrap_or(&mut []);
-        Ok((self.run.listed_mut(count)?, bytemuck::cast_slice_mut(seen)))
+        Ok((self.run.job.resources_mut().listed_mut(count)?, bytemuck::cast_slice_mut(seen)))
     }
 
     /// Records the search in a run of `count` locations within a window of the pinhole's plane. The locations must have
@@ -98,9 +97,9 @@ impl CrossingFinder {
             crossings.record(recorder);
             counters.record(recorder, resources, 0);
         };
-        let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));
+        let listed = ListRun { pinhole, window, cells: Cells::Superpixels, samples: 1, locations: count as u32 };
         // SAFETY: guaranteed by the caller.
-        unsafe { run.record(scene, looking, (cells, count), commands, record) };
+        unsafe { run.record(scene, &listed, commands, record) };
     }
 
     /// Triangles, and pairs of triangles and tiles, for which the last run had no room.
@@ -108,7 +107,8 @@ impl CrossingFinder {
     /// # Errors
     /// If the counters can't be read.
     pub fn shortfall(&self) -> Result<Shortfall, VulkanError> {
-        let sizes = self.run.resources.sizes();
+        self.run.job.check()?;
+        let sizes = self.run.job.resources().sizes();
         let mut shortfall = Shortfall::default();
         for counters in self.counters.read(1)?.flatten() {
             let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
@@ -125,6 +125,8 @@ impl CrossingFinder {
     /// # Errors
     /// If the times can't be read.
     pub fn add_statistics(&self, scene: &PreparedScene, total: &mut Statistics) -> Result<(), VulkanError> {
-        self.run.add_statistics(scene, total)
+        let scene = &scene.gpu_scene;
+        total.append(self.run.job.statistics(None, &[], scene.triangle_count(), scene.memory_bytes())?);
+        Ok(())
     }
 }

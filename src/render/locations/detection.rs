@@ -9,16 +9,17 @@ use super::plan::LocationPlan;
 use super::{ListSettings, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::data::tiles::{mask_bit, tiles};
-use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
+use crate::engine::data::{Cells, Content, Data, Offsets, ResourceRequest, ResourceSizes, ShownIds};
 use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::grow;
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::engine::sampler::{Capacity, Job, JobRecording};
 use crate::render::data::{OutputCells, OutputPlane};
 use crate::render::passes::{MarkedOutput, PROBES, neighbours};
 use crate::render::{CellOptions, Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
-use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -53,10 +54,8 @@ struct BandDetector {
     neighbours: Pass,
     /// Passes for each growth, in the order in which they run.
     growths: Vec<Pass>,
-    resources: Resources,
     masks: Buffer,
-    timings: Timings,
-    memory: Memory,
+    job: Job,
 }
 
 impl Headless {
@@ -87,7 +86,7 @@ impl Headless {
                         let pinhole = (pinhole, &*taken);
                         let shown = (&detector, &band);
                         let mut found = self.find_crossings(scene, pinhole, shown, image)?;
-                        found.memory_bytes += detector.memory.used();
+                        found.memory_bytes += detector.job.memory().used();
                         statistics.append(found);
                     }
                 }
@@ -174,7 +173,7 @@ impl Headless {
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let width = detector.settings.size[0];
         let output = MarkedOutput { tiles: band.tiles(width), width, pixel: pixel_width(pinhole) as f32 };
-        let marks = &detector.resources.marks;
+        let marks = detector.job.resources().buffer(Data::Marks);
         let folds = detector.settings.superpixels().has_many_samples();
         let make = |capacity| {
             let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
@@ -257,10 +256,21 @@ impl BandDetector {
         let left = settings.scene.max_memory.map(|limit| limit.saturating_sub(taken));
         let memory = Memory::new(layout.gpu.clone(), left);
         let sizes = band_sizes(layout.gpu.limits(), settings, left);
-        sizes.check("a band of the output", layout.gpu.limits())?;
+        sizes.check(layout.gpu.limits())?;
         let cells = OutputCells::new(&memory, sizes.region)?;
-        let no_offsets = Offsets { all: &[[0.0; 2]], count: 1 };
-        let resources = Resources::new(layout, &memory, scene, &[], &cells.views(), sizes, &[no_offsets])?;
+        let masks = memory.buffer(
+            "mask read-back",
+            4 * u64::from(sizes.tiles()),
+            vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryUse::Readback,
+        )?;
+        let request = ResourceRequest {
+            sizes,
+            others: &[],
+            ids: ShownIds::Drawn(cells.views()),
+            offsets: &[Offsets { all: &[[0.0; 2]], count: 1 }],
+            scratch: None,
+        };
         let superpixels = settings.superpixels();
         let growths = superpixels.growth_count();
         let options = DetectOptions {
@@ -278,30 +288,23 @@ impl BandDetector {
             detect: detect::pass(layout, &options)?,
             neighbours: neighbours::pass(layout, &settings.sampler().color_constants(scene))?,
             growths: (0..growths).rev().map(grow).collect::<Result<_, _>>()?,
-            masks: memory.buffer(
-                "mask read-back",
-                4 * u64::from(sizes.tiles()),
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
-            timings: Timings::new(&layout.gpu),
+            masks,
             cells,
-            resources,
-            memory,
+            job: Job::new(layout, memory, &settings.sampler(), Capacity::default(), &request)?,
         })
     }
 
     /// The settings, with the memory limit reduced by the memory of this detector.
     fn settings_beside(&self) -> Settings {
         let allowed = self.settings.scene.max_memory;
-        let left = allowed.map(|limit| limit.saturating_sub(self.memory.used()));
+        let left = allowed.map(|limit| limit.saturating_sub(self.job.memory().used()));
         self.settings.clone().max_memory(left)
     }
 
     /// The bands of the output.
     fn bands(&self) -> impl Iterator<Item = Band> + use<> {
         let growths = self.growths.len() as u32;
-        let rows = self.resources.sizes().region[1] - 2 * (growths + 1);
+        let rows = self.job.resources().sizes().region[1] - 2 * (growths + 1);
         bands(self.settings.size[1], rows, growths)
     }
 
@@ -349,11 +352,10 @@ impl BandDetector {
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
     /// - The commands of the last recording have run: its memory is used again.
     unsafe fn record_begin(&mut self, band: &Band, commands: vk::CommandBuffer) {
-        let gpu = self.memory.gpu().clone();
         // SAFETY: guaranteed by the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, None) };
-        self.resources.record_upload(&recorder);
-        self.cells.record(&recorder, &self.resources, band.height());
+        let recording = unsafe { self.job.begin(commands, |_| ()) };
+        self.cells.record(&recording.recorder, recording.resources, band.height());
+        recording.end();
     }
 
     /// Records a search for superpixels, and the copy of their masks to host memory.
@@ -363,8 +365,11 @@ impl BandDetector {
     /// order.
     unsafe fn record(&mut self, band: &Band, search: Search, commands: vk::CommandBuffer) {
         let width = self.settings.size[0];
-        let Self { settings, cells, detect, neighbours, growths, resources, masks, timings, memory } = self;
-        let (gpu, Some(set)) = (memory.gpu().clone(), resources.set(0)) else {
+        let Self { settings, cells, detect, neighbours, growths, masks, job } = self;
+        // SAFETY: guaranteed by the caller.
+        let recording = unsafe { job.begin(commands, |_| ()) };
+        let JobRecording { recorder, resources, settings: of_sampler, .. } = &recording;
+        let Some(set) = resources.set(0) else {
             return;
         };
         let row = |row: u32| row - band.seen.start;
@@ -377,28 +382,27 @@ impl BandDetector {
         let uniform = frame_uniform(
             &SceneBlock::default(),
             &plane,
-            &settings.sampler(),
+            of_sampler,
             (1, &Footprints::new(settings.filter(), 1)),
             resources.sizes(),
         );
         let [columns, rows] = uniform.tiles;
         let tiles = columns * rows;
-        // SAFETY: guaranteed by the caller.
-        let recorder = unsafe { Recorder::new(&gpu, commands, Some(timings)) };
         recorder.begin();
-        resources.record_begin(&recorder, set, &uniform);
+        resources.record_begin(recorder, set, &uniform);
         match search {
             Search::Aliasing => {
-                detect.record_for(&recorder, tiles);
-                recorder.clear(&resources.marks);
+                detect.record_for(recorder, tiles);
+                recorder.clear(resources.buffer(Data::Marks));
             }
             Search::Growth(growth) => {
-                cells.record_colors(&recorder, resources, band.height());
-                neighbours.record_for(&recorder, width * band.height());
-                growths[growth].record_for(&recorder, tiles);
+                cells.record_colors(recorder, resources, band.height());
+                neighbours.record_for(recorder, width * band.height());
+                growths[growth].record_for(recorder, tiles);
             }
         }
-        recorder.copy(&resources.masks, 4 * u64::from(tiles), masks, 0);
+        recorder.copy(resources.buffer(Data::Masks), 4 * u64::from(tiles), masks, 0);
+        recording.end();
     }
 
     /// Masks of the superpixels that the last search in a band found.
@@ -408,7 +412,8 @@ impl BandDetector {
     }
 
     fn add_statistics(&self, total: &mut Statistics) -> Result<(), VulkanError> {
-        for time in self.timings.read()? {
+        let found = self.job.statistics(None, &[], 0, 0)?;
+        for time in found.passes {
             total.add_time(time);
         }
         Ok(())
@@ -421,27 +426,16 @@ fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> Resour
     let [width, height] = settings.size;
     let halo = 2 * (settings.superpixels().growth_count() + 1);
     let sizes_of = |rows: u32| ResourceSizes {
-        region: [width, rows],
-        team: limits.teams.members,
-        locations: None,
-        survivor_capacity: 0,
-        filtered_triangles: 0,
-        pair_capacity: 0,
-        list_capacity: 0,
-        record_capacity: 0,
-        filtered: 0,
         shadow_words: match settings.scene.shadows {
             Shadows::None => 0,
             Shadows::Exact => 1,
         },
-        attributes: false,
-        encoded: 0,
+        ..ResourceSizes::new([width, rows], 0, limits)
     };
     let fits = |sizes: &ResourceSizes| {
         let bytes = sizes.bytes() + OutputCells::bytes(sizes.region);
         u64::from(sizes.pixels()) <= MOST_CELLS
-            && sizes.largest_texels() <= limits.max_texel_elements
-            && sizes.largest_storage() <= limits.max_storage_bytes
+            && sizes.check(limits).is_ok()
             && left.is_none_or(|left| 4 * bytes <= left)
     };
     let mut rows = height;

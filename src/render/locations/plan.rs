@@ -9,7 +9,6 @@ use crate::engine::sampler::Capacity;
 use crate::render::data::FrameGeometry;
 use crate::render::plane::PlaneWindow;
 use crate::render::{EngineError, PreparedScene, RenderError, Shadows};
-use crate::vulkan::VulkanError;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -67,17 +66,15 @@ impl LocationPlan {
             let words = casters.map_or(0, |casters| casters.shadow_words());
             let sizes = list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, room, capacity);
             let shadows = |casters| settings.shadows(layout, casters, capacity, places);
-            let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes(&sizes));
+            let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes());
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;
-            let fits = sizes.largest_storage() <= limits.max_storage_bytes
-                && sizes.largest_texels() <= limits.max_texel_elements;
-            if fits && settings.scene.max_memory.is_none_or(|allowed| needed <= allowed) {
+            let checked = sizes.check(limits);
+            if checked.is_ok() && settings.scene.max_memory.is_none_or(|allowed| needed <= allowed) {
                 return Ok(Self { cells, places, runs, sizes, capacity });
             }
             if longest <= FEWEST_LOCATIONS {
-                let (elements, most) = (sizes.largest_texels(), limits.max_texel_elements);
-                VulkanError::check_limit("a list of sample locations", elements, "elements", most)?;
+                checked?;
                 return Err(RenderError::Engine(EngineError::Memory {
                     needed,
                     allowed: settings.scene.max_memory.unwrap_or(limits.max_storage_bytes),

@@ -2,12 +2,8 @@
 
 use super::plan::LocationPlan;
 use crate::engine::sampler::{Capacity, Shortfall};
-use crate::render::{EngineError, Headless, RenderError};
+use crate::render::{Headless, RenderError};
 use std::ops::Range;
-
-/// Factor on the memory for lists of candidates. Once the memory has grown this much, it is not raised any more for a
-/// single location that does not fit.
-const MOST_LISTS: u32 = 1 << 16;
 
 impl Headless {
     /// Processes a list run by run, in the partition's order. `make` plans the runs, and makes the passes for them. `process`
@@ -23,21 +19,18 @@ impl Headless {
         let mut waiting: Vec<_> = plan.runs.into_iter().rev().collect();
         while let Some(run) = waiting.pop() {
             let shortfall = process(self, &mut passes, &run)?;
-            match shortfall.check() {
-                Ok(()) => {
-                    take(&passes, run)?;
-                    continue;
-                }
-                Err(EngineError::Unfinished { .. }) => {}
-                Err(error) => return Err(error.into()),
+            if shortfall.left() == 0 {
+                take(&passes, run)?;
+                continue;
             }
             log::debug!("{} locations lacked room: {shortfall:?}", run.len());
-            let more = capacity.more(shortfall);
-            // A plane of a light needs as much room for half of the locations.
-            let helps = more.long_lists == capacity.long_lists && more.planes == capacity.planes;
-            if run.len() > 1 && helps {
+            let more = capacity.next(&shortfall);
+            // A plane of a light needs as much room for half of the locations, and a long list of candidates stays long.
+            let is_divisible =
+                more.is_none_or(|more| more.long_lists == capacity.long_lists && more.planes == capacity.planes);
+            if run.len() > 1 && is_divisible {
                 waiting.extend(halves(&run));
-            } else if capacity.lists < MOST_LISTS {
+            } else if let Some(more) = more {
                 capacity = more;
                 let (plan, larger) = make(capacity)?;
                 passes = larger;

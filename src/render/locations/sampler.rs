@@ -2,10 +2,10 @@
 
 use super::ListSettings;
 use super::plan::LocationPlan;
-use super::run::RunMemory;
-use crate::engine::data::{Cells, ListedLocation, Offsets};
+use super::run::{ListRun, RunMemory};
+use crate::engine::data::{Cells, Data, ListedLocation, Offsets};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun, SamplerSettings, Shortfall};
+use crate::engine::sampler::{ListCells, Sampler, SamplerRun, Shortfall};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{ShadeSource, shade};
 use crate::render::plane::PlaneWindow;
@@ -24,7 +24,6 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
 /// Pipelines and memory for sampling runs of locations of one scene.
 pub(super) struct LocationSampler {
     cells: Cells,
-    settings: SamplerSettings,
     sampler: Sampler,
     shade: Pass,
     shadows: Option<ShadowFinder>,
@@ -47,36 +46,24 @@ impl LocationSampler {
         plan: &LocationPlan,
     ) -> Result<Self, RenderError> {
         let LocationPlan { cells, places, sizes, capacity, .. } = plan;
-        let capacity = *capacity;
         let scene = &*prepared.gpu_scene;
         let listed = list_cells(*cells, sizes.shadow_words);
         let (offsets, count) = listed.offsets(layout, &settings.sampler.cells)?;
         let offsets = Offsets { all: &offsets, count };
-        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets)?;
-        let resources = &run.resources;
-        let output = settings.sampler.color_constants(scene);
+        let run = RunMemory::new(layout, prepared, settings, plan, offsets)?;
+        let (job, resources) = (&run.job, run.job.resources());
+        let context = job.context(scene, 1);
         let source = ShadeSource::Records { cells: *cells };
-        let context = SamplerContext {
-            layout,
-            memory: &run.memory,
-            scene,
-            settings: &settings.sampler,
-            output: &output,
-            sizes,
-            capacity,
-            runs: 1,
-        };
         // SAFETY: the list lives as long as the resources, and has room for that many locations.
-        let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
+        let sampler = unsafe { listed.sampler(&context, (resources, resources.texels(Data::Locations))) }?;
         let shadows = |casters| {
-            let request = settings.shadows(layout, casters, capacity, *places);
-            ShadowFinder::new(&request, &run.memory, scene, *cells, resources)
+            let request = settings.shadows(layout, casters, *capacity, *places);
+            ShadowFinder::new(&request, job.memory(), scene, *cells, resources)
         };
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
-            settings: settings.sampler.clone(),
-            shade: shade::pass(layout, scene, (source, sizes.shadow_words), &output)?,
+            shade: shade::pass(layout, scene, (source, sizes.shadow_words), &context.output)?,
             shadows,
             cells: *cells,
             sampler,
@@ -86,7 +73,7 @@ impl LocationSampler {
 
     /// Memory for a run of `count` locations, to be written while the device is idle.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
-        self.run.listed_mut(count)
+        self.run.job.resources_mut().listed_mut(count)
     }
 
     /// Records the sampling of a run of `count` locations in a window of the plane. The locations must have been
@@ -104,19 +91,25 @@ impl LocationSampler {
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let Self { cells, settings, sampler, shade, shadows, run } = self;
-        let looking = (&sight.pinhole, window);
+        let Self { cells, sampler, shade, shadows, run } = self;
+        let settings = run.job.settings().clone();
         let background = settings.background_rgba();
-        let cells = (*cells, sampler.samples());
-        let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, is_first| {
+        let listed = ListRun {
+            pinhole: &sight.pinhole,
+            window,
+            cells: *cells,
+            samples: sampler.samples(),
+            locations: count as u32,
+        };
+        let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, uploads: bool| {
             let SamplerRun { resources, set, .. } = *list;
             if let Some(shadows) = shadows.as_mut() {
-                if is_first {
+                if uploads {
                     shadows.record_upload(recorder);
                 }
                 shadows.record_begin(recorder);
             }
-            if cells.0 == Cells::Points {
+            if *cells == Cells::Points {
                 let code = settings.output_code(background);
                 recorder.section(PassTime::BACKGROUND, || {
                     resources.record_background(recorder, count as u32, background, code);
@@ -136,16 +129,16 @@ impl LocationSampler {
             }
         };
         // SAFETY: guaranteed by the caller.
-        unsafe { run.record(scene, looking, (cells, count), commands, record) };
+        unsafe { run.record(scene, &listed, commands, record) };
     }
 
     /// Values at the `locations` locations of the last run.
     pub fn values(&self, locations: usize) -> Result<LocationValues<'_>, VulkanError> {
-        let resources = &self.run.resources;
+        let resources = self.run.job.resources();
         Ok(LocationValues {
-            colors: resources.color.buffer.read(locations)?,
+            colors: resources.buffer(Data::Color).read(locations)?,
             attributes: match resources.sizes().attributes {
-                true => resources.attributes.read(locations)?,
+                true => resources.buffer(Data::Attributes).read(locations)?,
                 false => &[],
             },
         })
@@ -153,8 +146,7 @@ impl LocationSampler {
 
     /// Work that the last run could not finish.
     pub fn shortfall(&self, window: &PlaneWindow) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = Shortfall::default();
-        self.sampler.add_shortfall([window.tile_count()], &mut shortfall)?;
+        let mut shortfall = self.run.job.shortfall([&self.sampler], &[window.tile_count()])?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
@@ -171,8 +163,10 @@ impl LocationSampler {
         window: &PlaneWindow,
         total: &mut Statistics,
     ) -> Result<(), VulkanError> {
-        self.sampler.add_statistics([window.tile_count()], total)?;
-        total.regions += 1;
-        self.run.add_statistics(scene, total)
+        let scene = &scene.gpu_scene;
+        let (triangles, of_scene) = (scene.triangle_count(), scene.memory_bytes());
+        let tiles = [window.tile_count()];
+        total.append(self.run.job.statistics(Some(&self.sampler), &tiles, triangles, of_scene)?);
+        Ok(())
     }
 }

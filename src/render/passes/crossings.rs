@@ -1,6 +1,6 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
-use crate::engine::data::{Argument, Content, Resources};
+use crate::engine::data::{Argument, Content, Data, Resources};
 use crate::engine::passes::arguments::{self, CountedBy};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::spirv::{self, crossings_set};
@@ -43,7 +43,7 @@ pub(crate) unsafe fn pass(
     folds: bool,
 ) -> Result<Pass, VulkanError> {
     let shown = [
-        (crossings_set::LOADS, (&resources.locations.loads).into()),
+        (crossings_set::LOADS, resources.buffer(Data::Loads).into()),
         (crossings_set::SEEN, seen.into()),
         (crossings_set::CELL_MARKS, marks.into()),
     ];

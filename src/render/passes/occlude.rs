@@ -3,7 +3,7 @@
 //! frame is recorded.
 
 use super::{Receiving, Unshadowed};
-use crate::engine::data::{Argument, Content, Resources};
+use crate::engine::data::{Argument, Content, Data, Resources};
 use crate::engine::pipelines::{FrameLayout, Kernel};
 use crate::engine::spirv::{self, occlude_set};
 use crate::render::data::GpuScene;
@@ -67,9 +67,9 @@ impl Occlude {
         unshadowed: &Unshadowed,
     ) -> Result<Self, VulkanError> {
         let shown = [
-            (occlude_set::WORDS, (&receivers.shadow_words.buffer).into()),
+            (occlude_set::WORDS, receivers.buffer(Data::ShadowWords).into()),
             (occlude_set::LEFT, unshadowed.buffer().into()),
-            (occlude_set::MARKS_OF_PIXELS, (&receivers.marks).into()),
+            (occlude_set::MARKS_OF_PIXELS, receivers.buffer(Data::Marks).into()),
         ];
         let teams = layout.gpu.limits().teams;
         let shader = spirv::Occlude {
@@ -113,7 +113,7 @@ impl Occlude {
                 self.kernel.record_teams(recorder, &push, groups[0] * groups[1]);
             }
             Receiving::Records => {
-                let size = (&resources.arguments, Argument::Sort);
+                let size = (resources.buffer(Data::Arguments), Argument::Sort);
                 self.kernel.record_counted(recorder, &push, size);
             }
         }

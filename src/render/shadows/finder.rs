@@ -2,8 +2,7 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, most_planes, plane_side, views};
-use crate::engine::data::{Cells, Offsets, ResourceSizes, Resources, SampleSet};
-use crate::engine::passes::RasterTargets;
+use crate::engine::data::{Cells, Data, Offsets, ResourceRequest, ResourceSizes, Resources, SampleSet, ShownIds};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::{Capacity, SamplerSettings, Shortfall, TileLists};
 use crate::engine::spirv::frame_set;
@@ -11,8 +10,7 @@ use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{Occlude, PROBES, PosePass, Receivers, Receiving, ShadowTarget, Unshadowed};
 use crate::scene::Moment;
-use crate::vulkan::{Memory, MemoryUse, PassTime, Recorder, TexelBuffer, VulkanError};
-use ash::vk;
+use crate::vulkan::{Memory, PassTime, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Pipelines and memory that find the casters between lights and the places that a frame or a run of locations shades.
@@ -33,8 +31,6 @@ pub(in crate::render) struct ShadowFinder {
     look: FrameLook,
     /// Memory for the lists of planes: of each plane, or of one after the other.
     planes: Vec<Resources>,
-    targets: RasterTargets,
-    _surfaces: TexelBuffer,
 }
 
 /// Casters and lights for whose shadows memory is planned, and what these fall on.
@@ -85,12 +81,11 @@ impl ShadowRequest<'_> {
         PlanePlan { side, sizes, planes: if is_room { planes } else { 1 } }
     }
 
-    /// Number of bytes of a finder for places whose owner has memory of the sizes `shading`.
-    pub fn bytes(&self, shading: &ResourceSizes) -> u64 {
+    /// Number of bytes of a finder.
+    pub fn bytes(&self) -> u64 {
         let PlanePlan { sizes, planes, .. } = self.plan();
-        let surfaces = 32 * u64::from(shading.receivers());
         let scene = &*self.casters.scene;
-        surfaces + u64::from(planes) * sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
+        u64::from(planes) * sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 }
 
@@ -109,26 +104,24 @@ impl ShadowFinder {
         let ShadowRequest { layout, casters, settings, .. } = *request;
         let occluding = &*casters.scene;
         let PlanePlan { side, sizes, planes } = request.plan();
-        sizes.check("the lists of a light", layout.gpu.limits())?;
-        let targets = RasterTargets::new(memory, 1, 1, vk::SampleCountFlags::TYPE_1, false)?;
+        sizes.check(layout.gpu.limits())?;
         let geometry = FrameGeometry::new(memory, occluding, true)?;
         let look = FrameLook::new(memory, occluding)?;
         let mut shown = geometry.shown(occluding);
         shown.extend(look.shown(occluding));
-        let surfaces = memory.texel_buffer(
-            "receivers of light",
-            2 * u64::from(shading.sizes().receivers()),
-            vk::Format::R32G32B32A32_UINT,
-            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
-            MemoryUse::Device,
-        )?;
-        shown.push((frame_set::LOCATIONS, surfaces.texels().into()));
-        let centre = Offsets { all: &[[0.0; 2]], count: 1 };
-        let plane = |_| Resources::new(layout, memory, occluding, &shown, &targets.views(), sizes, &[centre]);
+        shown.push((frame_set::LOCATIONS, shading.texels(Data::Surfaces)));
+        let request = ResourceRequest {
+            sizes,
+            others: &shown,
+            ids: ShownIds::Unread,
+            offsets: &[Offsets { all: &[[0.0; 2]], count: 1 }],
+            scratch: None,
+        };
+        let plane = |_| Resources::new(layout, memory, &request);
         let unshadowed = Unshadowed::new(memory)?;
         Ok(Self {
             side,
-            receivers: Receivers::new(layout, scene, cells, &surfaces.buffer)?,
+            receivers: Receivers::new(layout, scene, cells, shading.buffer(Data::Surfaces))?,
             lists: TileLists::new(layout, occluding)?,
             occlude: Occlude::new(layout, occluding, shading, &unshadowed)?,
             unshadowed,
@@ -140,8 +133,6 @@ impl ShadowFinder {
             planes: (0..planes).map(plane).collect::<Result<_, _>>()?,
             geometry,
             look,
-            targets,
-            _surfaces: surfaces,
         })
     }
 
@@ -152,7 +143,6 @@ impl ShadowFinder {
         for plane in &self.planes {
             plane.record_upload(recorder);
         }
-        self.targets.record_unused(recorder);
     }
 
     /// Views of the lights onto the visible part of the scene.
@@ -216,7 +206,7 @@ impl ShadowFinder {
     pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
         recorder.section(PassTime::SHADOWS, || {
             if shaded.views.is_empty() {
-                recorder.clear(&shaded.resources.shadow_words.buffer);
+                recorder.clear(shaded.resources.buffer(Data::ShadowWords));
                 return;
             }
             let first_place = match receiving {

@@ -1,8 +1,8 @@
 //! Buffers and images of a frame's descriptor sets.
 
-use super::{Resources, SampleSet};
+use super::Resources;
 use crate::engine::spirv::frame_set;
-use crate::vulkan::{BoundDescriptor, Descriptor, read_image};
+use crate::vulkan::{BoundDescriptor, Image, Memory, VulkanError, read_image};
 use ash::vk;
 
 /// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
@@ -18,56 +18,49 @@ pub struct IdViews {
     pub placeholder: Option<vk::ImageView>,
 }
 
+impl IdViews {
+    /// Triangle IDs alone.
+    pub(super) fn of_ids(ids: vk::ImageView) -> Self {
+        Self { ids, blend_ids: None, depth: None, placeholder: None }
+    }
+}
+
+/// Images of triangle IDs and depth that descriptor sets show.
+#[derive(Clone, Copy, Debug)]
+pub enum ShownIds {
+    /// These, which outlive the sets.
+    Drawn(IdViews),
+    /// Those of [`Resources::show_ids`], which is called before each recording.
+    Later,
+    /// No pass reads them.
+    Unread,
+}
+
+/// Image of a pixel, which no pass reads.
+pub(super) fn unread(memory: &Memory) -> Result<Image, VulkanError> {
+    let info = vk::ImageCreateInfo::default()
+        .image_type(vk::ImageType::TYPE_2D)
+        .format(vk::Format::R32_UINT)
+        .extent(vk::Extent3D { width: 1, height: 1, depth: 1 })
+        .mip_levels(1)
+        .array_layers(1)
+        .samples(vk::SampleCountFlags::TYPE_1)
+        .usage(vk::ImageUsageFlags::SAMPLED);
+    memory.image("unread IDs", &info, vk::ImageAspectFlags::COLOR)
+}
+
 impl Resources {
     /// Writes sets that were just allocated, except the images of triangle IDs and depth; `others` belong to the scene,
     /// or to the frame's view of the scene.
-    pub(super) fn write_set(&self, set: &mut SampleSet, others: &[BoundDescriptor]) {
-        let own_texels = [
-            (frame_set::DISPLAY, &self.display),
-            (frame_set::CANDIDATES, &self.candidates),
-            (frame_set::RECORDS, &self.records),
-            (frame_set::SHADED, &self.shaded),
-            (frame_set::PATTERN_OFFSETS, &set.offsets),
-            (frame_set::FILTERED, &self.filtered),
-            (frame_set::PAIRS, &self.pairs),
-            (frame_set::LOCATION_ORDER, &self.locations.order),
-            (frame_set::LOCATION_CELLS, &self.locations.cells),
-            (frame_set::LOCATION_GROUPS, &self.locations.groups),
-            (frame_set::SHADOW_WORDS, &self.shadow_words),
-        ]
-        .map(|(binding, texels)| (binding, texels.texels()));
-        let listed = self.locations.locations.as_ref();
-        let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.texels()));
-        let texels = own_texels.into_iter().chain(listed);
-        let texels = texels.map(|(binding, texels)| (binding, Descriptor::from(texels)));
-        let buffers = [
-            (frame_set::FRAME, &set.uniform),
-            (frame_set::DISPLAY_OUT, &self.display.buffer),
-            (frame_set::COLOR, &self.color.buffer),
-            (frame_set::CANDIDATES_OUT, &self.candidates.buffer),
-            (frame_set::RECORDS_OUT, &self.records.buffer),
-            (frame_set::SHADED_OUT, &self.shaded.buffer),
-            (frame_set::PAIRS_OUT, &self.pairs.buffer),
-            (frame_set::COUNTERS, &self.counters),
-            (frame_set::MASKS, &self.masks),
-            (frame_set::TILES, &self.tiles),
-            (frame_set::TILE_LISTS, &self.tile_lists),
-            (frame_set::SURVIVORS, &self.survivors),
-            (frame_set::CORNERS_OUT, &self.corners),
-            (frame_set::INDEXED_DRAWS_OUT, &self.indexed_draws),
-            (frame_set::HEADERS, &self.headers),
-            (frame_set::SHADE_ORDER, &self.shade_order),
-            (frame_set::BINS, &self.bins),
-            (frame_set::ARGUMENTS, &self.arguments),
-            (frame_set::ATTRIBUTES_OUT, &self.attributes),
-            (frame_set::ENCODED, &self.encoded),
-            (frame_set::MARKS, &self.marks),
-            (frame_set::TILE_LOADS, &self.locations.tile_loads),
-        ]
-        .map(|(binding, buffer)| (binding, Descriptor::from(buffer)));
-        let shown: Vec<_> = others.iter().copied().chain(texels).chain(buffers).collect();
-        // SAFETY: the sets were just allocated and no frame uses them; every handle is alive and outlives them.
-        unsafe { set.sets.write(&shown) };
+    pub(super) fn write_sets(&mut self, others: &[BoundDescriptor]) {
+        let Self { sets, scratch, .. } = self;
+        for set in sets {
+            let own =
+                [(frame_set::FRAME, (&set.uniform).into()), (frame_set::PATTERN_OFFSETS, set.offsets.texels().into())];
+            let shown: Vec<_> = others.iter().copied().chain(scratch.shown()).chain(own).collect();
+            // SAFETY: the sets were just allocated and no frame uses them; every handle is alive and outlives them.
+            unsafe { set.sets.write(&shown) };
+        }
     }
 
     /// Sets the images of triangle IDs and depth that the descriptor sets show.

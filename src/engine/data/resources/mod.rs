@@ -5,101 +5,85 @@ mod record;
 mod sample_set;
 mod scratch;
 mod sizes;
+mod table;
 
-pub use descriptors::IdViews;
+pub use descriptors::{IdViews, ShownIds};
 pub use sample_set::{Offsets, SampleSet};
 pub use scratch::Scratch;
 pub use sizes::ResourceSizes;
+pub use table::Data;
 
-use super::{Content, Counter};
 use crate::engine::pipelines::FrameLayout;
-use crate::vulkan::{BoundDescriptor, Buffer, Memory, MemoryUse, VulkanError};
-use ash::vk;
-use std::ops::Deref;
+use crate::vulkan::{BoundDescriptor, Buffer, Descriptor, Image, Memory, VulkanError};
 use std::sync::Arc;
 
 /// Memory in which the passes of a frame keep their results: scratch memory, which frames may share, and the frame's
-/// own buffers.
+/// own descriptor sets.
 pub struct Resources {
     sizes: ResourceSizes,
-    /// A word for each [`Counter`].
-    pub counters: Buffer,
     sets: Vec<SampleSet>,
     scratch: Arc<Scratch>,
+    /// Image that the sets show if no pass reads images of IDs.
+    unread: Option<Image>,
 }
 
-const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
-    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
-        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
-        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
-);
-
-impl Deref for Resources {
-    type Target = Scratch;
-
-    fn deref(&self) -> &Scratch {
-        &self.scratch
-    }
+/// Request for a frame's memory.
+#[derive(Clone, Copy)]
+pub struct ResourceRequest<'a> {
+    /// Sizes of the memory.
+    pub sizes: ResourceSizes,
+    /// Buffers and images with other owners that the sets show; they outlive the resources.
+    pub others: &'a [BoundDescriptor],
+    /// Images of IDs and depth.
+    pub ids: ShownIds,
+    /// Lists of sample offsets, each of which gets descriptor sets.
+    pub offsets: &'a [Offsets<'a>],
+    /// Scratch memory that [suffices](Scratch::suffices) for the sizes; `None` to allocate some.
+    pub scratch: Option<&'a Arc<Scratch>>,
 }
 
 impl Resources {
-    /// Allocates a frame's memory, and descriptor sets for each list of sample offsets; `others` are buffers and images
-    /// with other owners, which outlive the resources.
+    /// Allocates a frame's memory and descriptor sets.
     ///
     /// # Errors
     /// If memory runs out or a buffer exceeds a limit of the device.
-    pub fn new(
-        layout: &Arc<FrameLayout>,
-        memory: &Memory,
-        scene: &dyn Content,
-        others: &[BoundDescriptor],
-        ids: &IdViews,
-        sizes: ResourceSizes,
-        offset_lists: &[Offsets<'_>],
-    ) -> Result<Self, VulkanError> {
-        let scratch = Scratch::new(layout, memory, scene.bin_count(), &sizes)?;
-        let scratch = Arc::new(scratch);
-        let resources = Self::with_scratch(layout, memory, &scratch, others, sizes, offset_lists)?;
-        // SAFETY: the sets are new; the images outlive them.
-        unsafe { resources.show_ids(ids) };
-        Ok(resources)
-    }
-
-    /// Makes a frame's resources in scratch memory that [suffices](Scratch::suffices) for `sizes`. [`Self::show_ids`]
-    /// sets the images of the descriptor sets later.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub(crate) fn with_scratch(
-        layout: &Arc<FrameLayout>,
-        memory: &Memory,
-        scratch: &Arc<Scratch>,
-        others: &[BoundDescriptor],
-        sizes: ResourceSizes,
-        offset_lists: &[Offsets<'_>],
-    ) -> Result<Self, VulkanError> {
-        let sets = layout.frame_sets(offset_lists.len())?;
-        let mut sets = sets
-            .into_iter()
-            .zip(offset_lists)
-            .map(|(set, offsets)| SampleSet::new(memory, set, offsets))
-            .collect::<Result<Vec<_>, VulkanError>>()?;
+    pub fn new(layout: &FrameLayout, memory: &Memory, request: &ResourceRequest<'_>) -> Result<Self, VulkanError> {
+        let ResourceRequest { sizes, others, ids, offsets, scratch } = *request;
+        let made = || Ok::<_, VulkanError>(Arc::new(Scratch::new(memory, &sizes)?));
+        let scratch = scratch.map_or_else(made, |shared| Ok(shared.clone()))?;
+        let sets = layout.frame_sets(offsets.len())?.into_iter().zip(offsets);
         let mut resources = Self {
             sizes,
-            counters: memory.storage_buffer("counters", Counter::BYTES, STORAGE, MemoryUse::Device)?,
-            sets: Vec::new(),
-            scratch: scratch.clone(),
+            sets: sets.map(|(set, offsets)| SampleSet::new(memory, set, offsets)).collect::<Result<_, _>>()?,
+            scratch,
+            unread: matches!(ids, ShownIds::Unread).then(|| descriptors::unread(memory)).transpose()?,
         };
-        for set in &mut sets {
-            resources.write_set(set, others);
+        resources.write_sets(others);
+        // SAFETY: the sets are new; the caller guarantees drawn images, and the unread one lives as long as the resources.
+        unsafe {
+            match (ids, &resources.unread) {
+                (ShownIds::Drawn(views), _) => resources.show_ids(&views),
+                (_, Some(unread)) => resources.show_ids(&IdViews::of_ids(unread.view)),
+                (_, None) => {}
+            }
         }
-        resources.sets = sets;
         Ok(resources)
     }
 
-    /// Scratch memory; `None` if another frame uses it too.
-    pub(crate) fn own_scratch(&mut self) -> Option<&mut Scratch> {
-        Arc::get_mut(&mut self.scratch)
+    /// A buffer of the memory.
+    #[must_use]
+    pub fn buffer(&self, data: Data) -> &Buffer {
+        self.scratch.buffer(data)
+    }
+
+    /// The texels of a buffer or, if it has none, the buffer as a whole.
+    pub(crate) fn texels(&self, data: Data) -> Descriptor {
+        self.scratch.texels(data)
+    }
+
+    /// A buffer to be written by the host; `None` if another frame uses it too.
+    pub(crate) fn buffer_mut(&mut self, data: Data) -> Option<&mut Buffer> {
+        Some(Arc::get_mut(&mut self.scratch)?.buffer_mut(data))
     }
 
     /// Sizes with which the resources were made.

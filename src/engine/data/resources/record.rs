@@ -1,6 +1,6 @@
 //! Recordings of a frame's memory besides its passes: uploads, clearing, counters and the background.
 
-use super::{Resources, SampleSet};
+use super::{Data, Resources, SampleSet};
 use crate::engine::data::{Counter, FrameUniform};
 use crate::vulkan::{Buffer, Recorder};
 use ash::vk;
@@ -11,23 +11,26 @@ impl Resources {
         for set in &self.sets {
             set.upload.record(recorder);
         }
-        recorder.clear(&self.counters);
+        if let Some(unread) = &self.unread {
+            recorder.transition(unread, vk::ImageLayout::UNDEFINED, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+        }
+        recorder.clear(self.buffer(Data::Counters));
     }
 
     /// Records the beginning of a region: uniform block, cleared counters and tiles. Passes use the sets `set` from here on.
     pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
-        recorder.fill(&self.counters, Counter::BYTES, 0);
-        recorder.clear(&self.tiles);
+        recorder.clear(self.buffer(Data::Counters));
+        recorder.clear(self.buffer(Data::Tiles));
         set.show(recorder);
     }
 
     /// Records that all pixels of the region are taken, by one cell in each tile.
     pub(crate) fn record_all_tiles(&self, recorder: &Recorder<'_>) {
-        recorder.fill(&self.masks, vk::WHOLE_SIZE, u32::MAX);
-        recorder.fill(&self.locations.tile_loads, vk::WHOLE_SIZE, 1);
+        recorder.fill(self.buffer(Data::Masks), vk::WHOLE_SIZE, u32::MAX);
+        recorder.fill(self.buffer(Data::TileLoads), vk::WHOLE_SIZE, 1);
         let tiles = 4 * Counter::Tiles as u64;
-        recorder.update(&self.counters, tiles, &1_u32.to_ne_bytes());
+        recorder.update(self.buffer(Data::Counters), tiles, &1_u32.to_ne_bytes());
     }
 
     /// Records copying the reach of a list's samples, which `distribute` has computed, to the uniform block.
@@ -37,7 +40,7 @@ impl Resources {
             .dst_offset(std::mem::offset_of!(FrameUniform, reach) as u64)
             .size(4);
         // SAFETY: counter and member lie in the buffers, which were created for copies and live as long as the frame.
-        unsafe { recorder.copy_raw(self.counters.raw, set.uniform.raw, &[region]) };
+        unsafe { recorder.copy_raw(self.buffer(Data::Counters).raw, set.uniform.raw, &[region]) };
     }
 
     /// Records `rounds` rounds. If the device can skip commands, it skips the rounds for which no tile waits.
@@ -56,22 +59,23 @@ impl Resources {
     }
 
     fn record_round(&self, recorder: &Recorder<'_>, record: impl Fn(&Recorder<'_>)) {
-        let Some(another_round) = &self.another_round else {
+        if !self.sizes.skips_rounds {
             record(recorder);
             return;
-        };
+        }
+        let another_round = self.buffer(Data::AnotherRound);
         let waiting = vk::BufferCopy::default().src_offset(4 * Counter::Waiting as u64).size(4);
         // SAFETY: the counter lies in its buffer; both buffers were created for copies and live as long as the frame.
-        unsafe { recorder.copy_raw(self.counters.raw, another_round.raw, &[waiting]) };
+        unsafe { recorder.copy_raw(self.buffer(Data::Counters).raw, another_round.raw, &[waiting]) };
         // Dispatches of a host are not skipped. Their cleared sizes make them do nothing in a skipped round.
-        recorder.clear(&self.arguments);
+        recorder.clear(self.buffer(Data::Arguments));
         recorder.unless_zero(another_round, || record(recorder));
     }
 
     /// Records a copy of the counters to slot `slot` of a read-back buffer.
     pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
         let bytes = Counter::BYTES;
-        recorder.copy(&self.counters, bytes, to, slot * bytes);
+        recorder.copy(self.buffer(Data::Counters), bytes, to, slot * bytes);
     }
 
     /// Records a copy of the first `bytes` bytes of the colours to a host's buffer, at the offset `first_byte`.
@@ -88,24 +92,24 @@ impl Resources {
         if bytes > 0 {
             let region = vk::BufferCopy::default().dst_offset(first_byte).size(bytes);
             // SAFETY: guaranteed by the caller; the resources have room for that many colours.
-            unsafe { recorder.copy_raw(self.color.buffer.raw, to, &[region]) };
+            unsafe { recorder.copy_raw(self.buffer(Data::Color).raw, to, &[region]) };
         }
     }
 
     /// Records replacing the supersampled pixels by the first `pixels` pixels of the box filter.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
-        let (from, to) = (&self.filtered.buffer, &self.color.buffer);
+        let (from, to) = (self.buffer(Data::Filtered), self.buffer(Data::Color));
         recorder.copy(from, 16 * u64::from(pixels), to, 0);
     }
 
     /// Records filling the first `pixels` pixels or locations with the background: its premultiplied colour, its
     /// display code and, for locations with attributes, the attributes of an empty location.
     pub(crate) fn record_background(&self, recorder: &Recorder<'_>, pixels: u32, background: [f32; 4], code: u32) {
-        recorder.fill(&self.display.buffer, vk::WHOLE_SIZE, code);
-        fill(recorder, &self.color.buffer, background, pixels);
+        recorder.fill(self.buffer(Data::Display), vk::WHOLE_SIZE, code);
+        fill(recorder, self.buffer(Data::Color), background, pixels);
         if self.sizes.attributes && self.sizes.locations.is_some() {
             let unseen = [[0, 0, 0, code], [0; 4]];
-            fill(recorder, &self.attributes, unseen, pixels);
+            fill(recorder, self.buffer(Data::Attributes), unseen, pixels);
         }
     }
 }

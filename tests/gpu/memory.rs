@@ -1,0 +1,41 @@
+//! Bytes that the table of buffers promises, compared with those of the buffers that are made from it.
+
+use crate::bare::Bare;
+use crate::stage::on_gpu;
+use gpc::testing::{CellSizes, Cells, Data, LocationSizes, ResourceSizes};
+
+/// Bytes of objects besides the buffers of the table, and of what the driver adds to each buffer so that it is aligned.
+const MOST_BESIDE: u64 = 32 << 10;
+
+/// Plans take the bytes from the table, so that no frame exceeds a limit for memory.
+#[test]
+fn buffers_have_the_bytes_that_are_planned() {
+    on_gpu(|gpu| {
+        let limits = gpu.gpu().limits();
+        let pixels = ResourceSizes {
+            survivor_capacity: 10_001,
+            filtered_triangles: 5_000,
+            pair_capacity: 33_331,
+            list_capacity: 7_777,
+            record_capacity: 12_345,
+            filtered: 999,
+            shadow_words: 3,
+            attributes: true,
+            encoded: 4_321,
+            ..ResourceSizes::new([323, 145], 7, limits)
+        };
+        let cells = CellSizes::new(limits.teams.members, Cells::Points, 1);
+        let list = LocationSizes::new(50_000, pixels.tiles(), &cells);
+        let own = ResourceSizes { locations: Some(list), ..pixels };
+        let lent = ResourceSizes { locations: Some(LocationSizes { lent: true, ..list }), ..pixels };
+        for sizes in [pixels, own, lent] {
+            let bare = Bare::new(gpu, sizes, 16);
+            let made: u64 = Data::ALL.iter().map(|data| bare.resources.buffer(*data).size()).sum();
+            assert_eq!(sizes.bytes(), made);
+            let allocated = bare.memory.used();
+            assert!((made..made + MOST_BESIDE).contains(&allocated), "{made} of {allocated} bytes");
+        }
+        let difference = own.bytes() - lent.bytes();
+        assert_eq!(difference, 32 * 50_000 - 16);
+    });
+}
