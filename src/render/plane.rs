@@ -57,7 +57,8 @@ impl PlaneWindow {
         scene: &GpuScene,
         pinhole: &Pinhole,
         settings: &SamplerSettings,
-        (cells, samples): (Cells, u32),
+        cells: Cells,
+        samples: u32,
         sizes: &ResourceSizes,
     ) -> FrameUniform {
         let of_cell = if cells.are_points() { 1 } else { samples };
@@ -69,6 +70,6 @@ impl PlaneWindow {
             ..PlaneBlock::default()
         };
         let scene = SceneBlock::of(scene, &pinhole.into());
-        frame_uniform(&scene, &plane, settings, (samples, &footprints), sizes)
+        frame_uniform(&scene, &plane, settings, samples, &footprints, sizes)
     }
 }

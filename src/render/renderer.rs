@@ -229,7 +229,8 @@ impl Renderer {
         self.check(frame.scene())?;
         let mut like = Frame::new(
             &self.layout,
-            (frame.scene(), frame.casters()),
+            frame.scene(),
+            frame.casters(),
             frame.settings(),
             frame.encoding(),
             capacity,
@@ -252,8 +253,8 @@ impl Renderer {
     ) -> Result<Frame, RenderError> {
         self.check(&scene.gpu_scene)?;
         settings.check(self.gpu.limits())?;
-        let shown = (&scene.gpu_scene, scene.casters.as_ref());
+        let (shown, casters) = (&scene.gpu_scene, scene.casters.as_ref());
         let reserved = reserved + scene.casters_bytes();
-        Frame::new(&self.layout, shown, settings, encoding, capacity, reserved)
+        Frame::new(&self.layout, shown, casters, settings, encoding, capacity, reserved)
     }
 }

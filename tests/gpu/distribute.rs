@@ -51,7 +51,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[PlacedLocation]) -> (Found,
         resources.record_upload(&recorder);
         resources.record_begin(&recorder, set, &FrameUniform::default());
         let region = ListRegion { tiles: TILES, count: list.len() as u32 };
-        distribute.record(&recorder, (resources, set), &region);
+        distribute.record(&recorder, resources, set, &region);
         drop(recorder);
         for (from, to) in &kept {
             copy(gpu, commands, from, to);

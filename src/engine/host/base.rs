@@ -55,7 +55,8 @@ impl Base {
         &self,
         recorder: &Recorder<'_>,
         resources: &Resources,
-        (uniform, placed): (&FrameUniform, &PlacedDraws),
+        uniform: &FrameUniform,
+        placed: &PlacedDraws,
         targets: Option<&RasterTargets>,
         shading: &dyn RecordShading,
     ) {

@@ -380,9 +380,8 @@ impl Frame {
         let first = if shades_all { at_centres } else { at_places };
         lending.record_visible(recorder, &first);
         resources.record_begin(recorder, set, &uniform);
-        let seen = (&uniform, &placed);
         let targets = work.scratch.targets();
-        work.base.record(recorder, resources, seen, targets, &shading);
+        work.base.record(recorder, resources, &uniform, &placed, targets, &shading);
         if shades_all {
             lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.
@@ -432,7 +431,7 @@ impl Frame {
         };
         let samples = settings.cells.samples;
         let footprints = Footprints::new(settings.filter, samples);
-        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &footprints), job.resources().sizes())
+        frame_uniform(&scene_block(geometry, placed), &plane, settings, samples, &footprints, job.resources().sizes())
     }
 }
 

@@ -140,8 +140,8 @@ impl Work {
             shadow_words: 0,
             lent: true,
         };
-        let room = (list.capacity, padded(options.size));
-        let sizes = cells.sizes(layout, content, &settings.cells, room, capacity);
+        let region = padded(options.size);
+        let sizes = cells.sizes(layout, content, &settings.cells, list.capacity, region, capacity);
         sizes.check(gpu.limits())?;
         let (offsets, count) = cells.offsets(layout, &settings.cells)?;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -160,7 +160,7 @@ impl Work {
         // SAFETY: the caller guarantees the list's buffers; the others live as long as this value.
         let (mut sampler, visibility_set) = unsafe {
             (
-                cells.sampler(&job.context(content, 1), (job.resources(), locations.texels().into()))?,
+                cells.sampler(&job.context(content, 1), job.resources(), locations.texels().into())?,
                 lending.visibility_set(shared, job.resources(), Some(list.info()))?,
             )
         };
@@ -373,7 +373,7 @@ impl List {
             ..plane_block(&geometry.clip, &self.plane(), self.options.size)
         };
         let samples = self.work.sampling.sampler.samples();
-        frame_uniform(&scene_block(geometry, placed), &plane, settings, (samples, &self.footprints()), sizes)
+        frame_uniform(&scene_block(geometry, placed), &plane, settings, samples, &self.footprints(), sizes)
     }
 }
 

@@ -70,7 +70,7 @@ impl Distribute {
     }
 
     /// Records the pass, after [`Resources::record_begin`] has begun the list's region. Later passes see the frame's `set` again.
-    pub fn record(&self, recorder: &Recorder<'_>, (resources, set): (&Resources, &SampleSet), region: &ListRegion) {
+    pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, set: &SampleSet, region: &ListRegion) {
         let push = spirv::DistributePush {
             tiles: region.tiles,
             count: region.count,

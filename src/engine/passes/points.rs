@@ -17,7 +17,8 @@ pub(crate) fn pass(
     layout: &FrameLayout,
     scene: &dyn Content,
     output: &ColorConstants,
-    (attributes, shadow_words): (bool, u32),
+    attributes: bool,
+    shadow_words: u32,
 ) -> Result<Pass, VulkanError> {
     let points = layout.kernel(&spirv::Points {
         attributes,

@@ -151,10 +151,21 @@ pub(crate) struct Shortfall {
     pub rooms: u32,
 }
 
+/// Room of a run whose counters are read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CountedRoom {
+    /// Number of tiles.
+    pub tiles: u32,
+    /// Largest number of triangles that may touch a cell, or that are thin.
+    pub triangles: u32,
+    /// Largest number of pairs of a triangle and a tile.
+    pub pairs: u32,
+}
+
 impl Shortfall {
-    /// Adds a run of the sampling passes over `tiles` tiles, with room for `triangles` triangles and `pairs` pairs.
-    /// `samples_unlisted` says whether tiles without a list were sampled or skipped.
-    pub fn add(&mut self, counters: &[u32], (tiles, triangles, pairs): (u32, u32, u32), samples_unlisted: bool) {
+    /// Adds a run of the sampling passes in this room. `samples_unlisted` says whether tiles without a list were sampled or skipped.
+    pub fn add(&mut self, counters: &[u32], room: CountedRoom, samples_unlisted: bool) {
+        let CountedRoom { tiles, triangles, pairs } = room;
         let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
             let done = get(Counter::NextTile);
@@ -201,12 +212,12 @@ mod tests {
         let mut counters = [0; Counter::COUNT];
         counters[Counter::Survivors as usize] = 70 * ROOM + 1;
         let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, ROOM, 1), false);
+        shortfall.add(&counters, CountedRoom { tiles: 1, triangles: ROOM, pairs: 1 }, false);
         assert_eq!(Capacity::default().more(shortfall).lists, 128);
         counters = [0; Counter::COUNT];
         counters[Counter::Pairs as usize] = 5 * ROOM;
         let mut shortfall = Shortfall::default();
-        shortfall.add(&counters, (1, 1, ROOM), false);
+        shortfall.add(&counters, CountedRoom { tiles: 1, triangles: 1, pairs: ROOM }, false);
         assert_eq!(Capacity::default().more(shortfall).lists, 8);
         // A shortage of unknown size multiplies only the capacity that was short.
         let crowded = Shortfall { crowded: 1, ..Shortfall::default() };

@@ -47,7 +47,8 @@ impl ListCells {
         layout: &FrameLayout,
         scene: &dyn Content,
         options: &CellOptions,
-        (locations, region): (u32, [u32; 2]),
+        locations: u32,
+        region: [u32; 2],
         capacity: Capacity,
     ) -> ResourceSizes {
         let limits = layout.gpu.limits();
@@ -96,7 +97,8 @@ impl ListCells {
     pub unsafe fn sampler(
         &self,
         context: &SamplerContext<'_>,
-        (resources, locations): (&Resources, Descriptor),
+        resources: &Resources,
+        locations: Descriptor,
     ) -> Result<Sampler, EngineError> {
         let SamplerContext { layout, scene, settings, ref output, .. } = *context;
         let sizes = self.cell_sizes(layout, &settings.cells);
@@ -107,12 +109,9 @@ impl ListCells {
             let distribute = unsafe { Distribute::of_lent(layout, self.cells, sizes, resources, locations) }?;
             Ok(Source::List(distribute))
         };
-        Sampler::new(context, &options, source, |blocks| {
-            let of_points = (self.attributes, self.shadow_words);
-            match self.cells {
-                Cells::Points => Ok(vec![points::pass(layout, scene, output, of_points)?]),
-                Cells::Superpixels | Cells::Pixels => averaging(context, blocks, ResolveTarget::Nothing, None),
-            }
+        Sampler::new(context, &options, source, |blocks| match self.cells {
+            Cells::Points => Ok(vec![points::pass(layout, scene, output, self.attributes, self.shadow_words)?]),
+            Cells::Superpixels | Cells::Pixels => averaging(context, blocks, ResolveTarget::Nothing, None),
         })
     }
 }

@@ -103,7 +103,7 @@ impl Load {
             (headers(cells), records, headers(cells_of_tile)),
         ];
         let needs = listed.into_iter();
-        let needs = needs.chain(self.unlisted_needs(sizes, triangles, (cells, cells_of_tile)));
+        let needs = needs.chain(self.unlisted_needs(sizes, triangles, cells, cells_of_tile));
         let ended: u64 = needs.map(|(all, room, most)| rounds_ended(all, room, most)).sum();
         (1 + ended).min(tiles).max(1) as u32
     }
@@ -114,7 +114,8 @@ impl Load {
         &self,
         sizes: &ResourceSizes,
         triangles: u32,
-        (cells, cells_of_tile): (u64, u64),
+        cells: u64,
+        cells_of_tile: u64,
     ) -> Vec<(u64, u64, u64)> {
         if !self.blocks.options.samples_unlisted {
             return Vec::new();

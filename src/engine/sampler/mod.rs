@@ -25,7 +25,7 @@ mod tile_lists;
 pub(crate) mod uniform;
 
 pub use crate::vulkan::timings::PassTime;
-pub(crate) use capacity::{Capacity, PlaneRoom, Shortfall};
+pub(crate) use capacity::{Capacity, CountedRoom, PlaneRoom, Shortfall};
 pub(crate) use counter_log::CounterLog;
 pub use error::EngineError;
 pub use image_state::ImageState;
@@ -235,7 +235,7 @@ impl Sampler {
             }
             Source::List(distribute) => {
                 let region = ListRegion { tiles: uniform.tiles, count: run.locations };
-                distribute.record(recorder, (resources, set), &region);
+                distribute.record(recorder, resources, set, &region);
             }
         }
         let growths = self.source.growths();
@@ -287,7 +287,7 @@ impl Sampler {
         for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
             for counters in counted {
                 let [triangles, pairs] = self.capacities;
-                let room = (tiles, triangles, pairs);
+                let room = CountedRoom { tiles, triangles, pairs };
                 shortfall.add(counters, room, self.capacity.samples_unlisted);
             }
         }

@@ -130,7 +130,8 @@ impl Plan {
         image: &ImageRequest<'_>,
         scene: &dyn Content,
         limits: &Limits,
-        (encoded_bytes, shadow_words): (u64, u32),
+        encoded_bytes: u64,
+        shadow_words: u32,
         capacity: Capacity,
         taken: u64,
     ) -> Result<Self, EngineError> {

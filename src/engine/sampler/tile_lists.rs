@@ -46,7 +46,7 @@ impl TileLists {
         region: [u32; 2],
         capacity: Capacity,
     ) -> ResourceSizes {
-        let sizes = PLACES.sizes(layout, scene, options, (1, region), capacity);
+        let sizes = PLACES.sizes(layout, scene, options, 1, region, capacity);
         let [triangles, tiles] = [scene.triangle_slots().into(), tile_count(region)];
         let usual = (PAIRS_OF_TRIANGLE * triangles + PAIRS_OF_TILE * tiles).clamp(FEWEST_PAIRS, MOST_CANDIDATES);
         // All lists are in memory at once.

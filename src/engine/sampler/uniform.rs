@@ -79,7 +79,8 @@ pub(crate) fn frame_uniform(
     scene: &SceneBlock,
     plane: &PlaneBlock,
     settings: &SamplerSettings,
-    (samples, footprints): (u32, &Footprints),
+    samples: u32,
+    footprints: &Footprints,
     sizes: &ResourceSizes,
 ) -> FrameUniform {
     let [width, height] = plane.size;

@@ -57,7 +57,8 @@ impl Frame {
     /// Prepares a frame. `reserved` bytes of the memory that the settings allow are left to other owners.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
-        (scene, casters): (&Arc<GpuScene>, Option<&Arc<Casters>>),
+        scene: &Arc<GpuScene>,
+        casters: Option<&Arc<Casters>>,
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
@@ -84,7 +85,8 @@ impl Frame {
             &settings.image(),
             &**scene,
             gpu.limits(),
-            (encoding.map_or(0, Encoding::encoded_bytes), casters.map_or(0, |casters| casters.shadow_words())),
+            encoding.map_or(0, Encoding::encoded_bytes),
+            casters.map_or(0, |casters| casters.shadow_words()),
             capacity,
             beside_regions + shadows.map_or(0, |request| request.bytes()),
         )?;

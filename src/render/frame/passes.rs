@@ -79,11 +79,11 @@ impl Passes {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
                 spans: spans::pass(layout, scene)?,
-                shade: shade::pass(layout, scene, (source, words), &output)?,
+                shade: shade::pass(layout, scene, source, words, &output)?,
             })
         };
         const SUPERPIXELS: ShadeSource = ShadeSource::Records { cells: Cells::Pixels };
-        let shading = || shade::pass(layout, scene, (SUPERPIXELS, words), &output);
+        let shading = || shade::pass(layout, scene, SUPERPIXELS, words, &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) =
             rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_records.then(shading).transpose());

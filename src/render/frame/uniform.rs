@@ -38,7 +38,8 @@ impl FrameRecording<'_> {
             &SceneBlock::of(scene, &camera.into()),
             &plane,
             self.sampler,
-            (samples, &footprints),
+            samples,
+            &footprints,
             &self.plan.sizes,
         )
     }

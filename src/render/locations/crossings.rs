@@ -8,7 +8,7 @@ use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
 use crate::engine::passes::cull::{self, CullFilter};
 use crate::engine::passes::{Distribute, bin};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::{CounterLog, SamplerRun, Shortfall};
+use crate::engine::sampler::{CountedRoom, CounterLog, SamplerRun, Shortfall};
 use crate::render::passes::{MarkedOutput, SeenLocation, crossings};
 use crate::render::plane::PlaneWindow;
 use crate::render::{PreparedScene, RenderError, Statistics};
@@ -38,7 +38,8 @@ impl CrossingFinder {
         prepared: &PreparedScene,
         settings: &ListSettings,
         plan: &LocationPlan,
-        (output, marks): (MarkedOutput, &Buffer),
+        output: MarkedOutput,
+        marks: &Buffer,
         folds: bool,
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
@@ -60,7 +61,7 @@ impl CrossingFinder {
             bin: bin::pass(layout, scene)?,
             // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
             // marks.
-            crossings: unsafe { crossings::pass(layout, scene, resources, (&seen, marks), output, folds) }?,
+            crossings: unsafe { crossings::pass(layout, scene, resources, &seen, marks, output, folds) }?,
             seen,
             counters: CounterLog::new(memory, 1)?,
             run,
@@ -83,7 +84,8 @@ impl CrossingFinder {
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
-        (pinhole, window): (&Pinhole, &PlaneWindow),
+        pinhole: &Pinhole,
+        window: &PlaneWindow,
         count: usize,
         commands: vk::CommandBuffer,
     ) {
@@ -91,7 +93,7 @@ impl CrossingFinder {
         let record = |recorder: &Recorder<'_>, list: &SamplerRun<'_>, _| {
             let SamplerRun { resources, set, .. } = *list;
             let region = window.region(count);
-            distribute.record(recorder, (resources, set), &region);
+            distribute.record(recorder, resources, set, &region);
             cull.record(recorder);
             bin.record(recorder);
             crossings.record(recorder);
@@ -111,7 +113,7 @@ impl CrossingFinder {
         let sizes = self.run.job.resources().sizes();
         let mut shortfall = Shortfall::default();
         for counters in self.counters.read(1)?.flatten() {
-            let room = (0, sizes.survivor_capacity, sizes.pair_capacity);
+            let room = CountedRoom { tiles: 0, triangles: sizes.survivor_capacity, pairs: sizes.pair_capacity };
             shortfall.add(counters, room, true);
             // No other pass looks at the pairs that were left out.
             let unpaired = Counter::Pairs.of(counters).saturating_sub(sizes.pair_capacity);

@@ -83,9 +83,7 @@ impl Headless {
                 for (pinhole, locations) in rig {
                     let taken = band.locations(locations, settings.size[0]);
                     if !taken.is_empty() {
-                        let pinhole = (pinhole, &*taken);
-                        let shown = (&detector, &band);
-                        let mut found = self.find_crossings(scene, pinhole, shown, image)?;
+                        let mut found = self.find_crossings(scene, pinhole, &taken, &detector, &band, image)?;
                         found.memory_bytes += detector.job.memory().used();
                         statistics.append(found);
                     }
@@ -99,7 +97,7 @@ impl Headless {
                 // SAFETY: as above.
                 self.submit(|commands| unsafe { detector.record(&band, search, commands) })?;
                 detector.add_statistics(&mut statistics)?;
-                statistics.append(self.sample_found(scene, rig, (&detector, &band), image)?);
+                statistics.append(self.sample_found(scene, rig, &detector, &band, image)?);
             }
         }
         Ok(statistics)
@@ -110,7 +108,8 @@ impl Headless {
         &mut self,
         scene: &PreparedScene,
         rig: PinholeLists<'_>,
-        (detector, band): (&BandDetector, &Band),
+        detector: &BandDetector,
+        band: &Band,
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let settings = detector.settings_beside();
@@ -138,12 +137,11 @@ impl Headless {
         image: &OutputImage,
         shadowed: &mut [bool],
     ) -> Result<Statistics, RenderError> {
-        let points = (&settings.scene, settings.filter());
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
             for probe in PROBES {
                 let probes: Vec<SampleLocation> = locations.iter().map(|location| location.at(probe)).collect();
-                let seen = self.sample_filtered_points(scene, pinhole, &probes, points)?;
+                let seen = self.sample_filtered_points(scene, pinhole, &probes, &settings.scene, settings.filter())?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
                     let PointSample { id, shadows, .. } = *seen;
@@ -159,8 +157,10 @@ impl Headless {
     fn find_crossings(
         &mut self,
         scene: &PreparedScene,
-        (pinhole, locations): (&Pinhole, &[SampleLocation]),
-        (detector, band): (&BandDetector, &Band),
+        pinhole: &Pinhole,
+        locations: &[SampleLocation],
+        detector: &BandDetector,
+        band: &Band,
         image: &OutputImage,
     ) -> Result<Statistics, RenderError> {
         let layout = self.renderer.layout.clone();
@@ -178,7 +178,7 @@ impl Headless {
         let make = |capacity| {
             let plan = LocationPlan::new(&layout, scene, &settings, &partition, false, capacity)?;
             // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
-            let finder = unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, (output, marks), folds) }?;
+            let finder = unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, output, marks, folds) }?;
             Ok((plan, finder))
         };
         let first = band.seen.start * width;
@@ -189,14 +189,14 @@ impl Headless {
             |headless, finder, run| {
                 let window = partition.window(run);
                 let (listed, seen) = finder.listed_mut(run.len())?;
-                partition.list((run, &window), listed);
+                partition.list(run, &window, listed);
                 for (seen, place) in seen.iter_mut().zip(run.clone()) {
                     *seen = image.seen_at(partition.location(place).output, first);
                 }
                 // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
                 // cells are those of the band.
                 headless.submit(|commands| unsafe {
-                    finder.record(scene, (pinhole, &window), run.len(), commands);
+                    finder.record(scene, pinhole, &window, run.len(), commands);
                 })?;
                 Ok(finder.shortfall()?)
             },
@@ -383,7 +383,8 @@ impl BandDetector {
             &SceneBlock::default(),
             &plane,
             of_sampler,
-            (1, &Footprints::new(settings.filter(), 1)),
+            1,
+            &Footprints::new(settings.filter(), 1),
             resources.sizes(),
         );
         let [columns, rows] = uniform.tiles;

@@ -68,12 +68,12 @@ impl Headless {
         }
         let samples_cells = settings.method != Method::None;
         let every = samples_cells && settings.superpixels().detection == Detection::Every;
-        let points = (&settings.scene, settings.filter());
         let mut statistics = Statistics::default();
         let mut image = OutputImage::new(count as usize, &settings);
         if !every || settings.attributes {
             for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-                let seen = self.sample_filtered_points(scene, pinhole, locations, points)?;
+                let seen =
+                    self.sample_filtered_points(scene, pinhole, locations, &settings.scene, settings.filter())?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
                     image.put(location.output as usize, seen);

@@ -108,7 +108,7 @@ impl Headless {
         settings: &SceneSettings,
     ) -> Result<Sampled<PointSample>, RenderError> {
         let filter = TextureFilter::of_cells(settings.footprint, Shading::Part);
-        self.sample_filtered_points(scene, pinhole, locations, (settings, filter))
+        self.sample_filtered_points(scene, pinhole, locations, settings, filter)
     }
 
     /// Samples a scene once at each location, with this filter of textures.
@@ -117,13 +117,14 @@ impl Headless {
         scene: &PreparedScene,
         pinhole: &Pinhole,
         locations: &[SampleLocation],
-        (settings, filter): (&SceneSettings, TextureFilter),
+        settings: &SceneSettings,
+        filter: TextureFilter,
     ) -> Result<Sampled<PointSample>, RenderError> {
         let settings =
             &ListSettings { scene: settings.clone(), sampler: settings.sampler(CellOptions::new(1), filter) };
         let partition = Partition::new(locations, Cells::Points)?;
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
-        let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
+        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
             partition.put(&run.places, &mut values, |i| {
                 let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
@@ -162,7 +163,7 @@ impl Headless {
         let settings = &ListSettings { scene: settings.clone(), sampler: settings.sampler(cells, filter) };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
-        let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
+        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
             partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
         })?;
         Ok(Sampled { values, statistics })
@@ -172,7 +173,8 @@ impl Headless {
     fn run_locations(
         &mut self,
         partition: &Partition<'_>,
-        (scene, pinhole): (&PreparedScene, &Pinhole),
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
         settings: &ListSettings,
         mut take: impl FnMut(&RunValues<'_>),
     ) -> Result<Statistics, RenderError> {
@@ -192,7 +194,7 @@ impl Headless {
             make,
             |headless, sampler, run| {
                 let window = partition.window(run);
-                partition.list((run, &window), sampler.listed_mut(run.len())?);
+                partition.list(run, &window, sampler.listed_mut(run.len())?);
                 let sight = Sight {
                     pinhole: *pinhole,
                     whole: [low - beyond, high + beyond],

@@ -131,7 +131,7 @@ impl<'a> Partition<'a> {
     }
 
     /// Writes a run's locations in the format of the device, in pixels of its window.
-    pub fn list(&self, (run, window): (&Range<usize>, &PlaneWindow), to: &mut [ListedLocation]) {
+    pub fn list(&self, run: &Range<usize>, window: &PlaneWindow, to: &mut [ListedLocation]) {
         to.par_iter_mut().enumerate().for_each(|(i, listed)| {
             let SampleLocation { uv, jacobian, .. } = self.location(run.start + i);
             let floor = uv.map(f64::floor);
@@ -363,7 +363,7 @@ mod tests {
         let mut seen = Vec::new();
         for (run, window) in runs.iter().zip(&windows) {
             let mut listed = vec![ListedLocation::default(); run.len()];
-            partition.list((run, window), &mut listed);
+            partition.list(run, window, &mut listed);
             partition.put(run, &mut seen, |i| 1 + listed[i].pixel[0]);
             for (place, listed) in run.clone().zip(&listed) {
                 let uv = partition.location(place).uv;

@@ -62,9 +62,10 @@ impl LocationPlan {
             let runs = partition.runs(longest);
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
-            let room = (most as u32, region(windows));
+            let region = region(windows);
             let words = casters.map_or(0, |casters| casters.shadow_words());
-            let sizes = list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, room, capacity);
+            let sizes =
+                list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, most as u32, region, capacity);
             let shadows = |casters| settings.shadows(layout, casters, capacity, places);
             let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes());
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;

@@ -97,7 +97,7 @@ impl RunMemory {
         let Some(set) = resources.set(0) else {
             return;
         };
-        let uniform = window.uniform(scene, pinhole, settings, (cells, samples), resources.sizes());
+        let uniform = window.uniform(scene, pinhole, settings, cells, samples, resources.sizes());
         recorder.begin();
         resources.record_begin(recorder, set, &uniform);
         if let Some(stroke) = &self.stroke {

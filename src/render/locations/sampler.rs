@@ -55,7 +55,7 @@ impl LocationSampler {
         let context = job.context(scene, 1);
         let source = ShadeSource::Records { cells: *cells };
         // SAFETY: the list lives as long as the resources, and has room for that many locations.
-        let sampler = unsafe { listed.sampler(&context, (resources, resources.texels(Data::Locations))) }?;
+        let sampler = unsafe { listed.sampler(&context, resources, resources.texels(Data::Locations)) }?;
         let shadows = |casters| {
             let request = settings.shadows(layout, casters, *capacity, *places);
             ShadowFinder::new(&request, job.memory(), scene, *cells, resources)
@@ -63,7 +63,7 @@ impl LocationSampler {
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
-            shade: shade::pass(layout, scene, (source, sizes.shadow_words), &context.output)?,
+            shade: shade::pass(layout, scene, source, sizes.shadow_words, &context.output)?,
             shadows,
             cells: *cells,
             sampler,

@@ -38,7 +38,8 @@ pub(crate) unsafe fn pass(
     layout: &FrameLayout,
     scene: &dyn Content,
     resources: &Resources,
-    (seen, marks): (&Buffer, &Buffer),
+    seen: &Buffer,
+    marks: &Buffer,
     output: MarkedOutput,
     folds: bool,
 ) -> Result<Pass, VulkanError> {

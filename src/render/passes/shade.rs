@@ -31,7 +31,8 @@ pub(crate) enum ShadeSource {
 pub(crate) fn pass(
     layout: &FrameLayout,
     scene: &GpuScene,
-    (source, shadow_words): (ShadeSource, u32),
+    source: ShadeSource,
+    shadow_words: u32,
     output: &ColorConstants,
 ) -> Result<Pass, VulkanError> {
     let lights = scene.light_features();

@@ -196,8 +196,8 @@ impl ShadowFinder {
         let Some(set) = plane.set(0) else {
             return;
         };
-        let (scene, cells) = (&*self.casters.scene, (Cells::Points, 1));
-        let uniform = view.window.uniform(scene, &view.pinhole, &self.settings, cells, plane.sizes());
+        let (scene, sizes) = (&*self.casters.scene, plane.sizes());
+        let uniform = view.window.uniform(scene, &view.pinhole, &self.settings, Cells::Points, 1, sizes);
         self.lists.record(recorder, plane, set, uniform);
     }
 
