@@ -51,6 +51,10 @@ pub fn generate() -> Vec<(PathBuf, String)> {
     for (name, _) in PARTS {
         assert!(used.iter().any(|other| other == name), "no document has the part \"{name}\"");
     }
+    for path in passes::SOURCES.map(|path| root().join(path)) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        files.push((path, passes::annotated(&text)));
+    }
     for (name, make) in PLOTS {
         files.push((root().join(format!("docs/figures/{name}.svg")), make()));
     }

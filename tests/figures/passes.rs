@@ -74,6 +74,30 @@ pub fn shadows() -> String {
     draw(&[lists, looks].concat())
 }
 
+/// Source files in which comments say what a pass reads from earlier passes of a frame, and what it writes.
+pub const SOURCES: [&str; 2] = ["src/render/frame/recording.rs", "src/engine/sampler/mod.rs"];
+
+/// Text of a source file. Its comments `// NAME: READS ─▶ WRITES` are written again from what the library records.
+pub fn annotated(text: &str) -> String {
+    const ARROW: &str = "─▶";
+    let drawn = [frame(), shadows()].concat();
+    let flow_of = |name: &str| {
+        let of_pass = |line: &&str| line.contains(ARROW) && line.split_whitespace().next() == Some(name);
+        let line = drawn.lines().find(of_pass).unwrap_or_else(|| panic!("no frame has the pass \"{name}\""));
+        line.strip_prefix(name).unwrap().trim().to_owned()
+    };
+    let line = |line: &str| {
+        let comment = line.trim_start().strip_prefix("// ").filter(|comment| comment.contains(ARROW));
+        match comment.and_then(|comment| comment.split_once(':')) {
+            Some((name, _)) => {
+                format!("{}// {name}: {}\n", &line[..line.len() - line.trim_start().len()], flow_of(name))
+            }
+            None => format!("{line}\n"),
+        }
+    };
+    text.lines().map(line).collect()
+}
+
 fn stage(asset: &str, shadows: Shadows) -> (Headless, PreparedScene, Camera) {
     let scene = Scene::load(&root().join(format!("assets/{asset}.glb"))).unwrap().scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();

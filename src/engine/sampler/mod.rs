@@ -221,16 +221,19 @@ impl Sampler {
         self.source.growths().len()
     }
 
-    /// Records a run: finding the cells, sampling and shading them, and their growth.
+    /// Records a run: finding the cells, sampling and shading them, and their growth. `make figures` writes what a pass of a
+    /// frame reads from earlier ones and what it writes.
     pub fn record(&self, recorder: &Recorder<'_>, run: &SamplerRun<'_>, shading: &dyn RecordShading) {
         let SamplerRun { resources, set, uniform, .. } = *run;
         let tiles = uniform.tiles[0] * uniform.tiles[1];
         match &self.source {
             Source::Pixels { thin, detect, .. } => {
                 if let Some(thin) = thin {
+                    // thin: ids, blend_ids, raster_depth ─▶ survivors, marks
                     thin.record_for(recorder, uniform.triangle_count);
                     shading.record_marks(recorder);
                 }
+                // detect: ids, blend_ids, display, marks ─▶ masks
                 detect.record_for(recorder, tiles);
             }
             Source::List(distribute) => {
@@ -252,6 +255,7 @@ impl Sampler {
         of_growth.alike = 0;
         for (slot, grow) in (first_slot + 1..).zip(growths) {
             resources.record_begin(recorder, set, &of_growth);
+            // grow: masks, marks ─▶ masks, marks
             grow.record_for(recorder, tiles);
             self.record_rounds(recorder, resources, grown_rounds, shading);
             self.counters.record(recorder, resources, slot);
@@ -260,15 +264,24 @@ impl Sampler {
 
     fn record_rounds(&self, recorder: &Recorder<'_>, resources: &Resources, rounds: u32, shading: &dyn RecordShading) {
         for pass in &self.candidates {
+            // cull: masks ─▶ survivors
+            // bin: masks, survivors ─▶ tiles, pairs
+            // tally: masks, tiles ─▶ tiles
             pass.record(recorder);
         }
         resources.record_rounds(recorder, rounds, |recorder| {
             for pass in &self.visibility {
+                // schedule: masks, tiles ─▶ tiles
+                // enlist: masks, tiles ─▶ tiles, tile_lists
+                // setup: tiles, pairs ─▶ candidates
+                // sample_lines: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ tile_lists, headers, records, marks
+                // sample: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ headers, records
                 pass.record(recorder);
             }
             self.sort.record(recorder);
             shading.record(recorder, resources);
             for pass in &self.colors {
+                // resolve: ids, display, masks, tiles, tile_lists, headers, records, shaded, marks ─▶ display, color, marks
                 pass.record(recorder);
             }
         });

@@ -312,7 +312,7 @@ impl Plan {
             _ => 1,
         };
         let images = u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
-        self.sizes.bytes() + images
+        self.sizes.planned_bytes() + images
     }
 }
 

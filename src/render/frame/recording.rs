@@ -100,6 +100,7 @@ impl FrameRecording<'_> {
         }))
     }
 
+    /// Records the passes of a region. `make figures` writes what a pass reads from earlier ones and what it writes.
     fn record_region(&self, recorder: &Recorder<'_>, index: usize, region: &Region) {
         let (passes, resources, scene) = (self.passes, self.resources, self.scene);
         let (Some(centre), Some(offsets)) = (resources.set(CENTRE), resources.set(OFFSETS)) else {
@@ -129,6 +130,8 @@ impl FrameRecording<'_> {
             let sizes = StrokeSizes::new(&self.settings.scene, side);
             stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
         }
+        // filter: ─▶ corners, indexed_draws
+        // raster: ─▶ ids, blend_ids, raster_depth
         passes.raster.record(
             recorder,
             self.geometry.runs(scene),
@@ -145,10 +148,14 @@ impl FrameRecording<'_> {
                 let code = display_code(background);
                 resources.record_background(recorder, pixels, background, code);
             });
+            // spans: ids ─▶ shade_order, bins
             spans.record_for(recorder, width.div_ceil(8) * height);
             if let Some(shadows) = self.shadows {
+                // receivers: ─▶ locations
+                // occlude: tiles, candidates, locations ─▶ words, left, marks_of_pixels
                 shadows.record(recorder, shadowed(main), Receiving::Pixels(whole.size));
             }
+            // shade: ids, shade_order, bins ─▶ display, color, shaded
             shade.record(recorder);
         }
         if let Some(Multisampling { multisample, sort, resolve }) = &passes.multisampling {

@@ -68,7 +68,7 @@ impl LocationPlan {
                 list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, most as u32, region, capacity);
             let shadows = |casters| settings.shadows(layout, casters, capacity, places);
             let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes());
-            let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
+            let held = sizes.planned_bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;
             let checked = sizes.check(limits);
             if checked.is_ok() && settings.scene.max_memory.is_none_or(|allowed| needed <= allowed) {

@@ -77,7 +77,7 @@ impl ShadowRequest<'_> {
         let sizes = TileLists::sizes(layout, &*casters.scene, &settings.cells, [side; 2], capacity);
         let planes = most_planes(&casters.lit, casters.scene.moves()).max(1);
         let most = max_memory.map_or(MOST_LIST_BYTES, |limit| MOST_LIST_BYTES.min(limit / LIST_SHARE));
-        let is_room = u64::from(planes) * sizes.bytes() <= most;
+        let is_room = u64::from(planes) * sizes.planned_bytes() <= most;
         PlanePlan { side, sizes, planes: if is_room { planes } else { 1 } }
     }
 
@@ -85,7 +85,7 @@ impl ShadowRequest<'_> {
     pub fn bytes(&self) -> u64 {
         let PlanePlan { sizes, planes, .. } = self.plan();
         let scene = &*self.casters.scene;
-        u64::from(planes) * sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
+        u64::from(planes) * sizes.planned_bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 }
 

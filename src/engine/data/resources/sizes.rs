@@ -6,6 +6,9 @@ use crate::engine::data::{LocationSizes, STRETCH};
 use crate::engine::spirv::{FILTER_TRIANGLES, TILE_LISTS};
 use crate::vulkan::{Limits, VulkanError};
 
+/// Number of bytes of what comes with the buffers of a frame.
+const BESIDE: u64 = 64 << 10;
+
 /// Sizes of a frame's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResourceSizes {
@@ -97,6 +100,13 @@ impl ResourceSizes {
     #[must_use]
     pub fn bytes(&self) -> u64 {
         Data::ALL.into_iter().map(|data| data.row(self).bytes()).sum()
+    }
+
+    /// Number of bytes that plans take for memory of these sizes: those of the buffers, and of what comes with them. That is
+    /// alignment, uniform blocks, sample offsets and copies of counters.
+    #[must_use]
+    pub fn planned_bytes(&self) -> u64 {
+        self.bytes() + BESIDE
     }
 
     /// Number of pixels of a region.

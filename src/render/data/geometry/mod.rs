@@ -17,7 +17,8 @@ pub(in crate::render) use placed::PlacedInstances;
 
 use crate::engine::data::upload::Uploader;
 use crate::engine::spirv;
-use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
+use crate::render::data::AlphaUse;
+use crate::scene::{DrawClass, Geometry, Instance, Motion, Scene};
 use crate::vulkan::{TexelBuffer, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
@@ -94,10 +95,11 @@ impl GpuGeometry {
         scene: &Scene,
         (geometry, motion): (&Geometry, Option<&Motion>),
         records: &[[u32; 4]],
+        alphas: AlphaUse,
     ) -> Result<Self, VulkanError> {
-        // The alpha test reads both streams, colours and texture coordinates, even if the scene has only one of them.
-        let has_mask = scene.materials.iter().any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
-        let filled = if has_mask { geometry.positions.len() } else { 0 };
+        // Reading an alpha takes both streams, colours and texture coordinates, even if the scene has only one of them.
+        let has_alpha = scene.materials.iter().any(|m| alphas.reads(m.alpha_mode));
+        let filled = if has_alpha { geometry.positions.len() } else { 0 };
         let colors = or_filled(&geometry.streams.colors, 1.0, filled);
         let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
         let positions = geometry.positions.iter();

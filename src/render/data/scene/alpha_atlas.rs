@@ -15,6 +15,17 @@ pub enum AlphaUse {
     Opacities,
 }
 
+impl AlphaUse {
+    /// Whether passes read the alpha of materials with this mode.
+    pub fn reads(self, mode: AlphaMode) -> bool {
+        match mode {
+            AlphaMode::Opaque => false,
+            AlphaMode::Mask { .. } => true,
+            AlphaMode::Blend => self == Self::Opacities,
+        }
+    }
+}
+
 /// Alpha channels of the base colour textures of materials that are not opaque, with their mipmaps.
 #[derive(Debug)]
 pub(super) struct AlphaAtlas {
@@ -32,12 +43,7 @@ impl AlphaAtlas {
     /// Adds a material's alpha texture, unless the atlas has it already; returns the material's vector `MATERIAL_ALPHA`.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
-        let is_read = match material.alpha_mode {
-            AlphaMode::Opaque => false,
-            AlphaMode::Mask { .. } => true,
-            AlphaMode::Blend => self.of == AlphaUse::Opacities,
-        };
-        let Some(used) = material.base_color_texture.filter(|_| is_read) else {
+        let Some(used) = material.base_color_texture.filter(|_| self.of.reads(material.alpha_mode)) else {
             return none;
         };
         let Some(texture) = scene.textures.get(used.texture as usize) else {

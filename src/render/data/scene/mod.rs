@@ -105,9 +105,9 @@ impl GpuScene {
         let bins = Bins::new(scene, (&looks, geometry), &slots, &mut textures)?;
         let triangles = Triangles::new(&looks, geometry, &bins);
         let mut atlas = AlphaAtlas::new(alphas);
-        let alphas: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
-        let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &alphas));
-        let materials = MaterialTable::new(&looks, slots, alphas);
+        let maps: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
+        let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &maps));
+        let materials = MaterialTable::new(&looks, slots, maps);
         let surroundings = pose.environment(scene);
         let suns = surroundings.map_or(&[][..], Environment::suns);
         let lights = pose.lights.iter();
@@ -118,7 +118,7 @@ impl GpuScene {
         let bins = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
         let (environment, environment_upload) = GpuEnvironment::new(layout, &mut uploader, surroundings)?;
-        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
+        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records, alphas)?;
         let TextureSet { textures, texture_uploads, samplers, .. } = textures;
         let scene = Self {
             materials: uploader.texels("materials", uint4, &materials.words)?,
