@@ -656,7 +656,6 @@ pub mod crossings_set {
 pub struct Crossings {
     pub blend_ids: bool,
     pub folds: bool,
-    pub occluders: bool,
     pub instanced: bool,
 }
 
@@ -665,7 +664,6 @@ impl Default for Crossings {
         Self {
             blend_ids: false,
             folds: false,
-            occluders: false,
             instanced: false,
         }
     }
@@ -700,7 +698,6 @@ impl Specialized for Crossings {
         Constants::new()
             .flag(1, self.blend_ids)
             .flag(2, self.folds)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
     }
 }
@@ -1136,7 +1133,6 @@ pub const GPC_SHADER_VERSION: (u32, u32) = (2046, 1);
 pub struct Groups {
     pub locations: bool,
     pub points: bool,
-    pub occluders: bool,
     pub cells_of_entry: u32,
 }
 
@@ -1145,7 +1141,6 @@ impl Default for Groups {
         Self {
             locations: false,
             points: false,
-            occluders: false,
             cells_of_entry: 8,
         }
     }
@@ -1173,7 +1168,6 @@ impl Specialized for Groups {
         Constants::new()
             .flag(20, self.locations)
             .flag(21, self.points)
-            .flag(22, self.occluders)
             .with(26, self.cells_of_entry)
     }
 }
@@ -1452,9 +1446,10 @@ pub mod occlude_set {
 pub struct Occlude {
     pub local_size: u32,
     pub team: u32,
-    pub has_mask: bool,
+    pub translucent: bool,
     pub instanced: bool,
     pub teams: u32,
+    pub shadow_words: u32,
 }
 
 impl Default for Occlude {
@@ -1462,9 +1457,10 @@ impl Default for Occlude {
         Self {
             local_size: 1,
             team: 8,
-            has_mask: false,
+            translucent: false,
             instanced: false,
             teams: 1,
+            shadow_words: 0,
         }
     }
 }
@@ -1485,6 +1481,7 @@ impl Specialized for Occlude {
             Use { set: 1, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
             Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
@@ -1501,9 +1498,10 @@ impl Specialized for Occlude {
         Constants::new()
             .with(0, self.local_size)
             .with(1, self.team)
-            .flag(2, self.has_mask)
+            .flag(2, self.translucent)
             .flag(23, self.instanced)
             .with(24, self.teams)
+            .with(25, self.shadow_words)
     }
 }
 
@@ -1840,14 +1838,7 @@ impl Compiled for RasterVertex {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ReceiversPush {
-    pub to_plane: [f32; 16],
-    pub light: [f32; 4],
-    pub cone: [f32; 4],
-    pub low: [i32; 2],
-    pub size: [u32; 2],
-    pub range: f32,
-    pub step: u32,
-    pub face: u32,
+    pub probe: u32,
 }
 
 /// The set beside the frame's that `shaders/receivers.comp` binds.
@@ -1855,18 +1846,14 @@ pub mod receivers_set {
     use super::{Binding, Kind};
 
     pub const LOCATIONS_OUT: Binding = Binding::new(0, "locations_out", Kind::STORAGE_BUFFER, 1);
-    pub const WORDS: Binding = Binding::new(1, "words", Kind::STORAGE_BUFFER, 1);
 }
 
 /// Constants of `shaders/receivers.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Receivers {
     pub pixels: bool,
-    pub looked_up: bool,
     pub locations: bool,
-    pub occluders: bool,
     pub instanced: bool,
-    pub shadow_words: u32,
     pub diffuse_transmission: bool,
 }
 
@@ -1874,11 +1861,8 @@ impl Default for Receivers {
     fn default() -> Self {
         Self {
             pixels: false,
-            looked_up: false,
             locations: false,
-            occluders: false,
             instanced: false,
-            shadow_words: 0,
             diffuse_transmission: false,
         }
     }
@@ -1902,9 +1886,8 @@ impl Specialized for Receivers {
             Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
             Use { set: 2, binding: receivers_set::LOCATIONS_OUT, access: Access::Write },
-            Use { set: 2, binding: receivers_set::WORDS, access: Access::ReadWrite },
         ],
-        push_bytes: 124,
+        push_bytes: 4,
         invocations: Invocations::Fixed(64),
         by_teams: false,
     };
@@ -1912,11 +1895,8 @@ impl Specialized for Receivers {
     fn constants(&self) -> Constants {
         Constants::new()
             .flag(0, self.pixels)
-            .flag(1, self.looked_up)
             .flag(20, self.locations)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
-            .with(25, self.shadow_words)
             .flag(37, self.diffuse_transmission)
     }
 }
@@ -2037,7 +2017,6 @@ pub struct Sample {
     pub long: bool,
     pub locations: bool,
     pub points: bool,
-    pub occluders: bool,
     pub instanced: bool,
     pub teams: u32,
     pub cells_of_entry: u32,
@@ -2058,7 +2037,6 @@ impl Default for Sample {
             long: false,
             locations: false,
             points: false,
-            occluders: false,
             instanced: false,
             teams: 1,
             cells_of_entry: 8,
@@ -2117,7 +2095,6 @@ impl Specialized for Sample {
             .flag(12, self.long)
             .flag(20, self.locations)
             .flag(21, self.points)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(24, self.teams)
             .with(26, self.cells_of_entry)
@@ -2137,7 +2114,6 @@ pub struct SampleLines {
     pub header: u32,
     pub lines: u32,
     pub locations: bool,
-    pub occluders: bool,
     pub instanced: bool,
     pub teams: u32,
     pub cells_of_entry: u32,
@@ -2156,7 +2132,6 @@ impl Default for SampleLines {
             header: 64,
             lines: 16,
             locations: false,
-            occluders: false,
             instanced: false,
             teams: 1,
             cells_of_entry: 8,
@@ -2211,7 +2186,6 @@ impl Specialized for SampleLines {
             .with(10, self.header)
             .with(11, self.lines)
             .flag(20, self.locations)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(24, self.teams)
             .with(26, self.cells_of_entry)
@@ -2238,7 +2212,6 @@ pub struct Scatter {
     pub has_mask: bool,
     pub locations: bool,
     pub points: bool,
-    pub occluders: bool,
     pub instanced: bool,
     pub cells_of_entry: u32,
 }
@@ -2249,7 +2222,6 @@ impl Default for Scatter {
             has_mask: false,
             locations: false,
             points: false,
-            occluders: false,
             instanced: false,
             cells_of_entry: 8,
         }
@@ -2295,7 +2267,6 @@ impl Specialized for Scatter {
             .flag(2, self.has_mask)
             .flag(20, self.locations)
             .flag(21, self.points)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(26, self.cells_of_entry)
     }
@@ -2463,7 +2434,6 @@ pub struct Shade {
     pub environment: bool,
     pub one_texture_size: bool,
     pub locations: bool,
-    pub occluders: bool,
     pub instanced: bool,
     pub shadow_words: u32,
     pub tonemap: bool,
@@ -2516,7 +2486,6 @@ impl Default for Shade {
             environment: false,
             one_texture_size: false,
             locations: false,
-            occluders: false,
             instanced: false,
             shadow_words: 0,
             tonemap: true,
@@ -2606,7 +2575,6 @@ impl Specialized for Shade {
             .flag(17, self.environment)
             .flag(19, self.one_texture_size)
             .flag(20, self.locations)
-            .flag(22, self.occluders)
             .flag(23, self.instanced)
             .with(25, self.shadow_words)
             .flag(30, self.tonemap)
@@ -2645,71 +2613,6 @@ impl Specialized for Shade {
 impl Compiled for Shade {
     fn code() -> &'static [u8] {
         SHADE
-    }
-}
-
-/// What is pushed to `shaders/shadow.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct ShadowPush {
-    pub first_place: u32,
-    pub light: u32,
-    pub ends: u32,
-    pub width: u32,
-}
-
-/// The set beside the frame's that `shaders/shadow.comp` binds.
-pub mod shadow_set {
-    use super::{Binding, Kind};
-
-    pub const WORDS: Binding = Binding::new(0, "words", Kind::STORAGE_BUFFER, 1);
-    pub const LEFT: Binding = Binding::new(1, "left", Kind::STORAGE_BUFFER, 1);
-    pub const MARKS_OF_PIXELS: Binding = Binding::new(2, "marks_of_pixels", Kind::STORAGE_BUFFER, 1);
-}
-
-/// Constants of `shaders/shadow.comp`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shadow {
-    pub shadow_words: u32,
-}
-
-impl Default for Shadow {
-    fn default() -> Self {
-        Self {
-            shadow_words: 0,
-        }
-    }
-}
-
-impl Specialized for Shadow {
-    type Push = ShadowPush;
-
-    const INTERFACE: &'static Interface = &Interface {
-        name: "shadow",
-        in_frame: true,
-        uses: &[
-            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
-            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
-            Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
-            Use { set: 2, binding: shadow_set::WORDS, access: Access::ReadWrite },
-            Use { set: 2, binding: shadow_set::LEFT, access: Access::ReadWrite },
-            Use { set: 2, binding: shadow_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
-        ],
-        push_bytes: 16,
-        invocations: Invocations::Fixed(64),
-        by_teams: false,
-    };
-
-    fn constants(&self) -> Constants {
-        Constants::new()
-            .with(25, self.shadow_words)
-    }
-}
-
-impl Compiled for Shadow {
-    fn code() -> &'static [u8] {
-        SHADOW
     }
 }
 
@@ -3127,7 +3030,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 45] = [
+pub const INTERFACES: [&Interface; 44] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3165,7 +3068,6 @@ pub const INTERFACES: [&Interface; 45] = [
     Schedule::INTERFACE,
     Setup::INTERFACE,
     Shade::INTERFACE,
-    Shadow::INTERFACE,
     Sort::INTERFACE,
     Spans::INTERFACE,
     Stroke::INTERFACE,
@@ -3409,9 +3311,9 @@ pub const WRAP_MIRRORED_REPEAT: u32 = 1;
 pub const WRAP_CLAMP_TO_EDGE: u32 = 2;
 pub const SINGLE_PLANE: u32 = 6;
 pub const MANY_SAMPLES: u32 = 128;
-pub const RECEIVERS_LIGHT: u32 = 31;
-pub const RECEIVERS_BEGINS: u32 = 32;
-pub const RECEIVERS_PROBE_SHIFT: u32 = 6;
+pub const OCCLUDE_LIGHT: u32 = 31;
+pub const OCCLUDE_BEGINS: u32 = 32;
+pub const OCCLUDE_PROBE_SHIFT: u32 = 6;
 pub const LOAD_WORDS: u32 = 35;
 pub const THIN_PER_INVOCATION: u32 = 8;
 pub const FILTER_TRIANGLES: u32 = 2048;

@@ -39,7 +39,7 @@ fn finishes_in_little_memory(gpu: &mut Headless) {
     let tight = see(Some(bytes / 6));
     let [few, many] = [&roomy, &tight].map(|seen| seen.outcome.statistics.rounds);
     eprintln!("{few} {many} {bytes} {}", tight.outcome.statistics.memory_bytes);
-    assert!(few < 5 && many > 40, "{few} and {many} rounds");
+    assert!(few < 5 && many > 20, "{few} and {many} rounds");
     for seen in [&roomy, &tight] {
         assert_eq!(seen.outcome.left_over, 0);
     }
