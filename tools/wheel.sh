@@ -22,6 +22,6 @@ python3 -m venv "$out/test"
 wheel=$(ls "$out"/*.whl)
 "$out/test/bin/pip" install --quiet "$wheel[test]"
 cd python
-"$out/test/bin/mypy" --cache-dir "$out/mypy" tests
+"$out/test/bin/mypy" --cache-dir "$out/mypy" tests examples
 "$out/test/bin/python" -m mypy.stubtest gpc --concise
 "$out/test/bin/pytest" -q -o cache_dir="$out/pytest"

@@ -11,21 +11,32 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 from PIL import Image
 
 import gpc
+
+Places = npt.NDArray[np.float64]
 
 WIDTH, HEIGHT = SIZE = (640, 480)
 INTRINSICS = np.array([[500.0, 0.0, 321.5], [0.0, 502.0, 238.0], [0.0, 0.0, 1.0]])
 DISTORTION = np.array([-0.28, 0.09, 0.001, -0.0005, -0.01])
 
 
-def locations() -> "np.ndarray[tuple[int, int, int], np.dtype[np.float64]]":
+def distort(plain: Places) -> Places:
+    """Pixels at which the lens shows places of the undistorted plane."""
+    rays = np.concatenate([(plain - INTRINSICS[:2, 2]) / np.diag(INTRINSICS)[:2], np.ones((len(plain), 1))], axis=1)
+    shown = cv2.projectPoints(rays, np.zeros(3), np.zeros(3), INTRINSICS, DISTORTION)[0]
+    return np.asarray(shown, dtype=np.float64).reshape(-1, 2)
+
+
+def locations() -> Places:
     """Place on the undistorted plane of each pixel, counted from the plane's upper left corner."""
     columns, rows = np.meshgrid(np.arange(WIDTH, dtype=np.float64), np.arange(HEIGHT, dtype=np.float64))
-    distorted = np.stack([columns, rows], axis=-1).reshape(-1, 1, 2)
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-9)
-    plain = cv2.undistortPointsIter(distorted, INTRINSICS, DISTORTION, np.eye(3), INTRINSICS, criteria)
+    pixels = np.stack([columns, rows], axis=-1).reshape(-1, 2)
+    plain = np.asarray(cv2.undistortPoints(pixels, INTRINSICS, DISTORTION, P=INTRINSICS), np.float64).reshape(-1, 2)
+    for _ in range(20):  # OpenCV's five steps leave errors of some pixels in the corners.
+        plain = plain + pixels - distort(plain)
     # OpenCV counts from the centre of the first pixel.
     return plain.reshape(HEIGHT, WIDTH, 2) + 0.5
 

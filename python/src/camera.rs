@@ -10,11 +10,30 @@ type Rows<const R: usize, const C: usize> = [[f64; C]; R];
 
 #[derive(Clone, Debug)]
 enum Description {
+    /// The scene file's first camera, or a view of the whole scene.
+    Usual,
     Orbit(Orbit),
-    LookAt { eye: DVec3, target: Option<DVec3>, up: DVec3, fov: f64, near: Option<f64> },
-    OfScene { name: String, fov: Option<f64> },
-    Pose { camera_to_world: DMat4, fov: f64, near: Option<f64> },
-    Intrinsics { matrix: DMat3, world_to_camera: DMat4, near: Option<f64> },
+    LookAt {
+        eye: DVec3,
+        target: Option<DVec3>,
+        up: DVec3,
+        fov: f64,
+        near: Option<f64>,
+    },
+    OfScene {
+        name: String,
+        fov: Option<f64>,
+    },
+    Pose {
+        camera_to_world: DMat4,
+        fov: f64,
+        near: Option<f64>,
+    },
+    Intrinsics {
+        matrix: DMat3,
+        world_to_camera: DMat4,
+        near: Option<f64>,
+    },
 }
 
 /// A camera. World space is glTF's: right-handed, y up.
@@ -49,9 +68,9 @@ impl Camera {
 
     /// The scene file's camera with this name or index. `fov` replaces its vertical field of view in degrees.
     #[staticmethod]
-    #[pyo3(signature = (name="0".to_owned(), fov=None))]
-    fn of_scene(name: String, fov: Option<f64>) -> Self {
-        Self(Description::OfScene { name, fov })
+    #[pyo3(signature = (name="0", fov=None))]
+    fn of_scene(name: &str, fov: Option<f64>) -> Self {
+        Self(Description::OfScene { name: name.to_owned(), fov })
     }
 
     /// A camera with the pose of a 4 x 4 matrix from camera space (x right, y up, looking along -z, as in OpenGL and glTF) to world
@@ -96,7 +115,7 @@ fn check_axes(axes: DMat3, name: &str) -> PyResult<()> {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self(Description::Orbit(Orbit::default()))
+        Self(Description::Usual)
     }
 }
 
@@ -107,6 +126,8 @@ impl Camera {
         let [width, height] = size.map(f64::from);
         let usual_near = NEAR * (high - low).length().max(1e-9);
         let view = match &self.0 {
+            Description::Usual if !scene.cameras.is_empty() => of_scene(scene.cameras, "0", None)?,
+            Description::Usual => Orbit::default().frame(low, high, width / height).map_err(error::usage)?,
             Description::Orbit(orbit) => orbit.frame(low, high, width / height).map_err(error::usage)?,
             &Description::LookAt { eye, target, up, fov, near } => {
                 let target = target.unwrap_or(0.5 * (low + high));

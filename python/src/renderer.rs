@@ -221,7 +221,8 @@ impl Renderer {
         })
     }
 
-    /// Renders an image of `size` = (width, height).
+    /// Renders an image of `size` = (width, height). Without a camera, it shows the view of the scene's first camera, or the whole
+    /// scene.
     #[pyo3(signature = (camera=None, size=[1280, 720], **options))]
     pub fn render<'py>(
         &self,

@@ -29,20 +29,22 @@ def test_a_file_that_is_none(tmp_path: Path) -> None:
 
 def test_arrays_make_a_textured_quad() -> None:
     uvs = np.array([[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]])
-    texture = np.zeros((2, 2, 3), np.uint8)
-    texture[0, 0] = (255, 0, 0)
-    texture[1, 1] = (0, 0, 255)
+    texture = np.zeros((32, 32, 3), np.uint8)
+    texture[:16, :16] = (255, 0, 0)
+    texture[16:, 16:] = (0, 0, 255)
     scene = gpc.Scene.from_arrays(QUAD, FACES, uvs=uvs, texture=texture, unlit=True)
     assert scene.triangles == 2
     codes = gpc.render(scene, size=(64, 64), camera=FRONT, dtype="uint8")
-    upper_left, lower_right = codes[14, 14], codes[50, 50]
-    assert upper_left[0] > 200 and upper_left[2] < 20 and lower_right[2] > 200 and lower_right[0] < 20
+    # The tone curve mixes a little of each channel into the others.
+    upper_left, lower_right = codes[18, 18].astype(int), codes[46, 46].astype(int)
+    assert upper_left[0] > upper_left[2] + 100 and lower_right[2] > lower_right[0] + 100, (upper_left, lower_right)
 
 
 def test_colours_of_vertices_and_opacity() -> None:
     colors = np.tile([0.0, 1.0, 0.0, 0.5], (4, 1))
     image = gpc.render(gpc.Scene.from_arrays(QUAD, FACES, colors=colors, unlit=True), size=(64, 64), camera=FRONT)
-    assert image[32, 32, 3] == pytest.approx(0.5, abs=1e-3) and image[32, 32, 0] == pytest.approx(0.0, abs=1e-3)
+    red, green, _, alpha = image[32, 32]
+    assert alpha == pytest.approx(0.5, abs=1e-3) and green > 0.3 and red < 0.02
 
 
 def test_large_coordinates_lose_nothing() -> None:

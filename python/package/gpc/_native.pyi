@@ -4,20 +4,33 @@ from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
-from typing_extensions import TypedDict, Unpack
+from typing_extensions import TypedDict, Unpack, final
+
+__all__ = [
+    "Camera",
+    "Comparison",
+    "DeviceError",
+    "GpcError",
+    "Renderer",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "compare",
+    "render",
+]
 
 __version__: str
 
-FloatImage = npt.NDArray[np.float32]
-CodeImage = npt.NDArray[np.uint8]
-Layers = dict[str, npt.NDArray[Any]]
-Vector = Union[Sequence[float], npt.NDArray[np.float64]]
-Matrix = Union[Sequence[Sequence[float]], npt.NDArray[np.float64]]
-Size = tuple[int, int]
-Source = Union[Scene, str, PathLike[str], Any]
+_FloatImage = npt.NDArray[np.float32]
+_CodeImage = npt.NDArray[np.uint8]
+_Layers = dict[str, npt.NDArray[Any]]
+_Vector = Union[Sequence[float], npt.NDArray[np.float64]]
+_Matrix = Union[Sequence[Sequence[float]], npt.NDArray[np.float64]]
+_Size = tuple[int, int]
+_Source = Union[Scene, str, PathLike[str], Any]
 """A Scene, a file, or a mesh or scene of trimesh."""
 
-class Options(TypedDict, total=False):
+class _Options(TypedDict, total=False):
     """Keyword arguments that all ways of making an image have in common."""
 
     samples: int
@@ -26,7 +39,7 @@ class Options(TypedDict, total=False):
     contrast: Optional[int]
     """Codes of 8 bits by which colours must differ for a pixel to be sampled again."""
     shading: Literal["triangle", "part", "sample"]
-    background: Optional[Vector]
+    background: Optional[_Vector]
     """Linear red, green and blue; None for transparent."""
     exposure: float
     """Stops: 1 is twice as bright."""
@@ -44,6 +57,7 @@ class SceneError(GpcError):
 class DeviceError(GpcError):
     """No suitable device, a lost device, or too little memory."""
 
+@final
 class Camera:
     """A camera. World space is glTF's: right-handed, y up."""
 
@@ -51,19 +65,20 @@ class Camera:
     def orbit(azimuth: float = 35.0, elevation: float = 20.0, zoom: float = 1.0, fov: float = 40.0) -> Camera: ...
     @staticmethod
     def look_at(
-        eye: Vector,
-        target: Optional[Vector] = None,
-        up: Vector = ...,
+        eye: _Vector,
+        target: Optional[_Vector] = None,
+        up: _Vector = ...,
         fov: float = 40.0,
         near: Optional[float] = None,
     ) -> Camera: ...
     @staticmethod
     def of_scene(name: str = "0", fov: Optional[float] = None) -> Camera: ...
     @staticmethod
-    def from_pose(camera_to_world: Matrix, fov: float = 40.0, near: Optional[float] = None) -> Camera: ...
+    def from_pose(camera_to_world: _Matrix, fov: float = 40.0, near: Optional[float] = None) -> Camera: ...
     @staticmethod
-    def from_intrinsics(matrix: Matrix, world_to_camera: Matrix, near: Optional[float] = None) -> Camera: ...
+    def from_intrinsics(matrix: _Matrix, world_to_camera: _Matrix, near: Optional[float] = None) -> Camera: ...
 
+@final
 class Scene:
     """A scene: triangles, lines and points, materials, textures, lights, cameras and animations."""
 
@@ -92,8 +107,8 @@ class Scene:
         normals: Optional[npt.ArrayLike] = None,
         uvs: Optional[npt.ArrayLike] = None,
         colors: Optional[npt.ArrayLike] = None,
-        texture: Optional[CodeImage] = None,
-        base_color: Vector = ...,
+        texture: Optional[_CodeImage] = None,
+        base_color: _Vector = ...,
         metallic: float = 0.0,
         roughness: float = 0.7,
         unlit: bool = False,
@@ -102,12 +117,13 @@ class Scene:
     @staticmethod
     def from_trimesh(object: Any) -> Scene: ...
 
+@final
 class Renderer:
     """A device with a scene on it. It may be used from several threads, one after the other."""
 
-    def __init__(
-        self,
-        scene: Source,
+    def __new__(
+        cls,
+        scene: _Source,
         *,
         shadows: bool = False,
         time: float = 0.0,
@@ -115,72 +131,73 @@ class Renderer:
         device: Optional[str] = None,
         max_memory: Optional[int] = None,
         validation: bool = False,
-    ) -> None: ...
+    ) -> Renderer: ...
     @property
     def device(self) -> str: ...
     @property
     def validation_messages(self) -> list[str]: ...
     @overload
     def render(
-        self, camera: Optional[Camera] = None, size: Size = ..., *, dtype: Literal["uint8"], **options: Unpack[Options]
-    ) -> CodeImage: ...
+        self, camera: Optional[Camera] = None, size: _Size = ..., *, dtype: Literal["uint8"], **options: Unpack[_Options]
+    ) -> _CodeImage: ...
     @overload
     def render(
-        self, camera: Optional[Camera] = None, size: Size = ..., *, layers: Sequence[str], dtype: str = "float32",
-        **options: Unpack[Options],
-    ) -> Layers: ...
+        self, camera: Optional[Camera] = None, size: _Size = ..., *, layers: Sequence[str], dtype: str = "float32",
+        **options: Unpack[_Options],
+    ) -> _Layers: ...
     @overload
     def render(
-        self, camera: Optional[Camera] = None, size: Size = ..., *, dtype: Literal["float32"] = "float32",
-        **options: Unpack[Options],
-    ) -> FloatImage: ...
+        self, camera: Optional[Camera] = None, size: _Size = ..., *, dtype: Literal["float32"] = "float32",
+        **options: Unpack[_Options],
+    ) -> _FloatImage: ...
     @overload
     def render_views(
-        self, cameras: Sequence[Camera], size: Size = ..., *, progress: Optional[Callable[[int, int], object]] = None,
-        dtype: Literal["uint8"], **options: Unpack[Options],
-    ) -> CodeImage: ...
+        self, cameras: Sequence[Camera], size: _Size = ..., *, progress: Optional[Callable[[int, int], object]] = None,
+        dtype: Literal["uint8"], **options: Unpack[_Options],
+    ) -> _CodeImage: ...
     @overload
     def render_views(
-        self, cameras: Sequence[Camera], size: Size = ..., *, progress: Optional[Callable[[int, int], object]] = None,
-        dtype: Literal["float32"] = "float32", **options: Unpack[Options],
-    ) -> FloatImage: ...
+        self, cameras: Sequence[Camera], size: _Size = ..., *, progress: Optional[Callable[[int, int], object]] = None,
+        dtype: Literal["float32"] = "float32", **options: Unpack[_Options],
+    ) -> _FloatImage: ...
     def zoom(
         self,
-        center: Vector,
+        center: _Vector,
         radius: float,
         magnify: float,
         camera: Optional[Camera] = None,
-        size: Size = ...,
+        size: _Size = ...,
         *,
         shape: Literal["circle", "rectangle"] = "circle",
         smooth: bool = False,
         dtype: Literal["float32", "uint8"] = "float32",
         layers: Sequence[str] = ...,
-        **options: Unpack[Options],
+        **options: Unpack[_Options],
     ) -> Any: ...
     def panorama(
         self,
         projection: Literal["equirectangular", "cylindrical", "fisheye", "cubemap"],
-        size: Size = ...,
+        size: _Size = ...,
         camera: Optional[Camera] = None,
         *,
         fov: Optional[float] = None,
         dtype: Literal["float32", "uint8"] = "float32",
         layers: Sequence[str] = ...,
-        **options: Unpack[Options],
+        **options: Unpack[_Options],
     ) -> Any: ...
     def sample(
         self,
         locations: npt.NDArray[np.float64],
-        plane: Size,
+        plane: _Size,
         camera: Optional[Camera] = None,
         *,
         jacobians: Optional[npt.NDArray[np.float64]] = None,
         dtype: Literal["float32", "uint8"] = "float32",
         layers: Sequence[str] = ...,
-        **options: Unpack[Options],
+        **options: Unpack[_Options],
     ) -> Any: ...
 
+@final
 class Comparison:
     """Differences between an image and a reference, as a display shows them."""
 
@@ -199,8 +216,8 @@ class Comparison:
 
 @overload
 def render(
-    scene: Source,
-    size: Size = ...,
+    scene: _Source,
+    size: _Size = ...,
     camera: Optional[Camera] = None,
     *,
     dtype: Literal["uint8"],
@@ -209,12 +226,12 @@ def render(
     animation: Optional[str] = None,
     device: Optional[str] = None,
     max_memory: Optional[int] = None,
-    **options: Unpack[Options],
-) -> CodeImage: ...
+    **options: Unpack[_Options],
+) -> _CodeImage: ...
 @overload
 def render(
-    scene: Source,
-    size: Size = ...,
+    scene: _Source,
+    size: _Size = ...,
     camera: Optional[Camera] = None,
     *,
     layers: Sequence[str],
@@ -224,12 +241,12 @@ def render(
     animation: Optional[str] = None,
     device: Optional[str] = None,
     max_memory: Optional[int] = None,
-    **options: Unpack[Options],
-) -> Layers: ...
+    **options: Unpack[_Options],
+) -> _Layers: ...
 @overload
 def render(
-    scene: Source,
-    size: Size = ...,
+    scene: _Source,
+    size: _Size = ...,
     camera: Optional[Camera] = None,
     *,
     dtype: Literal["float32"] = "float32",
@@ -238,8 +255,8 @@ def render(
     animation: Optional[str] = None,
     device: Optional[str] = None,
     max_memory: Optional[int] = None,
-    **options: Unpack[Options],
-) -> FloatImage: ...
+    **options: Unpack[_Options],
+) -> _FloatImage: ...
 def compare(
-    reference: Union[str, PathLike[str], FloatImage, CodeImage], image: Union[str, PathLike[str], FloatImage, CodeImage]
+    reference: Union[str, PathLike[str], _FloatImage, _CodeImage], image: Union[str, PathLike[str], _FloatImage, _CodeImage]
 ) -> Comparison: ...
