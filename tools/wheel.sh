@@ -11,7 +11,8 @@ data=$out/gpc_render.data
 
 rm -rf "$data" "$out"/*.whl
 mkdir -p "$data/scripts"
-cargo build --release --bin gpc
+# With both packages at once, their dependencies are compiled once.
+cargo build --release -p gpc-render -p gpc-python
 strip -o "$data/scripts/gpc" "${CARGO_TARGET_DIR:-target}/release/gpc"
 [ -x "$out/build/bin/maturin" ] || { python3 -m venv "$out/build" && "$out/build/bin/pip" install --quiet 'maturin>=1.8,<2'; }
 "$out/build/bin/maturin" build --release --manifest-path python/Cargo.toml --out "$out"
