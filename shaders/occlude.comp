@@ -17,6 +17,7 @@
 #include "include/candidate.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = OCCLUDE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
+layout(constant_id = OCCLUDE_CONSTANT_ROWS) const uint ROWS = 8u;          // receivers of an invocation
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left { uint left; };
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
@@ -45,8 +46,8 @@ uint own[ROWS];             // the triangle that it lies on, which can't hide it
 uint hidden = 0u;           // a bit for each
 
 // The receiver that row `g` of this invocation takes; ~0 for none.
-uint receiver_of(int g) {
-    uint n = uint(g) * TEAM + member(), group = team_number();
+uint receiver_of(uint g) {
+    uint n = g * TEAM + member(), group = team_number();
     if (push.region.x == 0u) return group * 64u + n;
     uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
     return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
@@ -59,7 +60,7 @@ uint turned = 0u;           // a bit for each whose surface is turned away from 
 uint load_receivers() {
     uint asked = 0u;
     ivec2 first = ivec2(floor(frame.origin));
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint i = receiver_of(g);
         bool some = i != ~0u;
         receiver[g] = i;
@@ -88,7 +89,7 @@ uint pixel_at(vec2 p) {
 // Shows a candidate to the receivers `rows` of this invocation.
 void show_to(Candidate t, uint rows) {
     vec3 inner = thresholds(t);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float d;
         bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
         hidden |= there ? rows & 1u << g : 0u;
@@ -100,7 +101,7 @@ void show_masked_to(Candidate t, uint rows, vec2 center) {
     vec3 inner = thresholds(t);
     AlphaTest alpha = alpha_test(max(t.id, 1u) - 1u, center, place[0], mat2(0.0));
     uint asked = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float d;
         bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
         asked |= there ? rows & ~hidden & 1u << g : 0u;
@@ -110,7 +111,7 @@ void show_masked_to(Candidate t, uint rows, vec2 center) {
     do {
         uint row = pending == 0u ? 0u : uint(findLSB(pending));
         vec2 p = place[0];
-        [[unroll]] for (int g = 1; g < ROWS; g++) p = row == uint(g) ? place[g] : p;
+        [[unroll]] for (uint g = 1u; g < ROWS; g++) p = row == g ? place[g] : p;
         hidden |= alpha_passes(alpha, p) ? asked & pending & 1u << row : 0u;
         pending &= pending - 1u;
     } while (pending != 0u);
@@ -126,7 +127,7 @@ void test_in(uint its, uint mine) {
     vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
     float lowest = 3.4e38;
     uint pixels = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool is_mine = (mine >> g & 1u) != 0u;
         low = is_mine ? min(low, place[g]) : low;
         high = is_mine ? max(high, place[g]) : high;
@@ -200,9 +201,9 @@ void main() {
     uint asked = load_receivers(), waits = asked;
     do {
         uint waiting = team_ballot(waits != 0u), my_next = 0u;
-        [[unroll]] for (int g = ROWS - 1; g >= 0; g--) my_next = (waits >> g & 1u) != 0u ? tile_of[g] : my_next;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) my_next = (waits & (0u - waits)) == 1u << g ? tile_of[g] : my_next;
         uint its = waiting != 0u ? of_member(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
-        [[unroll]] for (int g = 0; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
         waits &= ~mine;
         test_in(its, mine);
     } while (team_any(waits != 0u) && trips <= MOST_TRIPS);
@@ -210,5 +211,5 @@ void main() {
     // Probes whose surface is turned away show nothing of the shadows of others.
     uint stored = push.step_ >> RECEIVERS_PROBE_SHIFT == 0u ? exists : asked;
     hidden |= turned;
-    [[unroll]] for (int g = 0; g < ROWS; g++) if ((stored >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) if ((stored >> g & 1u) != 0u) store(receiver[g], (hidden >> g & 1u) != 0u);
 }

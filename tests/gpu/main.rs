@@ -47,6 +47,7 @@ mod stage;
 mod stop;
 mod stroke;
 mod submit;
+mod teams;
 mod texture;
 mod ties;
 mod timers;

@@ -135,11 +135,11 @@ impl ResourceSizes {
         self.tiles().max(groups).into()
     }
 
-    /// Number of bytes of the work lists: one for each kind of tile, and one each for the opaque and the alpha-tested cells that a
-    /// first run leaves. Each has room for all entries that the cells of the work items may fill.
+    /// Number of bytes of the work lists: one for each kind of tile, and one for each kind but the last of the cells that a first run
+    /// leaves. Each has room for all entries that the cells of the work items may fill.
     pub(crate) fn work_bytes(&self) -> u64 {
         let entries = if self.locations.is_some() { 1 } else { 32 / self.team };
-        let lists = TILE_LISTS + 2;
+        let lists = 2 * TILE_LISTS - 1;
         self.work_items() * u64::from(4 * lists * entries)
     }
 
