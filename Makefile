@@ -24,7 +24,7 @@ SCENES ?=
 PACK ?=
 
 .PHONY: help demo view test test-view test-gpu pack-gpu test-drivers test-compilers test-bounds bench measure figures pictures lint shaders check-shaders \
-	header assets install dist test-dist
+	header assets install wheel test-wheel dist test-dist
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
@@ -47,6 +47,8 @@ help:
 	@echo "make check-shaders  check that both are what shaders/ compiles to"
 	@echo "make header         write include/gpc.h, the C header, again"
 	@echo "make install        build the C library and install it below PREFIX, which is $(PREFIX)"
+	@echo "make wheel          build the Python package into out/wheel"
+	@echo "make test-wheel     install it into an empty environment and test it there"
 	@echo "make dist           write archives and packages of the command and the C library into out/dist"
 	@echo "make test-dist      install and run these in empty Debian systems (needs root and debootstrap)"
 	@echo "make assets         write the scenes in assets/ again"
@@ -113,7 +115,7 @@ pictures:
 	@tools/pictures.sh
 
 lint:
-	@tools/setup.sh build
+	@tools/setup.sh build python
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --release --workspace --all-targets --features capi -- -D warnings
 	$(CARGO) clippy --release --all-targets --features view -- -D warnings
@@ -145,6 +147,14 @@ install:
 	$(CARGO) rustc --release --lib --no-default-features --features capi --crate-type cdylib,staticlib -- \
 		-C link-arg=-Wl,-soname,$(SONAME)
 	@tools/install.sh $(or $(CARGO_TARGET_DIR),target)/release $(VERSION) $(SONAME) $(abspath $(PREFIX)) $(DESTDIR)
+
+wheel:
+	@tools/setup.sh build python
+	@tools/wheel.sh
+
+test-wheel:
+	@tools/setup.sh build lavapipe validation python
+	@VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" tools/wheel.sh test
 
 dist:
 	@tools/setup.sh build window

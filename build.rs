@@ -47,6 +47,9 @@ const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 const HOST: &[Variant] =
     &[("samples", "samples.comp", &[]), ("corners", "corners.comp", &[]), ("filters", "filters.comp", &[])];
 
+/// The shader of the tests of teams.
+const TEAMS: &[Variant] = &[("teams", "teams.comp", &[])];
+
 /// The shader with which a test reads what the host writes.
 const ROWS: &[Variant] = &[("rows", "rows.comp", &[])];
 
@@ -81,31 +84,14 @@ const VARIANTS: &[Variant] = &[
     ("groups", "groups.comp", &[]),
     ("indirect", "indirect.comp", &[]),
     ("arguments", "arguments.comp", &[]),
-    ("sample_1", "sample.comp", &[("ROWS", "1")]),
-    ("sample_2", "sample.comp", &[("ROWS", "2")]),
-    ("sample_4", "sample.comp", &[("ROWS", "4")]),
-    ("sample_8", "sample.comp", &[("ROWS", "8")]),
-    ("sample_16", "sample.comp", &[("ROWS", "16")]),
+    ("sample", "sample.comp", &[("LAYERED", "false"), ("UNLISTED", "false")]),
+    ("sample_layered", "sample.comp", &[("LAYERED", "true"), ("UNLISTED", "false")]),
+    ("sample_unlisted", "sample.comp", &[("LAYERED", "false"), ("UNLISTED", "true")]),
+    ("sample_layered_unlisted", "sample.comp", &[("LAYERED", "true"), ("UNLISTED", "true")]),
     ("sample_lines", "sample_lines.comp", &[]),
-    ("sample_layered_1", "sample.comp", &[("ROWS", "1"), ("LAYERED", "")]),
-    ("sample_layered_2", "sample.comp", &[("ROWS", "2"), ("LAYERED", "")]),
-    ("sample_layered_4", "sample.comp", &[("ROWS", "4"), ("LAYERED", "")]),
-    ("sample_layered_8", "sample.comp", &[("ROWS", "8"), ("LAYERED", "")]),
-    ("sample_layered_16", "sample.comp", &[("ROWS", "16"), ("LAYERED", "")]),
-    ("sample_unlisted_1", "sample.comp", &[("ROWS", "1"), ("UNLISTED", "")]),
-    ("sample_unlisted_2", "sample.comp", &[("ROWS", "2"), ("UNLISTED", "")]),
-    ("sample_unlisted_4", "sample.comp", &[("ROWS", "4"), ("UNLISTED", "")]),
-    ("sample_unlisted_8", "sample.comp", &[("ROWS", "8"), ("UNLISTED", "")]),
-    ("sample_unlisted_16", "sample.comp", &[("ROWS", "16"), ("UNLISTED", "")]),
-    ("sample_layered_unlisted_1", "sample.comp", &[("ROWS", "1"), ("LAYERED", ""), ("UNLISTED", "")]),
-    ("sample_layered_unlisted_2", "sample.comp", &[("ROWS", "2"), ("LAYERED", ""), ("UNLISTED", "")]),
-    ("sample_layered_unlisted_4", "sample.comp", &[("ROWS", "4"), ("LAYERED", ""), ("UNLISTED", "")]),
-    ("sample_layered_unlisted_8", "sample.comp", &[("ROWS", "8"), ("LAYERED", ""), ("UNLISTED", "")]),
-    ("sample_layered_unlisted_16", "sample.comp", &[("ROWS", "16"), ("LAYERED", ""), ("UNLISTED", "")]),
     ("sort", "sort.comp", &[]),
     ("receivers", "receivers.comp", &[]),
-    ("occlude_8", "occlude.comp", &[("ROWS", "8")]),
-    ("occlude_16", "occlude.comp", &[("ROWS", "16")]),
+    ("occlude", "occlude.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("composite", "composite.comp", &[]),
     ("resolve", "resolve.comp", &[]),
@@ -140,6 +126,7 @@ fn main() {
     println!("cargo:rerun-if-changed=examples/forward/shaders");
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
+    println!("cargo:rerun-if-changed=tests/gpu/teams/shaders");
     println!("cargo:rerun-if-changed=tests/hosts/shaders");
     println!("cargo:rerun-if-changed=tests/rows/shaders");
     println!("cargo:rerun-if-changed=build.rs");
@@ -153,6 +140,7 @@ fn main() {
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
+    spirv(&group("tests/gpu/teams/shaders", TEAMS), &out);
     spirv(&group("tests/hosts/shaders", SAMPLES), &out);
     spirv(&group("tests/rows/shaders", ROWS), &out);
     let own = group("shaders", VARIANTS);

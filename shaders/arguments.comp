@@ -10,9 +10,9 @@
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push {
     uint after;             // one of AFTER_
-    uint teams_first;       // this and the next two: as in load.glsl
-    uint teams;
+    uint teams_first;       // this and the next: as in load.glsl
     uint teams_unlisted;
+    uint teams_left;        // teams of `sample` for an entry of the cells that `sample_lines` left
 } push;
 
 const uint BIN_WORKGROUPS = 8u;         // workgroups that share a large triangle in `bin`; one on CPU devices, which run few at once
@@ -33,14 +33,14 @@ void main() {
         arguments[ARGUMENT_SORT] = groups(workgroups_of((n + 63u) / 64u));
     } else if (push.after == AFTER_GROUPS) {
         uvec4 entries = uvec4(counters[COUNTER_PLAIN_TILES], counters[COUNTER_MASKED_TILES], counters[COUNTER_BLENDED_TILES], counters[COUNTER_UNLISTED_TILES]);
-        size_of_lists(entries, uvec3(push.teams_first, push.teams, push.teams_unlisted));
+        size_of_lists(entries, push.teams_first, push.teams_unlisted);
         arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(counters[COUNTER_UNLISTED_TILES]);
     } else if (push.after == AFTER_SCATTER) {
         uint layers = min(counters[COUNTER_LAYERS], owners_room());
         arguments[ARGUMENT_LAYERS] = groups((layers - min(counters[COUNTER_OWNERS], layers) + 63u) / 64u);
     } else if (push.after == AFTER_LINES) {
-        arguments[ARGUMENT_PLAIN_LEFT] = groups(workgroups_of(counters[COUNTER_PLAIN_LEFT] * push.teams));
-        arguments[ARGUMENT_MASKED_LEFT] = groups(workgroups_of(counters[COUNTER_MASKED_LEFT] * push.teams));
+        [[unroll]] for (uint list = 0u; list < TILE_LIST_UNLISTED; list++)
+            arguments[ARGUMENT_PLAIN_LEFT + list] = groups(workgroups_of(counters[COUNTER_PLAIN_LEFT + list] * push.teams_left));
     } else if (push.after == AFTER_THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
         arguments[ARGUMENT_THIN_LONG] = groups(counters[COUNTER_THIN_LONG]);

@@ -1,7 +1,7 @@
 // crossings: marks cells of a list that a thin triangle crosses although no location sees it. It does for cells what `thin` does
 // for pixels: see there for the rules. Columns and rows are those of a cell, whose axes are x and y of the output. Instead of
 // depth there is nearness: 1 / distance along the view direction or, for a parallel projection, minus the distance. Triangles
-// are clipped at the near plane. Twin: src/reference/crossings.rs.
+// are clipped at the near plane. Twin: twins/src/crossings.rs.
 // Reads: the geometry, pairs, cells, what each location sees. Writes: cell_marks of the output, tile by tile, which
 // `detect` reads.
 // INVOCATIONS_OF_PAIR invocations share a pair of a triangle and a tile. They take the tile's cells near the triangle by turns.

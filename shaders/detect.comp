@@ -7,7 +7,7 @@
 // a second difference |a - 2 b + c| above the threshold in some channel. Faint textures have one; a gradient that is rounded to
 // codes has none. Beyond the image's edge its pixels are repeated.
 // BLENDED: if the pixel itself shows a BLEND triangle. EVERY: always.
-// Twin: src/reference/detect.rs.
+// Twin: twins/src/detect.rs.
 // Reads: ids, blend_ids, display, marks, shadow words. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
 #version 460
@@ -36,119 +36,135 @@ uint blend_at(ivec2 p) {
 #endif
 }
 
+// What a pixel shows.
+struct Texel {
+    uint id, blend;         // its triangle, and its nearest BLEND triangle
+    uint shadow;            // lights that do not reach it
+    uint code;              // codes of its colour, see `spread`
+    int alpha;
+};
+
+Texel texel_at(ivec2 p) {
+    Texel t;
+    int place = p.y * int(frame.size.x) + p.x;
+    t.id = id_at(p);
+    t.blend = 0u;
+    if (BLEND_IDS) t.blend = blend_at(p);
+    t.shadow = shadows_at(uint(place));
+    uint color_code = MODE == DETECT_EXACT ? 0u : texelFetch(display, place).x;
+    t.code = spread(color_code);
+    t.alpha = int(color_code >> 24);
+    return t;
+}
+
 // Whether two neighbours differ by the rule of MODE.
-bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint shadow_a, uint shadow_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
-    bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b) || shadow_a != shadow_b;
+bool differs(Texel a, Texel b) {
+    bool other = a.id != b.id || (BLEND_IDS && a.blend != b.blend) || a.shadow != b.shadow;
     if (MODE == DETECT_EXACT) return other;
-    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
+    bool contrast = contrasting(a.code, b.code) || (TRANSPARENT && abs(a.alpha - b.alpha) > int(frame.contrast));
     return contrast && (MODE != DETECT_EDGES || other);
 }
 
 // Whether three pixels in a line have a second difference above the threshold.
-bool bends(uint color_a, uint color_b, uint color_c, int alpha_a, int alpha_b, int alpha_c) {
-    return bending(color_a, color_b, color_c) || (TRANSPARENT && abs(alpha_a - 2 * alpha_b + alpha_c) > int(frame.contrast));
+bool bends(Texel a, Texel b, Texel c) {
+    return bending(a.code, b.code, c.code) || (TRANSPARENT && abs(a.alpha - 2 * b.alpha + c.alpha) > int(frame.contrast));
+}
+
+// Sets of pixels of a row, a bit each: bit i is that of pixel i - 1 of the tile.
+struct Row {
+    uint differing;         // those that differ from a neighbour
+    uint middles;           // SECOND_DIFFERENCES: middle pixels of lines along the row
+    uint beside, same;      // those between two neighbours on their triangle; those on that of the pixel above
+};
+
+// Compares the pixels of a row with each other and with those above. Returns those of the row above that differ.
+uint compare(Texel here[10], Texel above[10], inout Row row) {
+    uint over = 0u;
+    row.differing = 0u;
+    [[unroll]] for (int i = 0; i < 9; i++) row.differing |= differs(here[i], here[i + 1]) ? 3u << i : 0u;
+    [[unroll]] for (int i = 1; i < 9; i++) {
+        uint bit = differs(here[i], above[i]) ? 1u << i : 0u;
+        row.differing |= bit;
+        over |= bit;
+    }
+    [[unroll]] for (int i = 0; i < 9; i++) {
+        bool falling = differs(above[i], here[i + 1]);
+        row.differing |= falling ? 2u << i : 0u;
+        over |= falling ? 1u << i : 0u;
+        bool rising = differs(above[i + 1], here[i]);
+        row.differing |= rising ? 1u << i : 0u;
+        over |= rising ? 2u << i : 0u;
+    }
+    return over;
+}
+
+// The middle pixels of lines through the row above, which go up and down.
+uint middles_of_lines(Texel here[10], Texel above[10], Texel top[10]) {
+    uint middles = 0u;
+    [[unroll]] for (int i = 0; i < 10; i++) middles |= bends(top[i], above[i], here[i]) ? 7u << i >> 1 : 0u;
+    [[unroll]] for (int i = 1; i < 9; i++) {
+        bool falling = bends(top[i - 1], above[i], here[i + 1]), rising = bends(top[i + 1], above[i], here[i - 1]);
+        middles |= falling || rising ? 1u << i : 0u;
+    }
+    return middles;
+}
+
+// The pixels of a tile that differ from a neighbour, and those that lie `amid` a triangle.
+uint differing_pixels(ivec2 base, out uint amid) {
+    ivec2 last = ivec2(frame.size) - 1;
+    Texel here[10], above[10], top[10];
+    [[unroll]] for (int i = 0; i < 10; i++) above[i] = top[i] = Texel(0u, 0u, 0u, 0u, 0);
+    Row row = Row(0u, 0u, 0u, 0u), before = row;
+    uint word = 0u, top_middles = 0u;
+    amid = 0u;
+    // The tile's rows, with one above and one below. The results of the first two trips are shifted out of the words. ROLLED,
+    // see workarounds.glsl.
+    int r = -1;
+    do {
+        [[unroll]] for (int i = 0; i < 10; i++) here[i] = texel_at(ivec2(clamp(base.x - 1 + i, 0, last.x), clamp(base.y + r, 0, last.y)));
+        uint over = before.differing | compare(here, above, row);
+        if (MODE == DETECT_SECOND_DIFFERENCES) {
+            row.middles = 0u;
+            [[unroll]] for (int i = 1; i < 9; i++) row.middles |= bends(here[i - 1], here[i], here[i + 1]) ? 1u << i : 0u;
+            over |= top_middles | before.middles | row.middles | middles_of_lines(here, above, top);
+            top_middles = before.middles;
+        }
+        word = word >> 8 | (over >> 1 & 255u) << 24;
+        if (THIN) {
+            uint pairs_ = 0u;
+            row.same = 0u;
+            [[unroll]] for (int i = 1; i < 9; i++) row.same |= here[i].id == above[i].id && here[i].id != 0u ? 1u << i : 0u;
+            [[unroll]] for (int i = 0; i < 9; i++) pairs_ |= here[i].id == here[i + 1].id && here[i].id != 0u ? 1u << i : 0u;
+            row.beside = pairs_ & pairs_ << 1;
+            amid = amid >> 8 | ((before.beside | (before.same & row.same)) >> 1 & 255u) << 24;
+        }
+        before = row;
+        [[unroll]] for (int i = 0; i < 10; i++) {
+            top[i] = above[i];
+            above[i] = here[i];
+        }
+    } while (++r <= 4);
+    return word;
+}
+
+uint blended_pixels(ivec2 base) {
+    uint word = 0u;
+    for (int i = 0; i < 32; i++) {
+        ivec2 p = min(base + ivec2(i & 7, i >> 3), ivec2(frame.size) - 1);
+        word |= blend_at(p) != 0u ? 1u << i : 0u;
+    }
+    return word;
 }
 
 void main() {
-    uint tile = invocation_number();
-    uint tile_count = frame.tiles.x * frame.tiles.y;
+    uint tile = invocation_number(), tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);
     ivec2 base = ivec2(split(tile, frame.tiles.x)) * ivec2(8, 4);
-    ivec2 last = ivec2(frame.size) - 1;
-
-    uint word = 0u, previous_row = 0u;
-    uint amid = 0u, previous_beside = 0u, previous_same = 0u;   // pixels between two neighbours on their triangle
-    if (MODE == DETECT_EVERY) {
-        word = ~0u;
-    } else if (MODE == DETECT_BLENDED) {
-        for (int i = 0; i < 32; i++) {
-            ivec2 p = min(base + ivec2(i & 7, i >> 3), last);
-            word |= blend_at(p) != 0u ? 1u << i : 0u;
-        }
-    } else {
-        uint id[10], blend[10], shadow[10], code[10], above_id[10], above_blend[10], above_shadow[10], above_code[10];
-        int alpha[10], above_alpha[10];
-        // SECOND_DIFFERENCES: the row above that one, and the middle pixels of lines along the last rows.
-        uint top_code[10], middles = 0u, above_middles = 0u, top_middles = 0u;
-        int top_alpha[10];
-        [[unroll]] for (int i = 0; i < 10; i++) {
-            top_code[i] = 0u; top_alpha[i] = 0;
-            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; shadow[i] = 0u; above_shadow[i] = 0u; above_alpha[i] = 0;
-        }
-        // The tile's rows, with one above and one below. The results of the first two trips are shifted out of the word. ROLLED,
-        // see workarounds.glsl.
-        int r = -1;
-        do {
-            int y = clamp(base.y + r, 0, last.y);
-            [[unroll]] for (int i = 0; i < 10; i++) {
-                ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
-                id[i] = id_at(p);
-                int place = p.y * int(frame.size.x) + p.x;
-                if (BLEND_IDS) blend[i] = blend_at(p);
-                shadow[i] = shadows_at(uint(place));
-                uint color_code = MODE == DETECT_EXACT ? 0u : texelFetch(display, place).x;
-                code[i] = spread(color_code);
-                alpha[i] = int(color_code >> 24);
-            }
-            uint row = 0u, above = 0u;
-            [[unroll]] for (int i = 0; i < 9; i++)
-                row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], shadow[i], shadow[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
-            [[unroll]] for (int i = 1; i < 9; i++) {
-                uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], shadow[i], above_shadow[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
-                row |= bit;
-                above |= bit;
-            }
-            [[unroll]] for (int i = 0; i < 9; i++) {
-                bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_shadow[i], shadow[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
-                row |= falling ? 2u << i : 0u;
-                above |= falling ? 1u << i : 0u;
-                bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_shadow[i + 1], shadow[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
-                row |= rising ? 1u << i : 0u;
-                above |= rising ? 2u << i : 0u;
-            }
-            if (MODE == DETECT_SECOND_DIFFERENCES) {
-                // Lines through the row above, which has its neighbours now.
-                top_middles = above_middles;
-                above_middles = middles;
-                middles = 0u;
-                [[unroll]] for (int i = 1; i < 9; i++)
-                    middles |= bends(code[i - 1], code[i], code[i + 1], alpha[i - 1], alpha[i], alpha[i + 1]) ? 1u << i : 0u;
-                above |= top_middles | above_middles | middles;
-                [[unroll]] for (int i = 0; i < 10; i++) {
-                    bool column = bends(top_code[i], above_code[i], code[i], top_alpha[i], above_alpha[i], alpha[i]);
-                    above |= column ? 7u << i >> 1 : 0u;
-                }
-                [[unroll]] for (int i = 1; i < 9; i++) {
-                    int left = i - 1, right = i + 1;
-                    bool falling = bends(top_code[left], above_code[i], code[right], top_alpha[left], above_alpha[i], alpha[right]);
-                    bool rising = bends(top_code[right], above_code[i], code[left], top_alpha[right], above_alpha[i], alpha[left]);
-                    above |= falling || rising ? 1u << i : 0u;
-                }
-                [[unroll]] for (int i = 0; i < 10; i++) { top_code[i] = above_code[i]; top_alpha[i] = above_alpha[i]; }
-            }
-            word = word >> 8 | ((previous_row | above) >> 1 & 255u) << 24;
-            if (THIN) {
-                uint same = 0u, pairs_ = 0u;
-                [[unroll]] for (int i = 1; i < 9; i++) same |= id[i] == above_id[i] && id[i] != 0u ? 1u << i : 0u;
-                [[unroll]] for (int i = 0; i < 9; i++) pairs_ |= id[i] == id[i + 1] && id[i] != 0u ? 1u << i : 0u;
-                amid = amid >> 8 | ((previous_beside | (previous_same & same)) >> 1 & 255u) << 24;
-                previous_beside = pairs_ & pairs_ << 1;
-                previous_same = same;
-            }
-            previous_row = row;
-            [[unroll]] for (int i = 0; i < 10; i++) {
-                above_id[i] = id[i];
-                above_blend[i] = blend[i];
-                above_shadow[i] = shadow[i];
-                above_code[i] = code[i];
-                above_alpha[i] = alpha[i];
-            }
-        } while (++r <= 4);
-    }
-
+    uint word = ~0u, amid = 0u;
+    if (MODE == DETECT_BLENDED) word = blended_pixels(base);
+    else if (MODE != DETECT_EVERY) word = differing_pixels(base, amid);
     if (THIN && inside) word |= marks[tile] | (marks[tile_count + tile] & amid);
-
     word &= inside ? interior_mask(base, int(BEYOND)) : 0u;
 
     if (inside) masks[tile] = word;

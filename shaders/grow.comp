@@ -1,6 +1,6 @@
 // grow: makes superpixels of the pixels beside superpixels that `resolve` found to contrast with these.
 // The samples of a superpixel may reveal a thin feature, a corner or a hole that no pixel centre sees. It often extends into
-// neighbouring pixels. Twin: src/reference/grow.rs.
+// neighbouring pixels. Twin: twins/src/grow.rs.
 // Reads: masks, marks. Writes: masks (only the new superpixels), marks (all earlier ones), COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile.
 #version 460

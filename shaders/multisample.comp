@@ -52,6 +52,6 @@ void main() {
     if (i == 0u) {
         counters[COUNTER_RECORDS] = tile_count * 32u * frame.sample_count;
         counters[COUNTER_PLAIN_TILES] = tile_count * PARTS_OF_TILE;
-        size_of_lists(uvec4(tile_count * PARTS_OF_TILE, 0u, 0u, 0u), uvec3(1u));
+        size_of_lists(uvec4(tile_count * PARTS_OF_TILE, 0u, 0u, 0u), 1u, 1u);
     }
 }

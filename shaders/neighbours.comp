@@ -2,7 +2,7 @@
 // `resolve` does this. Superpixels of an output are sampled as locations of a list, where `resolve` does not know which cells
 // lie beside each other.
 // Reads: masks, color, display. Writes: marks.
-// An invocation takes a cell. Twin: src/reference/grow.rs.
+// An invocation takes a cell. Twin: twins/src/grow.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

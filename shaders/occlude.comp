@@ -18,6 +18,7 @@
 #include "include/shadows.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = OCCLUDE_CONSTANT_TRANSLUCENT) const bool TRANSLUCENT = false;    // some casters are alpha-tested or BLEND
+layout(constant_id = OCCLUDE_CONSTANT_ROWS) const uint ROWS = 8u;          // receivers of an invocation
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
 layout(std430, set = SET_BESIDE_FRAME, binding = OCCLUDE_BINDING_LEFT) buffer Left {
     uint left;              // number of receivers that were left
@@ -58,8 +59,8 @@ uint absorbed[ROWS];        // what BLEND triangles keep from it
 uint hidden = 0u;           // a bit for each
 
 // The receiver that row `g` of this invocation takes; ~0 for none.
-uint receiver_of(int g) {
-    uint n = uint(g) * TEAM + member(), group = team_number();
+uint receiver_of(uint g) {
+    uint n = g * TEAM + member(), group = team_number();
     if (push.region.x == 0u) return group * 64u + n;
     uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
     return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
@@ -72,7 +73,7 @@ uint turned = 0u;           // a bit for each whose surface is turned away from 
 uint load_receivers() {
     uint asked = 0u;
     ivec2 first = ivec2(floor(frame.origin));
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint i = receiver_of(g);
         bool some = i != ~0u;
         receiver[g] = i;
@@ -102,7 +103,7 @@ uint pixel_at(vec2 p) {
 // Shows a candidate to the receivers `rows` of this invocation.
 void show_to(Candidate t, uint rows) {
     vec3 inner = thresholds(t);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float d;
         bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
         hidden |= there ? rows & 1u << g : 0u;
@@ -116,7 +117,7 @@ void show_translucent_to(Candidate t, uint rows, vec2 center) {
     vec3 inner = thresholds(t);
     AlphaTest alpha = alpha_test(max(t.id, 1u) - 1u, center, place[0], mat2(0.0));
     uint asked = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float d;
         bool there = covers(t, inner, place[g], d) && d > least[g] && t.id != own[g];
         asked |= there ? rows & ~hidden & 1u << g : 0u;
@@ -126,13 +127,13 @@ void show_translucent_to(Candidate t, uint rows, vec2 center) {
     do {
         uint row = pending == 0u ? 0u : uint(findLSB(pending));
         vec2 p = place[0];
-        [[unroll]] for (int g = 1; g < ROWS; g++) p = row == uint(g) ? place[g] : p;
+        [[unroll]] for (uint g = 1u; g < ROWS; g++) p = row == g ? place[g] : p;
         float opacity = alpha_at(alpha, p);
         uint mine = asked & pending & 1u << row;
         hidden |= opacity >= (blends ? 1.0 : alpha.cutoff) ? mine : 0u;
         if (BLENDS) {
             uint more = blends ? uint(round(-STEPS * log2(clamp(1.0 - opacity, 1.0 / 16777216.0, 1.0)))) : 0u;
-            [[unroll]] for (int g = 0; g < ROWS; g++) absorbed[g] = min(absorbed[g] + (mine == 1u << g ? more : 0u), MOST_ABSORBED);
+            [[unroll]] for (uint g = 0u; g < ROWS; g++) absorbed[g] = min(absorbed[g] + (mine == 1u << g ? more : 0u), MOST_ABSORBED);
         }
         pending &= pending - 1u;
     } while (pending != 0u);
@@ -152,7 +153,7 @@ void test_in(uint its, uint mine) {
     vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
     float lowest = 3.4e38;
     uint pixels = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool is_mine = (mine >> g & 1u) != 0u;
         low = is_mine ? min(low, place[g]) : low;
         high = is_mine ? max(high, place[g]) : high;
@@ -229,9 +230,9 @@ void main() {
     uint asked = load_receivers(), waits = asked;
     do {
         uint waiting = team_ballot(waits != 0u), my_next = 0u;
-        [[unroll]] for (int g = ROWS - 1; g >= 0; g--) my_next = (waits >> g & 1u) != 0u ? tile_of[g] : my_next;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) my_next = (waits & (0u - waits)) == 1u << g ? tile_of[g] : my_next;
         uint its = waiting != 0u ? of_member(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
-        [[unroll]] for (int g = 0; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
         waits &= ~mine;
         test_in(its, mine);
     } while (team_any(waits != 0u) && trips <= MOST_TRIPS);
@@ -239,7 +240,7 @@ void main() {
     // Probes whose surface is turned away show nothing of the shadows of others.
     uint stored = push.step_ >> OCCLUDE_PROBE_SHIFT == 0u ? exists : asked;
     hidden |= turned;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float share = (hidden >> g & 1u) != 0u ? 0.0 : BLENDS ? exp2(-float(absorbed[g]) / STEPS) : 1.0;
         if ((stored >> g & 1u) != 0u) store(receiver[g], share);
     }

@@ -1,7 +1,7 @@
 // prefilter: computes what surfaces of one roughness reflect of an environment if they are seen along their normals. It is an
 // average over directions. For each direction the cube is read whose texels are about as large as the solid angle that the
 // direction stands for. An invocation takes a texel.
-// Reads: an environment's cube and ever coarser averages of it, directions. Writes: a cube. Twin: src/reference/prefilter.rs.
+// Reads: an environment's cube and ever coarser averages of it, directions. Writes: a cube. Twin: twins/src/prefilter.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/interface.glsl"

@@ -4,7 +4,8 @@
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, if asked for, display and marks.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
 // LOCATIONS: cells are locations, and colours are stored by the index of a location.
-// LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours.
+// LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours. With BY_LINES this is so only
+// of the cells that `sample_lines` left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -56,7 +57,8 @@ void main() {
     bool mine = cell < (LOCATIONS ? location_group.z : bitCount(word));
     vec4 sum = vec4(0.0);
     float covered = 0.0;
-    uint filled = BY_LINES && (marks[item] >> bit & 1u) == 0u ? 1u : blocks;
+    bool on_lines = BY_LINES && (marks[item] >> bit & 1u) == 0u, layered = LAYERED && !on_lines;
+    uint filled = on_lines ? 1u : blocks;
     uint block = 0u;
     bool left_over = false;
     do {
@@ -66,9 +68,9 @@ void main() {
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
             uvec4 record = texelFetch(records, int(at));
-            bool seen = LAYERED ? farther(at) != ~0u : record.y != 0u;
-            float weight = seen ? uintBitsToFloat(LAYERED ? record.z : record.w) : 0.0;
-            vec4 own = texelFetch(shaded, int(at)), c = LAYERED ? own : to_output(vec4(own.rgb, 1.0));
+            bool seen = layered ? farther(at) != ~0u : record.y != 0u;
+            float weight = seen ? uintBitsToFloat(layered ? record.z : record.w) : 0.0;
+            vec4 own = texelFetch(shaded, int(at)), c = layered ? own : to_output(vec4(own.rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;
         }

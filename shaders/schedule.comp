@@ -3,8 +3,8 @@
 // Reads: loads of stretches (see load.glsl), tiles, masks. Writes: loads of the round's stretches, arguments of the round,
 // counters.
 // LOCATIONS: `groups` then lists groups of cells instead of tiles.
-// One team takes all tiles in their order, the largest that the device has, so that the content of a round is the same in every run. A member takes a
-// stretch or, of a stretch that does not fit as a whole, a tile.
+// One team, the largest that the device has, takes all tiles in their order, so that the content of a round is the same in every
+// run. A member takes a stretch or, of a stretch that does not fit as a whole, a tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -74,8 +74,7 @@ void main() {
         counters[COUNTER_WAITING] = tile_count() - next;
         counters[COUNTER_RECORDS] = 0u;
         [[unroll]] for (uint list = 0u; list < TILE_LISTS; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
-        counters[COUNTER_PLAIN_LEFT] = 0u;
-        counters[COUNTER_MASKED_LEFT] = 0u;
+        [[unroll]] for (uint list = 0u; list < TILE_LIST_UNLISTED; list++) counters[COUNTER_PLAIN_LEFT + list] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
         arguments[ARGUMENT_ENLIST] = idle ? uvec4(0u) : groups(workgroups_of((next + STRETCH - 1u) / STRETCH - start / STRETCH));
@@ -89,6 +88,6 @@ void main() {
         arguments[ARGUMENT_OWNERS] = scattered ? groups((counters[COUNTER_OWNERS] + 63u) / 64u) : uvec4(0u);
         arguments[ARGUMENT_SCATTER] = scattered ? scatter_groups(scatter_groups_of(min(counters[COUNTER_PAIRS], frame.pair_capacity)), most_cells) : uvec4(0u);
         arguments[ARGUMENT_SCATTER_EVERY] = scatter_every(taken.entries.w);
-        size_of_lists(taken.entries, uvec3(push.teams_first, push.teams, push.teams_unlisted));
+        size_of_lists(taken.entries, push.teams_first, push.teams_unlisted);
     }
 }

@@ -1,6 +1,6 @@
 // stroke: places the corners of points and lines, whose size on the screen does not depend on the camera. An invocation takes a
 // corner of a point or line, or one of the four corners of a mesh's edge.
-// Reads: strokes, positions. Writes: positions, normals. Twin: src/reference/stroke.rs.
+// Reads: strokes, positions. Writes: positions, normals. Twin: twins/src/stroke.rs.
 //
 // A corner lies beside its point, or beside the end of its segment, in the plane through this that is parallel to the
 // image. Where one segment goes on in another, they are mitred. If the mitre would be too long, a triangle fills the joint.

@@ -11,7 +11,7 @@
 // If a triangle lies close to a surface, like paint on a road, depths do not tell which is nearer. Pixels where some of it may be
 // nearer get marks of another kind, and become superpixels only if `detect` finds them amid another triangle.
 // FOLDS: such a pixel is also marked if the triangle and the one at the pixel's centre are a fold, like the tread and the riser
-// of a small step. Light differs on the two. Twin: src/reference/thin.rs.
+// of a small step. Light differs on the two. Twin: twins/src/thin.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

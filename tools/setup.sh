@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages that the named parts of the build need, if they are missing.
 #
-#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display|pictures ...
+#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display|pictures|python ...
 #
 # If nothing is missing, the script changes nothing and needs no root. Packages are installed with apt, as root or through sudo
 # without a password. If that is not possible, the script prints what to install and fails.
@@ -117,6 +117,11 @@ needs_pictures() {
     has ffmpeg || lacks "ffmpeg" ffmpeg
 }
 
+# For the Python package and its tests.
+needs_python() {
+    has python3 && python3 -c 'import ensurepip, venv' 2>/dev/null || lacks "Python 3 with venv" python3-venv
+}
+
 if ! has cargo; then
     echo "Rust is not installed, or cargo is not in PATH: see https://rustup.rs" >&2
     exit 1
@@ -124,9 +129,9 @@ fi
 
 for part in "$@"; do
     case "$part" in
-        build | vulkan | lavapipe | validation | shaders | c | window | display | pictures) "needs_$part" ;;
+        build | vulkan | lavapipe | validation | shaders | c | window | display | pictures | python) "needs_$part" ;;
         *)
-            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders, c, window, display and pictures" >&2
+            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders, c, window, display, pictures and python" >&2
             exit 2
             ;;
     esac

@@ -1,4 +1,4 @@
-// The host's background in a pixel whose centre may see a triangle. Twin: src/reference/behind.rs.
+// The host's background in a pixel whose centre may see a triangle. Twin: twins/src/behind.rs.
 #ifndef BEHIND_GLSL
 #define BEHIND_GLSL
 #include "host_image.glsl"

@@ -22,6 +22,7 @@ struct Cell {
     uint bit;               // the cell's bit in words of its tile
     vec2 at, half_side;     // its middle relative to the tile's centre, and half its sides
     mat2 pixel;             // its axes, which offsets of samples are multiplied by; unused with POINTS
+    uint id;                // what its records name it by: the pixel (x | y << 16), or `location`
     uint location;          // index of its location; POINTS: place in the order where the block's locations begin
     uint samples;           // number of its samples in the block
 };
@@ -38,30 +39,28 @@ uint blend_batches;
 
 uint trips;                 // trips of this invocation's loops so far: MOST_TRIPS of workarounds.glsl
 
-uint sample_of(int g) {
-    return uint(g) * TEAM + member();
-}
+uint sample_of(uint g) { return g * TEAM + member(); }
 
-vec2 position_of(Cell cell, int g) {
+vec2 position_of(Cell cell, uint g) {
     return LOCATIONS ? place[g] : cell.at + offset[g];
 }
 
-uint location_of(Cell cell, int g) {
+uint location_of(Cell cell, uint g) {
     if (!POINTS) return cell.location;
     return location_at(cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u));
 }
 
 // The Jacobian at a sample. POINTS: that of the sample's own location.
-mat2 pixel_of(Cell cell, int g) {
+mat2 pixel_of(Cell cell, uint g) {
     return POINTS ? location_jacobian(location_of(cell, g)) : cell.pixel;
 }
 
 // Loads the pattern's offsets from number `first` on, up to `last` at most, and computes the rectangle around them.
 void load_offsets(uint first, uint last) {
-    [[unroll]] for (int g = 0; g < ROWS; g++)
+    [[unroll]] for (uint g = 0u; g < ROWS; g++)
         offset[g] = POINTS ? vec2(0.0) : texelFetch(pattern_offsets, int(min(first + sample_of(g), last))).xy;
     vec2 low = vec2(1.0), high = vec2(-1.0);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         low = min(low, offset[g]);
         high = max(high, offset[g]);
     }
@@ -79,7 +78,7 @@ void rectangle_of_block(Cell cell, out vec2 middle, out vec2 half_side) {
 
 // Moves the samples to a cell, and resets what they have seen.
 void begin_cell(Cell cell) {
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         depth[g] = 0.0;
         id[g] = 0u;
         if (LOCATIONS)
@@ -89,10 +88,9 @@ void begin_cell(Cell cell) {
 
 // Resets what rows beyond the cell's last sample have seen.
 void end_cell(Cell cell) {
-    [[unroll]] for (int g = 0; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
 }
 
-#ifndef UNLISTED
 // Whether a candidate may touch the pixel with this bit of its tile. Locations have no such bits, and are tested later.
 bool may_touch(Candidate k, uint bit) {
     return LOCATIONS || (k.pixels >> bit & 1u) != 0u;
@@ -110,7 +108,6 @@ Candidate entry_of(Cell cell, uint i) {
     uint index = cell.complete ? kept_candidate(cell, clamped) : clamped;
     return load_candidate(cell.first, index, cell.center);
 }
-#endif
 
 // The place at which some samples of a cell are shaded together.
 uint place_of_part(vec2 sum_of_offsets, float samples, bool wide) {
@@ -121,8 +118,7 @@ uint place_of(vec2 sum_of_offsets, float samples) {
     return place_of_part(sum_of_offsets, samples, false);
 }
 
-#ifdef UNLISTED
-uint layers[ROWS];          // number of BLEND layers before what each sample sees, and the place where they begin
+uint layers[ROWS];          // UNLISTED: number of BLEND layers before what each sample sees, and the place where they begin
 uint first_layer[ROWS];
 
 // Loads what `scatter` has found that the samples see, from owner number `first` on.
@@ -130,7 +126,7 @@ void see_owners(Cell cell, uint first) {
     uint last = max(cell.samples, 1u) - 1u;
     bool fits = first + last < owners_room(), lacks = false;
     if (!fits) leave_block(COUNTER_UNFINISHED);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool exists = fits && sample_of(g) < cell.samples;
         uvec4 owner = texelFetch(candidates, int(exists ? first + sample_of(g) : 0u));
         lacks = lacks || exists && owner.w == NO_ROOM_FOR_LAYERS;
@@ -141,15 +137,15 @@ void see_owners(Cell cell, uint first) {
     }
     left_over = left_over || team_any(lacks);
 }
-#else
+
 // Whether triangle `by` at depth `d` is seen in place of what row `g` has seen so far.
-bool wins(float d, uint by, int g) {
+bool wins(float d, uint by, uint g) {
     return d > depth[g] || (d == depth[g] && by < id[g]);
 }
 
 void show_opaque(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         vec2 p = position_of(cell, g);
         float d = depth_at(t, p);
         bool there = inside(t, least, p);
@@ -165,18 +161,18 @@ void show_masked(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
     AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, frame.sample_footprint * cell.pixel);
     uint rows = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         float d;
         bool seen = covers(t, least, position_of(cell, g), d) && wins(d, t.id, g);
         rows |= team_any(seen) ? 1u << g : 0u;
     }
     do {
-        int row = rows == 0u ? ROWS : findLSB(rows);
+        uint row = rows == 0u ? ROWS : uint(findLSB(rows));
         rows &= rows - 1u;
         vec2 p = vec2(0.0);
         float depth_there = 0.0;
         uint id_there = 0u;
-        [[unroll]] for (int g = 0; g < ROWS; g++) {
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             p = row == g ? position_of(cell, g) : p;
             depth_there = row == g ? depth[g] : depth_there;
             id_there = row == g ? id[g] : id_there;
@@ -185,7 +181,7 @@ void show_masked(Cell cell, Candidate t, bool some) {
         bool there = covers(t, least, p, d) && row < ROWS;
         if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, frame.sample_footprint * pixel_of(cell, row));
         bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
-        [[unroll]] for (int g = 0; g < ROWS; g++) {
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             depth[g] = seen && row == g ? d : depth[g];
             id[g] = seen && row == g ? t.id : id[g];
         }
@@ -228,7 +224,5 @@ void show_candidates(Cell cell) {
     } while (++batch < batches && trips <= MOST_TRIPS);
     if (batch < batches) leave_block(COUNTER_STALLED);
 }
-
-#endif
 
 #endif

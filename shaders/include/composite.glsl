@@ -15,9 +15,11 @@ vec4 composite(uint node) {
         through *= TINTED ? unpack_tint(layer.a) : vec3(1.0 - layer.a);
         node = farther(node);
     }
-    // The background's alpha is weighted by the mean of what the channels let through.
+    // Alpha is weighted by the mean of what the channels let through.
     float left = TINTED ? dot(through, vec3(1.0 / 3.0)) : through.x;
-    return to_output(vec4(light + through * frame.background.rgb, 1.0 - left * (1.0 - frame.background.a)));
+    // The background is already as the output holds it.
+    vec4 layers = to_output(vec4(light, 1.0 - left));
+    return vec4(layers.rgb + through * frame.background.rgb, 1.0 - left * (1.0 - frame.background.a));
 }
 
 #endif

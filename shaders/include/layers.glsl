@@ -14,7 +14,7 @@ const bool EACH = PER_SAMPLE || POINTS;
 const uint SHARED_LAYERS = 256u;
 
 // The number of a sample's part, where parts are merged in pairs.
-uint layered_part(int g) { return part_number(g) >> 1; }
+uint layered_part(uint g) { return part_number(g) >> 1; }
 
 uint node[ROWS];            // node of the nearest surface so far; ~0: background
 float next_depth[ROWS];     // the next surface in front of that; ID 0: none
@@ -33,15 +33,15 @@ struct Group {
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
     uint first = ~0u;
-    [[unroll]] for (int g = ROWS - 1; g >= 0; g--) {
-        bool some = (left >> g & 1u) != 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+        bool some = first == ~0u && (left >> g & 1u) != 0u;
         key = some ? uvec3(node[g], next_id[g], layered_part(g)) : key;
         first = some ? sample_of(g) : first;
     }
     key = of_member(key, team_min(first) % TEAM);
     bool by_part = BY_PART && key.y != 0u && high_frequency_triangle(key.y);
     Group r = Group(key.x, key.y, 0u, 0.0, vec2(0.0));
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || layered_part(g) == key.z);
         r.rows |= same ? 1u << g : 0u;
         r.sum += same ? offset[g] : vec2(0.0);
@@ -55,12 +55,12 @@ Group first_group(uint left) {
 // whether there was room for the nodes.
 bool add_nodes(uint cell_id, uint samples, bool each) {
     uint lane = member(), left = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
     bool fits = true;
     if (each) {
         uint mine = uint(bitCount(left)), before = team_before(mine);
         uint slot = allocate_records(team_add(mine), fits) + before;
-        [[unroll]] for (int g = 0; g < ROWS; g++) {
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
             if (moves && fits) records_out[slot] = uvec4(POINTS ? location_at(cell_id + sample_of(g)) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
             node[g] = moves ? slot : node[g];
@@ -76,7 +76,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
             Group s = first_group(left);
             bool mine = lane == count;
             held = mine ? uvec4(cell_id, s.next_id, place_of(s.sum, s.samples), s.node) : held;
-            [[unroll]] for (int g = 0; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
+            [[unroll]] for (uint g = 0u; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
             left &= ~s.rows;
             count += s.samples > 0.0 ? 1u : 0u;
         } while (count < TEAM && team_any(left != 0u));
@@ -84,7 +84,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
         bool room;
         uint base = allocate_records(count, room);
         if (room && lane < count) records_out[base + lane] = held;
-        [[unroll]] for (int g = 0; g < ROWS; g++) node[g] = ((before & ~left) >> g & 1u) != 0u ? base + number[g] : node[g];
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) node[g] = ((before & ~left) >> g & 1u) != 0u ? base + number[g] : node[g];
         fits = fits && room;
     } while (team_any(left != 0u));
     return fits;
@@ -97,7 +97,7 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     if (EACH) {
         uint base = allocate_records(complete ? samples : 0u, fits);
         fits = fits && complete;
-        [[unroll]] for (int g = 0; g < ROWS; g++) {
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             uint s = sample_of(g);
             if (fits && s < samples)
                 records_out[base + s] = uvec4(POINTS ? location_at(cell_id + s) | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
@@ -105,7 +105,7 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         return uvec2(base, fits ? samples : 0u);
     }
     uint left = 0u, beyond = 0u, count = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         next_id[g] = 0u;
         left |= sample_of(g) < samples && node[g] != ~0u ? 1u << g : 0u;
     }
@@ -131,25 +131,24 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     return uvec2(base, fits ? count : 0u);
 }
 
-#ifdef UNLISTED
-// Finds each sample's next BLEND layer: number `layer` of its layers, from the farthest one on. Returns whether there may be
-// more.
-bool find_layers(Cell cell, uint layer) {
+// Finds each sample's next BLEND layer in UNLISTED tiles: number `layer` of its layers, from the farthest one on. Returns whether
+// there may be more.
+bool find_scattered(uint layer) {
     uint most = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         next_id[g] = layer < layers[g] ? texelFetch(candidates, int(first_layer[g] + layer)).w : 0u;
         most = max(most, layers[g]);
     }
     trips++;
     return team_any(layer + 1u < most);
 }
-#else
+
 // Finds each sample's next BLEND layer in front of the surfaces so far, and moves its depth and ID there. Returns whether there
 // may be more.
-bool find_layers(Cell cell, uint layer) {
+bool find_layers(Cell cell) {
     uint ahead[ROWS];
     float behind = 3.4e38;      // what lies farther than this depth is hidden from all samples
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         next_depth[g] = 3.4e38;
         next_id[g] = 0u;
         ahead[g] = 0u;
@@ -172,7 +171,7 @@ bool find_layers(Cell cell, uint layer) {
             Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
             pending &= pending - 1u;
             vec3 least = some ? thresholds(t) : vec3(3.4e38);
-            [[unroll]] for (int g = 0; g < ROWS; g++) {
+            [[unroll]] for (uint g = 0u; g < ROWS; g++) {
                 float d;
                 bool there = covers(t, least, position_of(cell, g), d) && d > 0.0;
                 bool in_front = there && (d > depth[g] || (id[g] != 0u && d == depth[g] && t.id < id[g]));
@@ -187,31 +186,30 @@ bool find_layers(Cell cell, uint layer) {
         batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
     } while (left != 0u && trips <= MOST_TRIPS);
     uint most = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         depth[g] = next_id[g] != 0u ? next_depth[g] : depth[g];
         id[g] = next_id[g] != 0u ? next_id[g] : id[g];
         most = max(most, ahead[g]);
     }
     return left != 0u || team_any(most > 1u);
 }
-#endif
 
 // Makes all records of a cell's block; returns the first leaf and their number.
-uvec2 record_layers(Cell cell, uint cell_id) {
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+uvec2 record_layers(Cell cell) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         node[g] = ~0u;
         next_id[g] = id[g];
     }
-    bool fits = add_nodes(cell_id, cell.samples, EACH);
+    bool fits = add_nodes(cell.id, cell.samples, EACH);
     bool more;
     uint layer = 0u;
     do {
-        more = find_layers(cell, layer);
-        fits = add_nodes(cell_id, cell.samples, EACH || layer >= SHARED_LAYERS) && fits;
+        if (UNLISTED) more = find_scattered(layer); else more = find_layers(cell);
+        fits = add_nodes(cell.id, cell.samples, EACH || layer >= SHARED_LAYERS) && fits;
         layer++;
     } while (more && trips <= MOST_TRIPS);
     if (more) leave_block(COUNTER_STALLED);
-    return add_leaves(cell_id, cell.samples, fits);
+    return add_leaves(cell.id, cell.samples, fits);
 }
 
 #endif

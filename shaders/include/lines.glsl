@@ -1,6 +1,6 @@
 // Samples on straight lines across a cell: LINES rows or columns of BITS samples. A set of samples has a bit for each, in words
 // of 32. A member of the team holds WORDS words. Words are ordered by line; the first half of a line comes before the second one.
-// Twin: src/reference/sample_lines.rs.
+// Twin: twins/src/sample_lines.rs.
 #ifndef LINES_GLSL
 #define LINES_GLSL
 

@@ -1,5 +1,5 @@
 // The load of a tile: what its samples need of a round's memory and of the work lists. Loads are summed over stretches, runs
-// of STRETCH tiles in the order of the region. Twin: src/reference/schedule.rs.
+// of STRETCH tiles in the order of the region. Twin: twins/src/schedule.rs.
 #ifndef LOAD_GLSL
 #define LOAD_GLSL
 #include "owners.glsl"
@@ -13,12 +13,11 @@ layout(push_constant) uniform Push {
     uint per_sample;        // 1 if each sample is a record
     uint layers;            // BLEND layers before a sample that memory is reserved for
     uint parts;             // records that a triangle makes in a block, at most
-    uint teams_first;       // teams of `sample` for an entry of a work list in the first run
-    uint teams;             // the same for cells that the first run left, and for tiles with BLEND triangles
+    uint teams_first;       // teams of the first run of `sample` for an entry of a work list
     uint teams_unlisted;    // the same for tiles without a list
     uint longest_list;      // most candidates of a tile; a tile with more has no list
     uint longest_layered;   // the same if some candidates are BLEND
-    uint more_records;      // most records of a cell of opaque or alpha-tested triangles in excess of its number of samples
+    uint more_records;      // most records of a cell that `sample_lines` takes in excess of its number of samples
 } push;
 
 struct Load {

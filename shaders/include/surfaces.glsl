@@ -15,19 +15,19 @@ struct Surface {
 
 // A block has at most 32 parts: runs of PART neighbouring samples (src/engine/passes/sample.rs chooses this length).
 const uint PARTS_A_ROW = TEAM > PART ? TEAM / PART : 1u, ROWS_A_PART = PART > TEAM ? PART / TEAM : 1u;
-const uint PART_LANES = PART < TEAM ? PART : TEAM, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
+const uint PART_LANES = PART < TEAM ? PART : TEAM, PART_ROWS = ROWS_A_PART < ROWS ? ROWS / ROWS_A_PART : 1u;
 
 // The part that a sample of row `g` belongs to.
-uint part_number(int g) {
-    return PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + member() / PART_LANES : uint(g) / ROWS_A_PART;
+uint part_number(uint g) {
+    return PARTS_A_ROW > 1u ? g * PARTS_A_ROW + member() / PART_LANES : g / ROWS_A_PART;
 }
 
 // What the block sees of the triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
     Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
-    [[unroll]] for (int g = 0; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
     r.id = team_min(r.id);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool same = id[g] == r.id;
         r.samples += same ? 1.0 : 0.0;
         r.sum += same ? offset[g] : vec2(0.0);
@@ -61,9 +61,9 @@ void sum_rows(inout vec3 sums[ROWS], uint stage) {
 // the end it holds PARTS_HELD of them. If several members share a row, only the first one holds it.
 void parts_of(uint wanted, out vec3 sums[ROWS]) {
     uint lane = member();
-    [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
-    [[unroll]] for (int g = 0; g < ROWS; g++)
-        sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
+    [[unroll]] for (uint r = 0u; r < ROWS; r++) sums[r] = vec3(0.0);
+    [[unroll]] for (uint g = 0u; g < ROWS; g++)
+        sums[g / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
     // Written out: UNROLLED of workarounds.glsl.
     sum_rows(sums, 0u);
     sum_rows(sums, 1u);
@@ -106,9 +106,10 @@ void merge_neighbours(inout vec3 parts[ROWS], uint length) {
 
 // Merges parts in pairs or in fours, or not at all, as `merged` (one of PARTS_) says.
 void merge_parts(inout vec3 parts[ROWS], uint merged) {
-    vec3 pairs[ROWS] = parts;
+    vec3 pairs[ROWS], fours[ROWS];
+    [[unroll]] for (uint r = 0u; r < ROWS; r++) pairs[r] = parts[r];
     merge_neighbours(pairs, PART);
-    vec3 fours[ROWS] = pairs;
+    [[unroll]] for (uint r = 0u; r < ROWS; r++) fours[r] = pairs[r];
     merge_neighbours(fours, 2u * PART);
     [[unroll]] for (uint r = 0u; r < ROWS; r++) parts[r] = merged == PARTS_FOURS ? fours[r] : merged == PARTS_PAIRS ? pairs[r] : parts[r];
 }
@@ -134,7 +135,7 @@ struct HeldSurface {
 uint find_surfaces(out HeldSurface held[OWN_SURFACES]) {
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) held[h] = HeldSurface(0u, 0u, 0.0, 0u);
     float left = 0.0;
-    [[unroll]] for (int g = 0; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
     left = team_add(left);
     uint seen = 0u, count = 0u;
     do {
@@ -157,10 +158,10 @@ uint find_surfaces(out HeldSurface held[OWN_SURFACES]) {
 // Makes a record for each point that sees something; returns the first record and their number.
 uvec2 record_points(Cell cell) {
     uint made = 0u;
-    [[unroll]] for (int g = 0; g < ROWS; g++) made += uint(bitCount(team_ballot(id[g] != 0u)));
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) made += uint(bitCount(team_ballot(id[g] != 0u)));
     bool fits;
     uint base = allocate_records(made, fits), slot = base;
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint seeing = team_ballot(id[g] != 0u);
         if (fits && id[g] != 0u) records_out[slot + bits_before(seeing)] = uvec4(location_of(cell, g) | POINT_VALUE, id[g], 0u, ~0u);
         slot += uint(bitCount(seeing));
@@ -169,18 +170,18 @@ uvec2 record_points(Cell cell) {
 }
 
 // Makes a record for each sample; returns the first record and their number.
-uvec2 record_samples(Cell cell, uint cell_id) {
+uvec2 record_samples(Cell cell) {
     bool fits;
     uint base = allocate_records(cell.samples, fits);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint s = sample_of(g);
-        if (fits && s < cell.samples) records_out[base + s] = uvec4(cell_id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
+        if (fits && s < cell.samples) records_out[base + s] = uvec4(cell.id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }
 
 // Makes a record for each surface or part of one; returns the first record and their number.
-uvec2 record_surfaces(Cell cell, uint cell_id) {
+uvec2 record_surfaces(Cell cell) {
     HeldSurface held[OWN_SURFACES];
     uint count = find_surfaces(held), own = 0u, singles = 0u, several = 0u, greatest = 0u, shaded_in[OWN_SURFACES];
     Variation around;
@@ -204,14 +205,14 @@ uvec2 record_surfaces(Cell cell, uint cell_id) {
     // Surfaces with one record: those that members hold are written at once, the others one by one.
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
-        if (fits && (singles & bit) != 0u) records_out[base + before] = uvec4(cell_id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
+        if (fits && (singles & bit) != 0u) records_out[base + before] = uvec4(cell.id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
     }
     uint slot = base + single_count;
     uint seen = team_max(greatest), stored = 0u;
     do {
         Surface s = surface_after(seen);
         if (fits && stored < beyond && member() == 0u)
-            records_out[slot] = uvec4(cell_id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
+            records_out[slot] = uvec4(cell.id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
@@ -235,7 +236,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id) {
                 vec3 part = h < PARTS_HELD ? parts[h] : vec3(0.0);
                 uint before = uint(bitCount(present & ((1u << held_part(h)) - 1u)));
                 if (fits && part.z != 0.0)
-                    records_out[slot + before] = uvec4(cell_id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z));
+                    records_out[slot + before] = uvec4(cell.id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z));
             }
             slot += uint(bitCount(present));
             pending &= pending - 1u;

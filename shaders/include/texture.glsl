@@ -53,7 +53,7 @@ const float MOST_PROBES = 8.0;
 // Width of a texel / width of a box, such that the trilinear filter has the same variance as the box: the root of 1/3.
 const float LEVEL_WIDTH = 0.57735;
 
-// The probes in a texture of `size` texels. Twin: src/reference/texture.rs.
+// The probes in a texture of `size` texels. Twin: twins/src/texture.rs.
 Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
     vec2 tx = dx * size, ty = dy * size;
     float square_x = dot(tx, tx), square_y = dot(ty, ty);

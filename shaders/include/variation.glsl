@@ -1,5 +1,5 @@
 // In how many parts of a superpixel a triangle is shaded. It depends on how much the triangle's colours vary at the centres of
-// the superpixel and of the 8 pixels around it. Twin: src/reference/variation.rs.
+// the superpixel and of the 8 pixels around it. Twin: twins/src/variation.rs.
 #ifndef VARIATION_GLSL
 #define VARIATION_GLSL
 #include "triangle.glsl"

@@ -1,5 +1,5 @@
-// The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind, of
-// the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
+// The work lists of `sample` and `resolve`, in `tile_lists`: a list for each kind of tile, then a second list for each kind but the
+// last, of the cells that one kernel leaves to a later one. An entry is a work item (a tile, or a group of locations) and the number of
 // a part of its cells: CELLS_OF_ENTRY of them. Pixels that are not superpixels cause no work.
 #ifndef WORK_GLSL
 #define WORK_GLSL
@@ -20,11 +20,11 @@ uint work_entry(uint item, uint part) { return item << 3 | part; }
 uint entry_item(uint entry) { return entry >> 3; }
 uint entry_part(uint entry) { return entry & 7u; }
 
-// Writes the sizes of the dispatches over work lists with `entries` entries. An entry takes `teams` teams of `sample`: in the first
-// run over tiles without BLEND triangles, in that over tiles with them, and in that over tiles without a list.
-void size_of_lists(uvec4 entries, uvec3 teams) {
+// Writes the sizes of the dispatches over work lists with `entries` entries. An entry takes `first` teams of the first run of `sample`
+// or, of tiles without a list, `unlisted` teams.
+void size_of_lists(uvec4 entries, uint first, uint unlisted) {
     [[unroll]] for (uint list = 0u; list < TILE_LISTS; list++) {
-        uint of_entry = list < TILE_LIST_BLENDED ? teams.x : list < TILE_LIST_UNLISTED ? teams.y : teams.z;
+        uint of_entry = list < TILE_LIST_UNLISTED ? first : unlisted;
         arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(workgroups_of(entries[list] * of_entry));
         arguments[ARGUMENT_RESOLVE_PLAIN + list] = groups(workgroups_of(entries[list]));
     }

@@ -253,8 +253,8 @@ pub struct Frame {
 pub struct ArgumentsPush {
     pub after: u32,
     pub teams_first: u32,
-    pub teams: u32,
     pub teams_unlisted: u32,
+    pub teams_left: u32,
 }
 
 /// Constants of `shaders/arguments.comp`.
@@ -945,7 +945,6 @@ pub struct EnlistPush {
     pub layers: u32,
     pub parts: u32,
     pub teams_first: u32,
-    pub teams: u32,
     pub teams_unlisted: u32,
     pub longest_list: u32,
     pub longest_layered: u32,
@@ -988,7 +987,7 @@ impl Specialized for Enlist {
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Write },
             Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 40,
+        push_bytes: 36,
         invocations: Invocations::Constant,
         by_teams: true,
     };
@@ -1447,6 +1446,7 @@ pub struct Occlude {
     pub local_size: u32,
     pub team: u32,
     pub translucent: bool,
+    pub rows: u32,
     pub instanced: bool,
     pub teams: u32,
     pub shadow_words: u32,
@@ -1458,6 +1458,7 @@ impl Default for Occlude {
             local_size: 1,
             team: 8,
             translucent: false,
+            rows: 8,
             instanced: false,
             teams: 1,
             shadow_words: 0,
@@ -1499,9 +1500,16 @@ impl Specialized for Occlude {
             .with(0, self.local_size)
             .with(1, self.team)
             .flag(2, self.translucent)
+            .with(3, self.rows)
             .flag(23, self.instanced)
             .with(24, self.teams)
             .with(25, self.shadow_words)
+    }
+}
+
+impl Compiled for Occlude {
+    fn code() -> &'static [u8] {
+        OCCLUDE
     }
 }
 
@@ -2012,6 +2020,7 @@ pub struct Sample {
     pub list: u32,
     pub left_cells: bool,
     pub by_part: bool,
+    pub rows: u32,
     pub part: u32,
     pub apart: bool,
     pub long: bool,
@@ -2032,6 +2041,7 @@ impl Default for Sample {
             list: 0,
             left_cells: false,
             by_part: false,
+            rows: 8,
             part: 8,
             apart: false,
             long: false,
@@ -2090,6 +2100,7 @@ impl Specialized for Sample {
             .with(4, self.list)
             .flag(5, self.left_cells)
             .flag(6, self.by_part)
+            .with(7, self.rows)
             .with(8, self.part)
             .flag(9, self.apart)
             .flag(12, self.long)
@@ -2319,7 +2330,7 @@ impl Specialized for Schedule {
             Use { set: 1, binding: frame_set::ARGUMENTS, access: Access::Write },
             Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 40,
+        push_bytes: 36,
         invocations: Invocations::Constant,
         by_teams: true,
     };
@@ -2880,7 +2891,7 @@ impl Specialized for Tally {
             Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 40,
+        push_bytes: 36,
         invocations: Invocations::Constant,
         by_teams: true,
     };
@@ -3107,6 +3118,7 @@ pub struct Counters {
     pub resampled: u32,
     pub plain_left: u32,
     pub masked_left: u32,
+    pub blended_left: u32,
     pub stalled: u32,
     pub placed: u32,
     pub left_out: u32,
@@ -3151,6 +3163,7 @@ pub enum Counter {
     Resampled,
     PlainLeft,
     MaskedLeft,
+    BlendedLeft,
     Stalled,
     Placed,
     LeftOut,
@@ -3182,19 +3195,20 @@ pub enum Argument {
     Groups = 10,
     PlainLeft = 11,
     MaskedLeft = 12,
-    Tally = 13,
-    Enlist = 14,
-    ThinLong = 15,
-    Owners = 16,
-    Scatter = 17,
-    ScatterEvery = 18,
-    Layers = 19,
-    Records = 20,
-    ResolvePlain = 21,
-    ResolveMasked = 22,
-    ResolveBlended = 23,
-    ResolveUnlisted = 24,
-    Shade = 25,
+    BlendedLeft = 13,
+    Tally = 14,
+    Enlist = 15,
+    ThinLong = 16,
+    Owners = 17,
+    Scatter = 18,
+    ScatterEvery = 19,
+    Layers = 20,
+    Records = 21,
+    ResolvePlain = 22,
+    ResolveMasked = 23,
+    ResolveBlended = 24,
+    ResolveUnlisted = 25,
+    Shade = 26,
 }
 
 impl Argument {
@@ -3213,6 +3227,7 @@ impl Argument {
         "groups",
         "plain left",
         "masked left",
+        "blended left",
         "tally",
         "enlist",
         "thin long",

@@ -1,6 +1,7 @@
 //! BLEND surfaces, composited per sample in exact order of depth and compared with a sum over the twin's surfaces.
 
-use gpc::render::{Headless, Method, Rendered, Shading};
+use gpc::color::srgb;
+use gpc::render::{Headless, Method, MethodKind, Rendered, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
 
@@ -118,6 +119,39 @@ fn distance(first: &Rendered, second: &Rendered) -> f32 {
     let channels = |image: &Rendered| image.colors.clone().into_iter().flatten();
     let pairs = channels(first).zip(channels(second));
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+/// A pane of opacity 0 in front of an opaque background, whose colour no tone mapping changes, and of a triangle.
+#[test]
+fn invisible_panes_change_nothing() {
+    let stage = |has_pane: bool| {
+        let material = |alpha, mode| Material { unlit: false, roughness: 0.3, ..flat([0.5, 0.25, 1.0, alpha], mode) };
+        let mut stage = Stage::new(vec![material(1.0, AlphaMode::Opaque), material(0.0, AlphaMode::Blend)]);
+        stage.add(0, [[-18.0, -15.0], [11.0, -9.0], [3.0, 14.0]].map(|place| seen_at(place, 4.0, SIZE[1])));
+        if has_pane {
+            let corners = [[-15.0, -12.0], [16.0, -12.0], [16.0, 13.0], [-15.0, 13.0]];
+            stage.add_quad(1, corners.map(|place| seen_at(place, 2.0, SIZE[1])));
+        }
+        stage
+    };
+    on_gpu(|gpu| {
+        for method in [MethodKind::None, MethodKind::Ssaa, MethodKind::Superpixel] {
+            let background = [13, 170, 240].map(|code| srgb::decode_u8(code) as f32);
+            let settings = Settings::new(SIZE[0], SIZE[1]).background(Some(background)).method(method.with_samples(64));
+            let mut codes = |has_pane| -> Vec<u8> {
+                let rendered = stage(has_pane).render(gpu, &settings);
+                let channels = rendered.colors.as_flattened().iter();
+                channels.map(|x| (255.0 * srgb::encode(f64::from(*x))).round() as u8).collect()
+            };
+            let (with, without) = (codes(true), codes(false));
+            assert_eq!(without[..4], [13, 170, 240, 255]);
+            // A tile with BLEND triangles has samples at points instead of on lines, which shifts edges.
+            let is_edge = |i: usize| method == MethodKind::Superpixel && without[i..i + 4] != without[..4];
+            let pixels = (0..without.len()).step_by(4);
+            let changed = pixels.filter(|&i| with[i..i + 4] != without[i..i + 4] && !is_edge(i)).count();
+            assert_eq!(changed, 0, "{method}");
+        }
+    });
 }
 
 /// A visibility sample that several samples share has the colour that each of them would have: exactly for unlit

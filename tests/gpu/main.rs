@@ -48,6 +48,7 @@ mod stage;
 mod stop;
 mod stroke;
 mod submit;
+mod teams;
 mod texture;
 mod ties;
 mod timers;

@@ -127,12 +127,31 @@ fn crowd() -> Stage {
     stage
 }
 
+/// Opaque triangles and a few BLEND ones that are smaller than a tile.
+fn panes() -> Stage {
+    let mut random = Random::new(12);
+    let glass = Material { double_sided: true, ..flat([1.0, 1.0, 1.0, 0.4], AlphaMode::Blend) };
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque), glass]);
+    for number in 0..400_u32 {
+        let material = usize::from(number >= 350);
+        let middle = [random.range(-30.0, 30.0), random.range(-20.0, 20.0)];
+        let side = if material == 1 { 1.5 } else { 5.0 };
+        let depth = random.range(2.0, 9.0);
+        let corners =
+            [0, 1, 2].map(|_| seen_at(middle.map(|at| at + side * random.range(-1.0, 1.0)), depth, CROWDED[1]));
+        stage.add(material, corners);
+        let color = [0, 1, 2].map(|_| random.range(0.0, 1.0) as f32);
+        if let Some(triangle) = stage.triangles.last_mut() {
+            triangle.color = [color[0], color[1], color[2], 1.0];
+        }
+    }
+    stage
+}
+
 const CROWDED: [u32; 2] = [64, 48];
 
-/// What a pixel is sampled by does not depend on other pixels of its tile. Regions that cut tiles at random show the same, whether a
-/// frame has rounds for a CPU or for a GPU.
-#[test]
-fn regions_of_crowded_tiles_are_parts_of_the_image() {
+/// Asserts that regions that cut tiles at random show the same as the image, whether a frame has rounds for a CPU or for a GPU.
+fn assert_cut_tiles_are_parts(stage: &Stage) {
     let mut random = Random::new(3);
     let regions = [(); 8].map(|()| {
         let corner = CROWDED.map(|side| random.below(u64::from(side) - 1) as u32);
@@ -142,7 +161,6 @@ fn regions_of_crowded_tiles_are_parts_of_the_image() {
         });
         (corner, size)
     });
-    let stage = crowd();
     for (name, policy) in
         [("CPU", as_cpu as fn(&mut gpc::vulkan::Limits)), ("GPU", as_gpu as fn(&mut gpc::vulkan::Limits))]
     {
@@ -151,10 +169,22 @@ fn regions_of_crowded_tiles_are_parts_of_the_image() {
                 let settings =
                     Settings::new(CROWDED[0], CROWDED[1]).attributes(true).method(SuperpixelOptions::new(samples));
                 let what = format!("{name}, {samples} samples");
-                assert_regions_are_parts(gpu, &stage, &settings, &regions, &what);
+                assert_regions_are_parts(gpu, stage, &settings, &regions, &what);
             }
         });
     }
+}
+
+/// What a pixel is sampled by does not depend on how many triangles touch other pixels of its tile.
+#[test]
+fn regions_of_crowded_tiles_are_parts_of_the_image() {
+    assert_cut_tiles_are_parts(&crowd());
+}
+
+/// Nor does it depend on whether a BLEND triangle touches them.
+#[test]
+fn regions_of_tiles_with_blend_triangles_are_parts_of_the_image() {
+    assert_cut_tiles_are_parts(&panes());
 }
 
 /// A large image is rendered in parts; a region may span several of them.

@@ -30,7 +30,7 @@ pub(crate) fn dispatch(layout: &FrameLayout, counted_by: CountedBy) -> Result<Di
 }
 
 /// [`dispatch`] for the entries of lists. An entry takes `first` teams of [`sample`](super::sample) in the first run, `left`
-/// for cells that this run left and for tiles with BLEND triangles, and `unlisted` for tiles without a list.
+/// for cells that this run left, and `unlisted` for tiles without a list.
 ///
 /// # Errors
 /// As [`dispatch`].
@@ -39,8 +39,12 @@ pub(crate) fn of_samples(
     counted_by: CountedBy,
     [first, left, unlisted]: [u32; 3],
 ) -> Result<Dispatch, VulkanError> {
-    let pushed =
-        spirv::ArgumentsPush { after: counted_by as u32, teams_first: first, teams: left, teams_unlisted: unlisted };
+    let pushed = spirv::ArgumentsPush {
+        after: counted_by as u32,
+        teams_first: first,
+        teams_unlisted: unlisted,
+        teams_left: left,
+    };
     let shader = spirv::Arguments { teams: layout.gpu.limits().teams.in_workgroup };
     Ok(layout.kernel(&shader)?.dispatch(pushed, Size::One))
 }

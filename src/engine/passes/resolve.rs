@@ -39,7 +39,7 @@ pub(crate) fn pass(
     for list in blocks.lists() {
         let shader = spirv::Resolve {
             layered: options.has_blend && matches!(list, TileList::Blended | TileList::Unlisted),
-            by_lines: options.by_lines() && matches!(list, TileList::Plain | TileList::Masked),
+            by_lines: options.by_lines() && list != TileList::Unlisted,
             locations: cells.are_locations(),
             encoded: behind.is_some_and(|image| image.encoded()),
             ..of_list(layout, list, blocks.block, target, output)

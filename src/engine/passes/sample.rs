@@ -22,11 +22,6 @@ pub enum TileList {
 }
 
 impl TileList {
-    /// Whether the list's tiles have lists of candidates without translucent triangles.
-    fn is_opaque(self) -> bool {
-        matches!(self, Self::Plain | Self::Masked)
-    }
-
     /// Size of a dispatch of `sample` over the list's entries.
     fn cells(self) -> Size {
         Size::Indirect(Argument::SamplePlain as u32 + self as u32)
@@ -139,54 +134,6 @@ pub struct SampleBlocks {
     pub teams: [u32; 3],
 }
 
-/// Variant of the general kernel.
-#[derive(Clone, Copy)]
-struct Variant {
-    /// Whether cells may have BLEND layers.
-    layered: bool,
-    /// Whether tiles have no list of candidates.
-    unlisted: bool,
-    /// Number of register rows: samples of an invocation.
-    rows: u32,
-    code: &'static [u8],
-}
-
-/// Variants of the general kernel. Of those that differ in the number of rows alone, the smallest comes first.
-#[rustfmt::skip]
-const VARIANTS: [Variant; 20] = [
-    Variant { layered: false, unlisted: false, rows: 1, code: spirv::SAMPLE_1 },
-    Variant { layered: false, unlisted: false, rows: 2, code: spirv::SAMPLE_2 },
-    Variant { layered: false, unlisted: false, rows: 4, code: spirv::SAMPLE_4 },
-    Variant { layered: false, unlisted: false, rows: 8, code: spirv::SAMPLE_8 },
-    Variant { layered: false, unlisted: false, rows: 16, code: spirv::SAMPLE_16 },
-    Variant { layered: false, unlisted: true, rows: 1, code: spirv::SAMPLE_UNLISTED_1 },
-    Variant { layered: false, unlisted: true, rows: 2, code: spirv::SAMPLE_UNLISTED_2 },
-    Variant { layered: false, unlisted: true, rows: 4, code: spirv::SAMPLE_UNLISTED_4 },
-    Variant { layered: false, unlisted: true, rows: 8, code: spirv::SAMPLE_UNLISTED_8 },
-    Variant { layered: false, unlisted: true, rows: 16, code: spirv::SAMPLE_UNLISTED_16 },
-    Variant { layered: true, unlisted: false, rows: 1, code: spirv::SAMPLE_LAYERED_1 },
-    Variant { layered: true, unlisted: false, rows: 2, code: spirv::SAMPLE_LAYERED_2 },
-    Variant { layered: true, unlisted: false, rows: 4, code: spirv::SAMPLE_LAYERED_4 },
-    Variant { layered: true, unlisted: false, rows: 8, code: spirv::SAMPLE_LAYERED_8 },
-    Variant { layered: true, unlisted: false, rows: 16, code: spirv::SAMPLE_LAYERED_16 },
-    Variant { layered: true, unlisted: true, rows: 1, code: spirv::SAMPLE_LAYERED_UNLISTED_1 },
-    Variant { layered: true, unlisted: true, rows: 2, code: spirv::SAMPLE_LAYERED_UNLISTED_2 },
-    Variant { layered: true, unlisted: true, rows: 4, code: spirv::SAMPLE_LAYERED_UNLISTED_4 },
-    Variant { layered: true, unlisted: true, rows: 8, code: spirv::SAMPLE_LAYERED_UNLISTED_8 },
-    Variant { layered: true, unlisted: true, rows: 16, code: spirv::SAMPLE_LAYERED_UNLISTED_16 },
-];
-
-impl Variant {
-    /// The smallest variant for a list of tiles with at least `rows` rows, or otherwise the largest.
-    fn of(list: TileList, has_blend: bool, rows: u32) -> Self {
-        let unlisted = list == TileList::Unlisted;
-        let layered = list == TileList::Blended || (unlisted && has_blend);
-        let mut fits = VARIANTS.iter().filter(|variant| (variant.layered, variant.unlisted) == (layered, unlisted));
-        let found = fits.clone().find(|variant| variant.rows >= rows);
-        *found.or_else(|| fits.next_back()).unwrap_or(&VARIANTS[0])
-    }
-}
-
 /// Number of blocks of several cells that a team processes, as in `shaders/sample.comp`.
 const BLOCKS_AT_ONCE: u32 = 4;
 
@@ -198,8 +145,7 @@ impl SampleBlocks {
     #[must_use]
     pub fn new(teams: Teams, options: SampleOptions) -> Self {
         let members = teams.members;
-        let rows = options.samples.min(BLOCK).div_ceil(members);
-        let block = members * Variant::of(TileList::Plain, false, rows).rows;
+        let block = members * options.samples.min(BLOCK).div_ceil(members).next_power_of_two();
         let one_cell = options.takes_one_cell();
         let blocks_of = |samples: u32| samples.div_ceil(block);
         let taking = |blocks: u32, one_cell: bool| {
@@ -240,6 +186,7 @@ impl SampleBlocks {
             team: teams.members,
             teams: teams.in_workgroup,
             cells_of_entry: teams.members,
+            rows: block / teams.members,
             per_sample: options.records == RecordRate::Sample,
             has_mask: masked,
             list: list as u32,
@@ -253,14 +200,18 @@ impl SampleBlocks {
             instanced: scene.is_instanced(),
         };
         let size = if left_cells { list.left() } else { list.cells() };
-        if list.is_opaque() && !left_cells && options.by_lines() {
-            let lines = options.lines_of_cell(masked);
+        if list != TileList::Unlisted && !left_cells && options.by_lines() {
+            let lines = options.lines_of_cell();
             let kernel = sample_lines::kernel(layout, &shader, block, lines)?;
             Ok(kernel.dispatch((), size))
         } else {
-            let variant = Variant::of(list, options.has_blend, block / teams.members);
-            let kernel = layout.kernel_variant(variant.code, &shader)?;
-            Ok(kernel.dispatch((), size))
+            let code = match list {
+                TileList::Plain | TileList::Masked => spirv::SAMPLE,
+                TileList::Blended => spirv::SAMPLE_LAYERED,
+                TileList::Unlisted if options.has_blend => spirv::SAMPLE_LAYERED_UNLISTED,
+                TileList::Unlisted => spirv::SAMPLE_UNLISTED,
+            };
+            Ok(layout.kernel_variant(code, &shader)?.dispatch((), size))
         }
     }
 }
@@ -310,22 +261,20 @@ impl SampleOptions {
         self.one_cell || self.long_lists.takes_one_cell()
     }
 
-    /// Runs over tiles of opaque and alpha-tested triangles.
+    /// Runs over tiles that have a list of candidates.
     fn listed(&self, left_cells: bool) -> impl Iterator<Item = ListRun> {
         let run_of = move |list, masked| ListRun { list, left_cells, masked };
         let plain = (!self.always_blends).then(|| run_of(TileList::Plain, false));
         let has_masked = self.has_mask && !self.always_blends;
         let masked = has_masked.then(|| run_of(TileList::Masked, true));
-        plain.into_iter().chain(masked)
+        let blended = self.has_blend.then(|| run_of(TileList::Blended, self.has_mask));
+        plain.into_iter().chain(masked).chain(blended)
     }
 
     /// First runs, one for each list of tiles; that of tiles without a list is the last.
     fn first_runs(&self) -> Vec<ListRun> {
-        let whole = |list| ListRun { list, left_cells: false, masked: self.has_mask };
-        self.listed(false)
-            .chain(self.has_blend.then(|| whole(TileList::Blended)))
-            .chain(self.samples_unlisted.then(|| whole(TileList::Unlisted)))
-            .collect()
+        let unlisted = ListRun { list: TileList::Unlisted, left_cells: false, masked: self.has_mask };
+        self.listed(false).chain(self.samples_unlisted.then_some(unlisted)).collect()
     }
 
     /// Second runs, over cells that the first runs left.
@@ -338,8 +287,8 @@ impl SampleOptions {
         self.records == RecordRate::Part && self.part_samples() < block
     }
 
-    /// Whether `sample_lines` processes cells of opaque and alpha-tested triangles. It may leave some cells to a second run, which
-    /// it marks.
+    /// Whether `sample_lines` processes cells that no BLEND triangle touches. It leaves the others, and some more, to a second run,
+    /// and marks them.
     pub fn by_lines(&self) -> bool {
         !self.cells.are_points()
             && !self.always_blends

@@ -45,15 +45,15 @@ fn members(lines: u32) -> u32 {
 impl SampleOptions {
     /// Number of teams of the device's usual size that take as much room in workgroups as one that samples a cell by itself.
     pub(super) fn teams_of_cell(&self, teams: Teams) -> u32 {
-        teams.larger(members(self.lines_of_cell(false))).members / teams.members
+        teams.larger(members(self.lines_of_cell())).members / teams.members
     }
 
-    /// Number of lines of a cell, with 64 samples each. `masked` says whether the cell's tile has alpha-tested triangles: alpha is read `samples`
-    /// times, and the reads are spread more evenly over 32 lines than over 64.
-    pub(super) fn lines_of_cell(&self, masked: bool) -> u32 {
+    /// Number of lines of a cell, with 64 samples each. If the scene has alpha-tested triangles, alpha is read `samples` times, and the
+    /// reads are spread more evenly over 32 lines than over 64.
+    pub(super) fn lines_of_cell(&self) -> u32 {
         match self.samples {
             ..=64 => 8,
-            samples if samples <= 256 || masked => 32,
+            samples if samples <= 256 || self.has_mask => 32,
             _ => 64,
         }
     }

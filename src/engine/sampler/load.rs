@@ -23,7 +23,7 @@ impl Load {
     #[must_use]
     pub fn new(limits: &Limits, blocks: SampleBlocks, layers: u32) -> Self {
         let options = blocks.options;
-        let [teams_first, teams, teams_unlisted] = blocks.teams;
+        let [teams_first, _, teams_unlisted] = blocks.teams;
         let [longest_list, longest_layered] = options.long_lists.longest();
         Self {
             most_pairs: ResourceSizes::most_pairs(limits),
@@ -33,7 +33,6 @@ impl Load {
                 layers,
                 parts: blocks.parts(),
                 teams_first,
-                teams,
                 teams_unlisted,
                 longest_list,
                 longest_layered,

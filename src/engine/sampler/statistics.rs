@@ -25,7 +25,7 @@ pub struct TriangleCounts {
 pub struct Statistics {
     /// Number of superpixels.
     pub superpixels: u64,
-    /// Number of superpixels whose first few samples did not suffice.
+    /// Number of superpixels that are sampled by points, although samples of others lie on lines.
     pub resampled: u64,
     /// Number of tiles of 8 x 4 pixels.
     pub tiles: u64,

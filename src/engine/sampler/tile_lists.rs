@@ -30,7 +30,6 @@ const LOAD: spirv::SchedulePush = spirv::SchedulePush {
     layers: 0,
     parts: 1,
     teams_first: 1,
-    teams: 1,
     teams_unlisted: 1,
     longest_list: u32::MAX,
     longest_layered: u32::MAX,

@@ -41,13 +41,8 @@ impl ShadowTarget {
 /// Width and height of the pixels of a team, as in `shaders/occlude.comp`.
 const SIDE: u32 = 8;
 
-/// The variant of the shader for teams of `members` invocations, so that a team has 64 receivers.
-fn code_for(members: u32) -> &'static [u8] {
-    match members {
-        4 => spirv::OCCLUDE_16,
-        _ => spirv::OCCLUDE_8,
-    }
-}
+/// Receivers of a team.
+const RECEIVERS: u32 = SIDE * SIDE;
 
 /// Writes the shadow words of receivers.
 pub struct Occlude {
@@ -77,11 +72,12 @@ impl Occlude {
             team: teams.members,
             teams: teams.in_workgroup,
             translucent: casters.has_mask() || casters.has_blend(),
+            rows: RECEIVERS / teams.members,
             instanced: casters.is_instanced(),
             shadow_words: receivers.sizes().shadow_words,
         };
         Ok(Self {
-            kernel: layout.kernel_variant(code_for(teams.members), &shader)?,
+            kernel: layout.kernel(&shader)?,
             // SAFETY: the buffers live as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Occlude::INTERFACE, &shown) }?,
         })

@@ -1,6 +1,6 @@
 //! Decoding of image files, for comparisons and as inputs.
 
-use super::{OutputError, Picture, exr, radiance};
+use super::{OutputError, Picture, check_count, exr, radiance};
 use crate::color::srgb;
 use crate::scene::{Warnings, check_texels};
 use image::ImageReader;
@@ -19,6 +19,18 @@ pub struct DecodedImage {
     pub size: [u32; 2],
     /// RGBA of 0 to 1, rows from the top.
     pub pixels: Vec<[f32; 4]>,
+}
+
+impl DecodedImage {
+    /// Image of `size` = [width, height] of sRGB codes with straight alpha, as PNG files hold them.
+    ///
+    /// # Errors
+    /// [`OutputError::PixelCount`] if the number of pixels is not width times height, or is 0.
+    pub fn from_codes(size: [u32; 2], codes: &[[u8; 4]]) -> Result<Self, OutputError> {
+        check_count(size, codes.len())?;
+        let show = |code: &[u8; 4]| show_straight(code.map(|v| f32::from(v) / 255.0));
+        Ok(Self { size, pixels: codes.par_iter().map(show).collect() })
+    }
 }
 
 impl From<&Picture<'_>> for DecodedImage {

@@ -18,11 +18,7 @@ const JPEG_QUALITY: u8 = 95;
 pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec<u8>, OutputError> {
     let size = picture.size();
     match format {
-        Format::Png8 => {
-            let codes = straight_codes(picture, u8::MAX.into());
-            let codes: Vec<_> = codes.iter().map(|code| code.map(|c| c as u8)).collect();
-            encode_rgba(size, &codes)
-        }
+        Format::Png8 => encode_rgba(size, &codes(picture)),
         Format::Png16 => {
             let (codes, color) = straight(picture, u16::MAX);
             let color = match color {
@@ -113,6 +109,12 @@ pub fn encode_shares(size: [u32; 2], shares: &[f32]) -> Result<Vec<u8>, OutputEr
 enum Channels {
     Rgb,
     Rgba,
+}
+
+/// Codes of 8 bits of sRGB colours and straight alpha, as PNG files hold them.
+#[must_use]
+pub fn codes(picture: &Picture<'_>) -> Vec<[u8; 4]> {
+    straight_codes(picture, u8::MAX.into()).iter().map(|code| code.map(|c| c as u8)).collect()
 }
 
 /// Codes from 0 to `top` of sRGB colours and straight alpha.

@@ -230,7 +230,7 @@ fn name_unused(headers: &[Header], used: Option<usize>, chosen: &Chosen, left_ou
             ("worldToNDC", own.world_to_normalized_device.is_some()),
             ("wrapmodes", own.wrap_mode_name.is_some()),
         ];
-        let known = known.into_iter().filter_map(|(name, is_there)| is_there.then(|| name.to_owned()));
+        let known = known.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name.to_owned());
         let others = own.other.iter().chain(&shared.other);
         let others =
             others.filter(|(_, value)| !matches!(value, AttributeValue::Text(_) | AttributeValue::TextVector(_)));

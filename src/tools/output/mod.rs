@@ -26,7 +26,7 @@ mod write;
 
 pub use aov::{Aov, AovKind};
 pub use decode::{DecodedImage, DecodedLight, bound_light, decode, decode_light, decode_linear, is_image, read};
-pub use encode::{encode, encode_aov, encode_rgb, encode_rgba, encode_shares};
+pub use encode::{codes, encode, encode_aov, encode_rgb, encode_rgba, encode_shares};
 pub use error::{OutputError, UnknownAov, UnknownFormat};
 pub use format::Format;
 pub use text::{add_text, find_text};

@@ -177,7 +177,6 @@ fn lists_have_alpha_maps_and_blended_draws() {
             mip: Some(Filter::Linear),
             wrap_u: Wrap::Repeat,
             wrap_v: Wrap::MirroredRepeat,
-            ..Sampler::default()
         };
         let pixels = (SIZE[0] * SIZE[1]) as usize;
         let [r, g, b] = SKY;
@@ -211,7 +210,7 @@ fn lists_are_long() {
             let n = number as f32;
             let at = [(2.3 * n).sin() * 3.0, (1.7 * n).cos() * 3.0, -6.0 - 0.01 * n];
             Part {
-                mesh: usize::from(number % 5 == 0),
+                mesh: usize::from(number.is_multiple_of(5)),
                 to_clip: product(&projection(), &placed(0.31 + n, 0.4 * n, at)),
                 color: [1.0, (0.3 * n).sin().abs(), (0.7 * n).cos().abs()],
                 opacity: 1.0,
@@ -328,7 +327,8 @@ fn lists_that_do_not_fit_are_named() {
             machine.refused(&OBJECT, &lent, |geometry| spoil(&mut geometry.indirect[0]))
         };
         let at = "list 0 of indirect draws: ";
-        let cases: [(&dyn Fn(&mut IndirectDraws), &str); 12] = [
+        type Spoil = dyn Fn(&mut IndirectDraws);
+        let cases: [(&Spoil, &str); 12] = [
             (&|list| list.commands = vk::Buffer::null(), "commands is VK_NULL_HANDLE"),
             (&|list| list.instances = vk::Buffer::from_raw(0), "instances is VK_NULL_HANDLE"),
             (&|list| list.count = Some((vk::Buffer::null(), 0)), "count is VK_NULL_HANDLE"),

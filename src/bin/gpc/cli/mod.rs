@@ -139,7 +139,7 @@ enum Command {
     /// --geometry, --motion, --variants, --growth and --stress measure more, as their descriptions say. DIR then holds results.json, results.csv and
     /// report.html, and motion.csv, variants.csv or growth.csv with these options. All files are written again after each scene. The
     /// lines at the head of a CSV begin with # and say where its figures come from.
-    Bench(bench::BenchArgs),
+    Bench(Box<bench::BenchArgs>),
     /// List the Vulkan devices and what they lack
     ///
     /// Exits with 3 if no device is suitable.

@@ -143,11 +143,11 @@ impl ResourceSizes {
         self.tiles().max(groups).into()
     }
 
-    /// Number of entries of the work lists: one for each kind of tile, and one each for the opaque and the alpha-tested cells that a
-    /// first run leaves. Each has room for all entries that the cells of the work items may fill.
+    /// Number of entries of the work lists: one for each kind of tile, and one for each kind but the last of the cells that a first run
+    /// leaves. Each has room for all entries that the cells of the work items may fill.
     pub(super) fn work_entries(&self) -> u64 {
         let of_item = if self.locations.is_some() { 1 } else { 32 / self.team };
-        self.work_items() * u64::from((TILE_LISTS + 2) * of_item)
+        self.work_items() * u64::from((2 * TILE_LISTS - 1) * of_item)
     }
 
     /// Number of tiles of 8 x 4 pixels of a region.

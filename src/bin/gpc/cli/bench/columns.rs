@@ -58,13 +58,16 @@ impl Cell {
     }
 }
 
+/// A function that makes the cell of a row.
+type CellOf<S, R> = dyn Fn(&S, &R) -> Cell;
+
 /// A column of a study's rows.
 pub struct Column<S, R> {
     /// Name in the CSV; empty for a column that only people see.
     name: &'static str,
     /// Heading in tables for people; empty for a column that only the CSV has.
     heading: &'static str,
-    cell: Box<dyn Fn(&S, &R) -> Cell>,
+    cell: Box<CellOf<S, R>>,
 }
 
 /// A column. `name` is that in the CSV, `heading` that in tables for people; an empty one leaves the column out there.

@@ -23,7 +23,7 @@ pub struct Superpixels {
     pub count: u64,
     /// Superpixels / pixels, or superpixels / locations.
     pub fraction: f64,
-    /// Superpixels whose first few samples did not suffice.
+    /// Superpixels that are sampled by points, although samples of others lie on lines.
     resampled: u64,
     /// Number of visibility samples: the shaded places, and the links of BLEND layers.
     records: u64,
