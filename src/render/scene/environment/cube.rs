@@ -94,11 +94,18 @@ pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
     1.0 / (square * square.sqrt())
 }
 
+/// Side of the cube of an image, and number of points along each axis that are averaged for one of its texels. There are enough
+/// points to skip no texel of an image that is twice as wide as high. An image of another shape has as many points as such an
+/// image of as many texels, so that the time follows from the number of texels.
+fn grid(width: u32, height: u32) -> (u32, u32) {
+    let width = (2 * u64::from(width) * u64::from(height)).isqrt().min(width.into()) as u32;
+    let side = (width / 4).next_power_of_two().clamp(LEAST, MOST);
+    (side, (width / 4).div_ceil(side).max(2))
+}
+
 /// Cube of an equirectangular image.
 pub(super) fn resampled(image: &Equirectangular) -> Cube {
-    let side = (image.width / 4).next_power_of_two().clamp(LEAST, MOST);
-    // Number of points along each axis that are averaged for a texel, so that no texel of the image is skipped.
-    let points = (image.width / 4).div_ceil(side).max(2);
+    let (side, points) = grid(image.width, image.height);
     Cube::new(side, |face, x, y| {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
         for row in 0..points {
@@ -150,6 +157,17 @@ mod tests {
                 assert!((a - at[0]).abs() < 1e-12 && (b - at[1]).abs() < 1e-12, "{face}");
             }
         }
+    }
+
+    #[test]
+    fn the_number_of_points_follows_from_the_number_of_texels() {
+        for (width, height) in [(1 << 24, 1), (1, 1 << 24), (65_536, 16), (4096, 2048), (8, 4)] {
+            let (side, points) = grid(width, height);
+            let all = 6 * u64::from(side * points).pow(2);
+            let fewest = 6 * u64::from(2 * LEAST).pow(2);
+            assert!(all <= 4 * u64::from(width) * u64::from(height) + fewest, "{width} x {height}: {side}, {points}");
+        }
+        assert_eq!(grid(8192, 4096), (MOST, (8192 / 4_u32).div_ceil(MOST).max(2)));
     }
 
     /// Each direction shows a colour of its own, on every level that is fine enough.
