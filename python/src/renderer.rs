@@ -183,7 +183,6 @@ impl Renderer {
     /// Opens a device and puts a scene on it: a Scene, a file, or a mesh or scene of trimesh. `device` is a part of the device's name.
     #[new]
     #[pyo3(signature = (scene, *, shadows=false, time=0.0, animation=None, device=None, max_memory=None, validation=false))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         scene: &Bound<'_, PyAny>,
         shadows: bool,
