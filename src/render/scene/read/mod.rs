@@ -60,7 +60,9 @@ use accessor::Accessor;
 use buffer::Buffers;
 pub use described::{Change, Descriptions};
 use limits::Budget;
-pub use limits::{MAX_DISPLACEMENTS, MAX_ELEMENTS, check_texels};
+#[cfg(feature = "cli")]
+pub use limits::check_texels;
+pub use limits::{MAX_DISPLACEMENTS, MAX_ELEMENTS};
 use model::Model;
 
 use super::{
