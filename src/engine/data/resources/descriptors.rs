@@ -30,7 +30,7 @@ impl IdViews {
 pub enum ShownIds {
     /// These, which outlive the sets.
     Drawn(IdViews),
-    /// Those of [`Resources::show_ids`], which is called before each recording.
+    /// Those of `Resources::show_ids`, which is called before each recording.
     Later,
     /// No pass reads them.
     Unread,

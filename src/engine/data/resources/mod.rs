@@ -38,7 +38,7 @@ pub struct ResourceRequest<'a> {
     pub ids: ShownIds,
     /// Lists of sample offsets, each of which gets descriptor sets.
     pub offsets: &'a [Offsets<'a>],
-    /// Scratch memory that [suffices](Scratch::suffices) for the sizes; `None` to allocate some.
+    /// Scratch memory that suffices for the sizes; `None` to allocate some.
     pub scratch: Option<&'a Arc<Scratch>>,
 }
 
