@@ -50,13 +50,21 @@ pub struct Front {
 }
 
 pub fn front() -> Front {
-    let has_views = !paths("views").is_empty();
-    let all = load(if has_views { "views" } else { "quality" });
-    let of = all.into_iter().find(|of| !of.samples("superpixel").is_empty());
-    Front { of: of.expect("no measurement has superpixels"), has_views }
+    Front::new(!paths("views").is_empty())
+}
+
+/// The textured objects in small images, which were measured at every number of samples.
+pub fn thumbnails() -> Front {
+    Front::new(false)
 }
 
 impl Front {
+    fn new(has_views: bool) -> Self {
+        let all = load(if has_views { "views" } else { "quality" });
+        let of = all.into_iter().find(|of| !of.samples("superpixel").is_empty());
+        Self { of: of.expect("no measurement has superpixels"), has_views }
+    }
+
     pub fn scenes(&self) -> Vec<&str> {
         let mut scenes = self.of.scenes();
         scenes.retain(|scene| self.has_views || self.of.textured(scene));

@@ -83,7 +83,7 @@ pub fn picture() -> String {
 
 /// Table of error and time of both methods at every number of samples at which both were measured, and of the others.
 pub fn choosing() -> String {
-    let front = data::front();
+    let front = data::thumbnails();
     let (of, scenes) = (&front.of, front.scenes());
     let mut table = Table::new(&cells(&[
         "samples",
@@ -124,8 +124,8 @@ pub fn choosing() -> String {
 
 /// Table of the scenes on which each method is better.
 pub fn exceptions() -> String {
-    let front = data::front();
-    let (of, scenes) = (&front.of, front.of.scenes());
+    let of = &data::thumbnails().of;
+    let scenes = of.scenes();
     let mut table = Table::new(&cells(&[
         "samples",
         "`ssaa` is faster on",
