@@ -126,9 +126,15 @@ impl<'a> Host<'a> {
                 set,
                 layout,
                 samples_layout,
-                cull: compute(device, layout, spirv!("cull"))?,
-                draw: graphics(device, layout, [&spirv!("object_vertex")[..], &spirv!("object_fragment")[..]])?,
-                samples: compute(device, samples_layout, spirv!("samples"))?,
+                cull: device.compute(spirv!("cull"), layout, 0)?,
+                draw: device.graphics(
+                    layout,
+                    [&spirv!("object_vertex")[..], &spirv!("object_fragment")[..]],
+                    COLOR,
+                    Some(DEPTH),
+                    vk::CullModeFlags::BACK,
+                )?,
+                samples: device.compute(spirv!("samples"), samples_layout, 0)?,
             })
         }
     }
@@ -210,7 +216,7 @@ impl<'a> Host<'a> {
                     let scenery = Scenery::new(&[], projection.to_cols_array_2d()).viewport(Some(viewport));
                     frame.record(commands, &images(&color), &scenery, self)?;
                 } else {
-                    change(device, commands, &color, DRAWN, COPIED);
+                    device.change(commands, &color, DRAWN, COPIED);
                 }
                 let region = vk::BufferImageCopy::default()
                     .image_subresource(vk::ImageSubresourceLayers {
@@ -285,8 +291,8 @@ impl<'a> Host<'a> {
         let stride = size_of::<vk::DrawIndexedIndirectCommand>() as u32;
         // SAFETY: guaranteed by the caller.
         unsafe {
-            change(self.device, commands, color, UNDEFINED, DRAWN);
-            change(self.device, commands, depth, UNDEFINED, DEPTH_DRAWN);
+            self.device.change(commands, color, UNDEFINED, DRAWN);
+            self.device.change(commands, depth, UNDEFINED, DEPTH_DRAWN);
             raw.cmd_begin_rendering(commands, &info);
             raw.cmd_set_viewport(commands, 0, &[viewport(size)]);
             raw.cmd_set_scissor(commands, 0, &[area]);
@@ -373,116 +379,3 @@ const COPIED: ImageState = ImageState {
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_READ,
 };
-
-/// Records the change of an image from one state to another.
-///
-/// # Safety
-/// The command buffer is being recorded for the device, outside of a render pass.
-unsafe fn change(
-    device: &Device,
-    commands: vk::CommandBuffer,
-    texture: &Texture<'_>,
-    from: ImageState,
-    to: ImageState,
-) {
-    let barriers = [vk::ImageMemoryBarrier2::default()
-        .src_stage_mask(from.stage)
-        .src_access_mask(from.access)
-        .dst_stage_mask(to.stage)
-        .dst_access_mask(to.access)
-        .old_layout(from.layout)
-        .new_layout(to.layout)
-        .image(texture.raw)
-        .subresource_range(vk::ImageSubresourceRange {
-            aspect_mask: texture.aspect,
-            base_mip_level: 0,
-            level_count: 1,
-            base_array_layer: 0,
-            layer_count: 1,
-        })];
-    let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-    // SAFETY: guaranteed by the caller.
-    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
-}
-
-/// # Safety
-/// The words are SPIR-V.
-unsafe fn module(device: &Device, spirv: &[u8]) -> Result<vk::ShaderModule, Failure> {
-    let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv))?;
-    let info = vk::ShaderModuleCreateInfo::default().code(&words);
-    // SAFETY: guaranteed by the caller.
-    Ok(unsafe { device.raw.create_shader_module(&info, None) }?)
-}
-
-/// # Safety
-/// Code and layout match.
-unsafe fn compute(device: &Device, layout: vk::PipelineLayout, code: &[u8]) -> Result<vk::Pipeline, Failure> {
-    // SAFETY: guaranteed by the caller; a module may be destroyed once its pipeline is made.
-    unsafe {
-        let module = module(device, code)?;
-        let stage = vk::PipelineShaderStageCreateInfo::default()
-            .stage(vk::ShaderStageFlags::COMPUTE)
-            .module(module)
-            .name(c"main");
-        let info = [vk::ComputePipelineCreateInfo::default().layout(layout).stage(stage)];
-        let made = device.raw.create_compute_pipelines(vk::PipelineCache::null(), &info, None);
-        device.raw.destroy_shader_module(module, None);
-        Ok(made.map_err(|(_, error)| error)?[0])
-    }
-}
-
-/// Makes a pipeline that draws front faces into a colour and a depth image.
-///
-/// # Safety
-/// Code and layout match.
-unsafe fn graphics(
-    device: &Device,
-    layout: vk::PipelineLayout,
-    [vertex, fragment]: [&[u8]; 2],
-) -> Result<vk::Pipeline, Failure> {
-    // SAFETY: guaranteed by the caller.
-    let modules = unsafe { [module(device, vertex)?, module(device, fragment)?] };
-    let stage = |stage, module| vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main");
-    let stages = [stage(vk::ShaderStageFlags::VERTEX, modules[0]), stage(vk::ShaderStageFlags::FRAGMENT, modules[1])];
-    let input = vk::PipelineVertexInputStateCreateInfo::default();
-    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-    let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-    let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
-        .cull_mode(vk::CullModeFlags::BACK)
-        .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-        .line_width(1.0);
-    let multisample =
-        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
-    let tests = vk::PipelineDepthStencilStateCreateInfo::default()
-        .depth_test_enable(true)
-        .depth_write_enable(true)
-        .depth_compare_op(vk::CompareOp::GREATER);
-    let attachments =
-        [vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)];
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
-    let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-    let formats = [COLOR];
-    let mut rendering =
-        vk::PipelineRenderingCreateInfo::default().color_attachment_formats(&formats).depth_attachment_format(DEPTH);
-    let info = [vk::GraphicsPipelineCreateInfo::default()
-        .stages(&stages)
-        .vertex_input_state(&input)
-        .input_assembly_state(&assembly)
-        .viewport_state(&viewport)
-        .rasterization_state(&rasterization)
-        .multisample_state(&multisample)
-        .depth_stencil_state(&tests)
-        .color_blend_state(&blend)
-        .dynamic_state(&dynamic)
-        .layout(layout)
-        .push_next(&mut rendering)];
-    // SAFETY: guaranteed by the caller; modules may be destroyed once their pipeline is made.
-    unsafe {
-        let made = device.raw.create_graphics_pipelines(vk::PipelineCache::null(), &info, None);
-        for module in modules {
-            device.raw.destroy_shader_module(module, None);
-        }
-        Ok(made.map_err(|(_, error)| error)?[0])
-    }
-}

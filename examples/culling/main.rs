@@ -15,6 +15,8 @@ mod arguments;
 mod device;
 mod host;
 mod scene;
+#[path = "../common/vulkan.rs"]
+mod vulkan;
 
 use device::{Device, Image};
 use gpc::host::Antialiaser;

@@ -73,7 +73,7 @@ impl<'a> Lens<'a> {
                 pool,
                 set,
                 layout,
-                pipeline: pipelines.compute(spirv!("lens"), layout, 0)?,
+                pipeline: device.compute(spirv!("lens"), layout, 0)?,
             })
         }
     }

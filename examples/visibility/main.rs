@@ -19,6 +19,8 @@ mod pipelines;
 mod slot;
 mod textures;
 mod view;
+#[path = "../common/vulkan.rs"]
+mod vulkan;
 
 use device::{Device, Image};
 use gpc::host::{Antialiaser, Options};

@@ -290,7 +290,7 @@ impl<'a> Slot<'a> {
                 let scenery = Scenery::new(&world.draws, projection.to_cols_array_2d());
                 frame.record(commands, &images, &scenery, &materials)?;
             } else {
-                self.change(&self.targets.color, COLOR_DRAWN, COPIED);
+                self.device.change(self.commands, &self.targets.color, COLOR_DRAWN, COPIED);
             }
             match shown {
                 Some(shown) => self.record_show(&shown),
@@ -379,8 +379,8 @@ impl<'a> Slot<'a> {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: guaranteed by the caller.
         unsafe {
-            self.change(&self.targets.ids, UNDEFINED, COLOR_DRAWN);
-            self.change(&self.targets.depth, UNDEFINED, DEPTH_DRAWN);
+            self.device.change(self.commands, &self.targets.ids, UNDEFINED, COLOR_DRAWN);
+            self.device.change(self.commands, &self.targets.depth, UNDEFINED, DEPTH_DRAWN);
             self.begin_rendering(&self.targets.ids, Some(&self.targets.depth));
             raw.cmd_bind_index_buffer(commands, world.indices.raw, 0, vk::IndexType::UINT32);
             let mut first_triangle = 0_u32;
@@ -395,7 +395,7 @@ impl<'a> Slot<'a> {
                 first_triangle += draw.triangle_count;
             }
             raw.cmd_end_rendering(commands);
-            self.change(&self.targets.ids, COLOR_DRAWN, SHOWN);
+            self.device.change(self.commands, &self.targets.ids, COLOR_DRAWN, SHOWN);
         }
     }
 
@@ -404,7 +404,7 @@ impl<'a> Slot<'a> {
         let (raw, commands) = (&self.device.raw, self.commands);
         // SAFETY: guaranteed by the caller.
         unsafe {
-            self.change(&self.targets.color, UNDEFINED, COLOR_DRAWN);
+            self.device.change(self.commands, &self.targets.color, UNDEFINED, COLOR_DRAWN);
             self.begin_rendering(&self.targets.color, None);
             self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipelines.screen);
             self.push(pipelines, &self.size.map(|side| 0.5 * side as f32));
@@ -517,21 +517,6 @@ impl<'a> Slot<'a> {
         // SAFETY: guaranteed by the caller.
         unsafe { self.device.raw.cmd_pipeline_barrier2(self.commands, &info) };
     }
-
-    unsafe fn change(&self, texture: &Texture<'_>, from: ImageState, to: ImageState) {
-        let barriers = [vk::ImageMemoryBarrier2::default()
-            .src_stage_mask(from.stage)
-            .src_access_mask(from.access)
-            .dst_stage_mask(to.stage)
-            .dst_access_mask(to.access)
-            .old_layout(from.layout)
-            .new_layout(to.layout)
-            .image(texture.raw)
-            .subresource_range(range(texture, 1))];
-        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-        // SAFETY: guaranteed by the caller.
-        unsafe { self.device.raw.cmd_pipeline_barrier2(self.commands, &info) };
-    }
 }
 
 impl Drop for Slot<'_> {
@@ -568,16 +553,6 @@ const COPIED: ImageState = ImageState {
     access: vk::AccessFlags2::TRANSFER_READ,
 };
 
-fn range(texture: &Texture<'_>, levels: u32) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange {
-        aspect_mask: texture.aspect,
-        base_mip_level: 0,
-        level_count: levels,
-        base_array_layer: 0,
-        layer_count: 1,
-    }
-}
-
 /// Moves all levels of a texture to another layout, after all earlier and before all later commands.
 pub fn change(
     device: &Device,
@@ -596,7 +571,7 @@ pub fn change(
         .old_layout(from)
         .new_layout(to)
         .image(texture.raw)
-        .subresource_range(range(texture, levels))];
+        .subresource_range(texture.range(levels))];
     let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
     // SAFETY: the command buffer is being recorded for the device.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };

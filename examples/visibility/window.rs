@@ -16,6 +16,8 @@ mod slot;
 mod swapchain;
 mod textures;
 mod view;
+#[path = "../common/vulkan.rs"]
+mod vulkan;
 
 use device::Device;
 use gpc::host::Antialiaser;
