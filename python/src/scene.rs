@@ -8,7 +8,7 @@ use gpc::scene::{Environment, Loaded, PoseRequest, Scene as Content};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A scene: triangles, lines and points, materials, textures, lights, cameras and animations.
 #[pyclass(frozen, module = "gpc")]
@@ -17,11 +17,20 @@ pub struct Scene {
     /// Sentences about parts of the file that were left out or replaced.
     #[pyo3(get)]
     warnings: Vec<String>,
+    /// What the properties tell, once one of them was asked for.
+    overview: OnceLock<Overview>,
+}
+
+/// Figures of a scene at rest.
+struct Overview {
+    bounds: Option<([f64; 3], [f64; 3])>,
+    triangles: u64,
+    cameras: Vec<Option<String>>,
 }
 
 impl Scene {
     fn new(loaded: Loaded) -> Self {
-        Self { content: loaded.scene, warnings: loaded.warnings }
+        Self { content: loaded.scene, warnings: loaded.warnings, overview: OnceLock::new() }
     }
 
     /// Reads a file, or an object that can write itself as a .glb file.
@@ -114,25 +123,34 @@ impl Scene {
     /// The lowest and the highest corner of the box around the scene; None if it is empty.
     #[getter]
     fn bounds(&self) -> PyResult<Option<([f64; 3], [f64; 3])>> {
-        let pose = self.content.pose(&PoseRequest::default()).map_err(error::scene)?;
-        Ok(pose.geometry.bounds().map(|(low, high): (DVec3, DVec3)| (low.into(), high.into())))
+        Ok(self.overview()?.bounds)
     }
 
     /// Number of triangles.
     #[getter]
     fn triangles(&self) -> PyResult<u64> {
-        Ok(self.content.pose(&PoseRequest::default()).map_err(error::scene)?.geometry.triangle_count())
+        Ok(self.overview()?.triangles)
     }
 
     /// Names of the cameras, in the order of their indices.
     #[getter]
     fn cameras(&self) -> PyResult<Vec<Option<String>>> {
-        let pose = self.content.pose(&PoseRequest::default()).map_err(error::scene)?;
-        Ok(pose.cameras.into_iter().map(|camera| camera.name).collect())
+        Ok(self.overview()?.cameras.clone())
     }
 }
 
 impl Scene {
+    fn overview(&self) -> PyResult<&Overview> {
+        if let Some(overview) = self.overview.get() {
+            return Ok(overview);
+        }
+        let pose = self.content.pose(&PoseRequest::default()).map_err(error::scene)?;
+        let bounds = pose.geometry.bounds().map(|(low, high): (DVec3, DVec3)| (low.into(), high.into()));
+        let triangles = pose.geometry.triangle_count();
+        let cameras = pose.cameras.into_iter().map(|camera| camera.name).collect();
+        Ok(self.overview.get_or_init(|| Overview { bounds, triangles, cameras }))
+    }
+
     /// Lights the scene by an equirectangular image.
     fn add_environment(&mut self, path: &Path) -> PyResult<()> {
         let file = path.display();
