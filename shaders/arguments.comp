@@ -27,9 +27,9 @@ void main() {
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]) * uvec4(1u, 1u, TEAMS == 1u ? 1u : BIN_WORKGROUPS, 0u);
     } else if (push.after == AFTER_SAMPLE) {
-        uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
-        counters[COUNTER_RECORDS_TOTAL] += n;
-        arguments[ARGUMENT_RECORDS] = groups((n + 63u) / 64u);
+        uint n = min(counters[COUNTER_FRAGMENTS], frame.fragment_capacity);
+        counters[COUNTER_FRAGMENTS_TOTAL] += n;
+        arguments[ARGUMENT_FRAGMENTS] = groups((n + 63u) / 64u);
         arguments[ARGUMENT_SORT] = groups(workgroups_of((n + 63u) / 64u));
     } else if (push.after == AFTER_GROUPS) {
         uvec4 entries = uvec4(counters[COUNTER_PLAIN_TILES], counters[COUNTER_MASKED_TILES], counters[COUNTER_BLENDED_TILES], counters[COUNTER_UNLISTED_TILES]);
@@ -48,7 +48,7 @@ void main() {
         uint in_workgroup = 64u / INVOCATIONS_OF_PAIR;
         arguments[ARGUMENT_THIN] = groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + in_workgroup - 1u) / in_workgroup);
     } else {
-        // `shade` takes an invocation for a record, or 8 for a span. Bins follow each other in `shade_order`; the dispatch of a
+        // `shade` takes an invocation for a fragment, or 8 for a span. Bins follow each other in `shade_order`; the dispatch of a
         // bin begins at its first entry.
         uint first = 0u;
         for (uint b = 0u; b < frame.bin_count; b++) {
@@ -57,6 +57,6 @@ void main() {
             arguments[ARGUMENT_SHADE + b] = groups(push.after == AFTER_SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
             first += n;
         }
-        if (push.after == AFTER_RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
+        if (push.after == AFTER_FRAGMENTS) counters[COUNTER_SHADED_TOTAL] += first;
     }
 }

@@ -1,7 +1,7 @@
 // centres: makes visibility samples of the centres of pixels, for hosts that draw no colours. It runs twice over a band of
-// pixels. The first run makes a record for each pixel. After these are shaded, the second run (GATHER) stores their colours. An
+// pixels. The first run makes a fragment for each pixel. After these are shaded, the second run (GATHER) stores their colours. An
 // invocation takes a pixel.
-// Reads: ids; GATHER: ids, shaded. Writes: records; GATHER: color, display.
+// Reads: ids; GATHER: ids, shaded. Writes: fragments; GATHER: color, display.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -25,7 +25,7 @@ void main() {
         color[band.first + i] = c;
         display_out[band.first + i] = display_code(c);
     } else {
-        records_out[i] = uvec4(pixel.x | pixel.y << 16, id, pack_place(vec2(0.0), 1.0, false), floatBitsToUint(1.0));
-        if (i == 0u) counters[COUNTER_RECORDS] = band.count;
+        fragments_out[i] = uvec4(pixel.x | pixel.y << 16, id, pack_place(vec2(0.0), 1.0, false), floatBitsToUint(1.0));
+        if (i == 0u) counters[COUNTER_FRAGMENTS] = band.count;
     }
 }

@@ -1,6 +1,6 @@
-// composite: computes the colour of each list of layers, and stores it as that of the list's leaf. A team takes 64 records.
+// composite: computes the colour of each list of layers, and stores it as that of the list's leaf. A team takes 64 fragments.
 // Its members first look which of these are leaves, since CPU devices also execute code that no invocation needs.
-// Reads: records, shaded. Writes: shaded.
+// Reads: fragments, shaded. Writes: shaded.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -11,11 +11,11 @@ layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
 void main() {
     uint first = team_number() * 64u + member();
-    uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
+    uint count = min(counters[COUNTER_FRAGMENTS], frame.fragment_capacity);
     uint leaves = 0u;
     [[unroll]] for (uint r = 0u; r < 64u / TEAM; r++) {
         uint i = first + r * TEAM;
-        leaves |= i < count && texelFetch(records, int(i)).y == 0u ? 1u << r : 0u;
+        leaves |= i < count && texelFetch(fragments, int(i)).y == 0u ? 1u << r : 0u;
     }
     do {
         bool exists = leaves != 0u;

@@ -1,7 +1,7 @@
 // multisample: makes visibility samples of what the device's own multisampling saw: one for each triangle in each pixel, at
 // the pixel's centre, weighted by the triangle's samples. `shade` and `resolve` then treat all pixels as superpixels. An
 // invocation takes a pixel.
-// Reads: ids_ms. Writes: records, headers, masks, tiles, tile_lists, arguments, counters; every tile is PLAIN and in this round.
+// Reads: ids_ms. Writes: fragments, headers, masks, tiles, tile_lists, arguments, counters; every tile is PLAIN and in this round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -23,7 +23,7 @@ void main() {
     uvec2 pixel = split(tile, frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
     bool inside = exists && all(lessThan(pixel, frame.size));
     ivec2 at = ivec2(min(pixel, frame.size - 1u));
-    // Every pixel has room for as many records as it has samples. All pixels of a tile have headers, in the order of the mask's
+    // Every pixel has room for as many fragments as it has samples. All pixels of a tile have headers, in the order of the mask's
     // bits.
     uint first = (tile * 32u + bit) * frame.sample_count;
     uint used = 0u, previous = 0u;
@@ -37,12 +37,12 @@ void main() {
             next = smaller ? id : next;
         }
         more = next != ~0u;
-        if (more && inside) records_out[first + used] = uvec4(pixel.x | pixel.y << 16, next, 0u, floatBitsToUint(float(n)));
+        if (more && inside) fragments_out[first + used] = uvec4(pixel.x | pixel.y << 16, next, 0u, floatBitsToUint(float(n)));
         used += more ? 1u : 0u;
         previous = next;
     } while (more);
     for (uint s = used; s < frame.sample_count; s++)
-        if (exists) records_out[first + s] = uvec4(0u);
+        if (exists) fragments_out[first + s] = uvec4(0u);
     if (exists) headers[tile * 32u + bit] = uvec2(first, inside ? used : 0u);
     if (exists && bit < PARTS_OF_TILE) tile_lists[tile * PARTS_OF_TILE + bit] = work_entry(tile, bit);
     if (exists && bit == 0u) {
@@ -50,7 +50,7 @@ void main() {
         tiles[tile] = uvec4(0u, 0u, tile * 32u, 0u);
     }
     if (i == 0u) {
-        counters[COUNTER_RECORDS] = tile_count * 32u * frame.sample_count;
+        counters[COUNTER_FRAGMENTS] = tile_count * 32u * frame.sample_count;
         counters[COUNTER_PLAIN_TILES] = tile_count * PARTS_OF_TILE;
         size_of_lists(uvec4(tile_count * PARTS_OF_TILE, 0u, 0u, 0u), 1u, 1u);
     }

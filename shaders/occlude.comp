@@ -34,7 +34,7 @@ layout(push_constant) uniform Push {
     uint step_;         // light and probe, see OCCLUDE_LIGHT
     uint face;          // which of the six planes of a cube this is, as `face_of` numbers them, or SINGLE_PLANE
     uint first_place;   // place of the first receiver
-    uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are records
+    uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are fragments
 } push;
 #include "include/light_plane.glsl"
 

@@ -3,7 +3,7 @@
 // stores (position, triangle ID or 0 if there is none to ask for), (normal, 1 if DIFFUSE_TRANSMISSION lets light from behind
 // through).
 // A probe is another place in a pixel, if the pixel's triangle covers it, too. `occlude` compares it with the pixel's centre.
-// Reads: ids or records, the geometry. Writes: a surface for each place.
+// Reads: ids or fragments, the geometry. Writes: a surface for each place.
 // Twin: `gpc::reference::shadow`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +11,7 @@
 #include "include/workgroup.glsl"
 #include "include/barycentric.glsl"
 #include "include/material.glsl"
-#include "include/record_position.glsl"
+#include "include/fragment_position.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = RECEIVERS_CONSTANT_PIXELS) const bool PIXELS = false;
@@ -27,7 +27,7 @@ const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), 
 
 void main() {
     uint i = invocation_number();
-    uint count = PIXELS ? frame.size.x * frame.size.y : min(counters[COUNTER_RECORDS], frame.record_capacity);
+    uint count = PIXELS ? frame.size.x * frame.size.y : min(counters[COUNTER_FRAGMENTS], frame.fragment_capacity);
     uint source = min(i, max(count, 1u) - 1u), id;
     vec2 p;
     if (PIXELS) {
@@ -35,9 +35,9 @@ void main() {
         id = id_at(ivec2(pixel));
         p = frame.origin + vec2(pixel) + (push.probe != 0u ? PROBES[push.probe - 1u] : vec2(0.0));
     } else {
-        uvec4 record = texelFetch(records, int(source));
-        id = record.y;
-        p = record_position(record);
+        uvec4 fragment = texelFetch(fragments, int(source));
+        id = fragment.y;
+        p = fragment_position(fragment);
     }
     bool receives = i < count && id != 0u;
 

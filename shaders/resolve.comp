@@ -1,7 +1,7 @@
-// resolve: computes the colour of each superpixel from its shaded records. A team takes an entry of a work list, and a
+// resolve: computes the colour of each superpixel from its shaded fragments. A team takes an entry of a work list, and a
 // member a cell of it.
-// The colours of records are tone-mapped one by one, then averaged in linear light; alpha is coverage.
-// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, if asked for, display and marks.
+// The colours of fragments are tone-mapped one by one, then averaged in linear light; alpha is coverage.
+// Reads: tile_lists, tiles, masks, headers, fragments, shaded. Writes: color and, if asked for, display and marks.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
 // LOCATIONS: cells are locations, and colours are stored by the index of a location.
 // LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours. With BY_LINES this is so only
@@ -62,14 +62,14 @@ void main() {
     uint block = 0u;
     bool left_over = false;
     do {
-        uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
+        uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.fragment_capacity - 1u)] : uvec2(0u);
         left_over = left_over || h.y == LEFT_BLOCK;
         h.y = left_over ? 0u : h.y;
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
-            uvec4 record = texelFetch(records, int(at));
-            bool seen = layered ? farther(at) != ~0u : record.y != 0u;
-            float weight = seen ? uintBitsToFloat(layered ? record.z : record.w) : 0.0;
+            uvec4 fragment = texelFetch(fragments, int(at));
+            bool seen = layered ? farther(at) != ~0u : fragment.y != 0u;
+            float weight = seen ? uintBitsToFloat(layered ? fragment.z : fragment.w) : 0.0;
             vec4 own = texelFetch(shaded, int(at)), c = layered ? own : to_output(vec4(own.rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;

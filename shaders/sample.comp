@@ -1,5 +1,5 @@
 // sample: finds the nearest triangle of every sub-sample of the superpixels in a work list. No colours are read or computed.
-// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets. Writes: records, headers.
+// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, what `scatter` has found), offsets. Writes: fragments, headers.
 //
 // A team takes up to TEAM cells of a tile. In the first loop a member holds a cell, and all candidates of the tile are
 // tested against it. The tests are conservative: `setup` has tested the candidate's bounding box and edges, and here its edges
@@ -9,14 +9,14 @@
 // room, all candidates of the tile are tested instead. If depths are equal, the smaller ID wins, so that the order of candidates
 // does not matter. For samples of UNLISTED tiles, `scatter` has already found what they see.
 //
-// Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
-//   merged: weight as a float, in samples; one record for each visible triangle of a block, at the centroid of its samples
+// Fragment: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
+//   merged: weight as a float, in samples; one fragment for each visible triangle of a block, at the centroid of its samples
 //           (BY_PART: for each of its parts there; PER_SAMPLE: for each sample, at its position);
-//   LAYERED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight instead of a
+//   LAYERED: index of the fragment of the surface behind it, or ~0 for background; a leaf has ID 0, its weight instead of a
 //           place, and the index of its samples' nearest surface (include/layers.glsl).
-// Links lead to records with smaller indices. If cells are LOCATIONS, the first word of a record is its location. POINTS make a
-// record of each location that sees something; LAYERED: of the others, too.
-// Header of a cell's block: first record, number of records (LAYERED: of leaves).
+// Links lead to fragments with smaller indices. If cells are LOCATIONS, the first word of a fragment is its location. POINTS make a
+// fragment of each location that sees something; LAYERED: of the others, too.
+// Header of a cell's block: first fragment, number of fragments (LAYERED: of leaves).
 //
 // LAYERED and UNLISTED are macros: if one module had the code for all, drivers would take longer to read it at each start.
 // Loops are do-while with guarded bodies: DO_WHILE of workarounds.glsl.
@@ -30,7 +30,7 @@ layout(constant_id = SAMPLE_CONSTANT_PER_SAMPLE) const bool PER_SAMPLE = false;
 layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
 layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;           // which of the tile lists
 layout(constant_id = SAMPLE_CONSTANT_LEFT_CELLS) const bool LEFT_CELLS = false;   // takes the cells that `sample_lines` left, not all
-layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // triangles may have a record for each part
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // triangles may have a fragment for each part
 layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
 layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a team takes one block of one cell, not some of several
 layout(constant_id = SAMPLE_CONSTANT_LONG) const bool LONG = false;         // APART: lists are long for the device's loops
@@ -139,7 +139,7 @@ void see_candidates(inout Cell cell, uint count) {
     show_candidates(cell);
 }
 
-// Makes the records of what the samples of a cell have seen. Returns the first record and their number.
+// Makes the fragments of what the samples of a cell have seen. Returns the first fragment and their number.
 uvec2 record_cell(Cell cell) {
     uvec2 made;
     if (LAYERED) {
@@ -176,10 +176,10 @@ void main() {
             left_over = false;
             if (UNLISTED) see_owners(cell, owner_of(taken.tile.y, number_of_cell(taken, cell.bit), block * BLOCK));
             else see_candidates(cell, count);
-            uvec2 records_made = record_cell(cell);
-            my_header = member() == holder ? left_over ? uvec2(0u, LEFT_BLOCK) : records_made : my_header;
+            uvec2 fragments_made = record_cell(cell);
+            my_header = member() == holder ? left_over ? uvec2(0u, LEFT_BLOCK) : fragments_made : my_header;
         } while (++holder < taken.cells);
         uint at = taken.tile.z + number_of_cell(taken, my_bit) * headers_a_cell + block;
-        if (member() < taken.cells) headers[min(at, frame.record_capacity - 1u)] = my_header;
+        if (member() < taken.cells) headers[min(at, frame.fragment_capacity - 1u)] = my_header;
     } while (++block < blocks);
 }

@@ -2,7 +2,7 @@
 // lines (include/lines.glsl). A team takes the cells of an entry of a work list one after the other, or one of them (APART); a
 // member holds some words of 32 samples. A cell is a pixel, or a parallelogram around a location, whose sides are the columns of
 // the location's Jacobian. Lines run along these sides.
-// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers. Some cells are marked and listed for sample.comp: those that
+// Reads: tiles, masks, tile_lists, candidates. Writes: fragments, headers. Some cells are marked and listed for sample.comp: those that
 // a BLEND candidate or more than MOST_TOUCHING candidates touch, that see more than SLOTS triangles or one that crosses the near
 // plane, or that take too many trips of loops. Other cells of the tile have no part in this, since a picture must not depend on how
 // cells are grouped.
@@ -40,7 +40,7 @@ const uint MOST_TOUCHING = 64u;             // candidates that touch a cell; wit
 #include "include/candidate.glsl"
 #include "include/taken.glsl"
 #include "include/place.glsl"
-#include "include/records.glsl"
+#include "include/fragments.glsl"
 #include "include/variation.glsl"
 #include "include/lines.glsl"
 #include "include/order.glsl"
@@ -77,7 +77,7 @@ struct Slot {
     vec4 plane;             // slope of its depth along and across lines, depth in the cell's middle, farthest depth in the cell
     uint id;
     uint parts;             // parts in which it is shaded, see variation.glsl
-    uint records;           // number of records that it makes
+    uint fragments;           // number of fragments that it makes
     uint count;             // number of its samples
     uint place;             // place in the middle of its samples
 };
@@ -93,7 +93,7 @@ struct Cell {
     vec2 center;            // centre of its tile
     vec2 at;                // its middle relative to this centre
     mat2 axes;
-    uint id;                // what its records name it by: the pixel (x | y << 16), or the location
+    uint id;                // what its fragments name it by: the pixel (x | y << 16), or the location
     bool columns;           // whether lines are columns
 };
 
@@ -534,8 +534,8 @@ bool find_owners(inout Cell cell) {
     return s.failed;
 }
 
-// Counts the records that each slot makes. Returns their number.
-uint count_records(Cell cell) {
+// Counts the fragments that each slot makes. Returns their number.
+uint count_fragments(Cell cell) {
     if (BY_PART) {
         Variation around;
         if (!LOCATIONS) around = variation_of(cell.holder);
@@ -555,7 +555,7 @@ uint count_records(Cell cell) {
             sums += sums_of_word(r, bits[r]);
         }
         sums = team_add(sums);
-        uint records_ = min(count_of(sums), 1u);
+        uint fragments_ = min(count_of(sums), 1u);
         if (BY_PART && parts != PARTS_ONE) {
             Grid grid = grid_of(parts, cell.columns);
             uint found[WORDS], rest[WORDS], own = 0u, some = 0u;
@@ -566,18 +566,18 @@ uint count_records(Cell cell) {
                 some |= rest[r];
             }
             own = team_add(((member() & sharing_lanes(grid)) == 0u ? own : 0u) | (some != 0u ? 0x10000u : 0u));
-            records_ = (own & 0xffffu) + min(own >> 16, 1u);
+            fragments_ = (own & 0xffffu) + min(own >> 16, 1u);
         }
         uint place = place_of_bits(sums, cell.columns, false);
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool here = slot == h * TEAM + member() && slot < used;
             slots[h].count = here ? count_of(sums) : slots[h].count;
             slots[h].place = here ? place : slots[h].place;
-            slots[h].records = here ? records_ : slots[h].records;
+            slots[h].fragments = here ? fragments_ : slots[h].fragments;
         }
     } while (++slot < used);
     uint all = 0u;
-    [[unroll]] for (uint h = 0u; h < HELD; h++) all += slots[h].records;
+    [[unroll]] for (uint h = 0u; h < HELD; h++) all += slots[h].fragments;
     return team_add(all);
 }
 
@@ -586,16 +586,16 @@ uint weight_of(uint samples) {
     return floatBitsToUint(float(samples) * weight);
 }
 
-// Writes the records of the triangles that are shaded in one part: a bit each in `singles`, from record `base` on.
+// Writes the fragments of the triangles that are shaded in one part: a bit each in `singles`, from fragment `base` on.
 void write_singles(Cell cell, uint singles, uint base) {
     [[unroll]] for (uint h = 0u; h < HELD; h++) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
-        if ((singles & bit) != 0u) records_out[base + before] = uvec4(cell.id, slots[h].id, slots[h].place, weight_of(slots[h].count));
+        if ((singles & bit) != 0u) fragments_out[base + before] = uvec4(cell.id, slots[h].id, slots[h].place, weight_of(slots[h].count));
     }
 }
 
-// Writes the records of a slot that is shaded in several parts: one for each part and one for the samples that are in no part, from
-// record `base` on. Returns their number.
+// Writes the fragments of a slot that is shaded in several parts: one for each part and one for the samples that are in no part, from
+// fragment `base` on. Returns their number.
 uint write_parts(Cell cell, bool exists, uint slot, uint base) {
     uint parts = slots[0].parts, id = slots[0].id;
     [[unroll]] for (uint h = 1u; h < HELD; h++) {
@@ -620,11 +620,11 @@ uint write_parts(Cell cell, bool exists, uint slot, uint base) {
     sums = team_add(sums);
     bool writes = (member() & sharing_lanes(grid)) == 0u;
     own = writes ? own : 0u;
-    if (member() == 0u && sums.x != 0u) records_out[base] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
+    if (member() == 0u && sums.x != 0u) fragments_out[base] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
     uint of_rest = sums.x != 0u ? 1u : 0u, at = base + of_rest + team_before(own), all = of_rest + team_add(own);
     uint steps = team_max(own), step = 0u;
     do {
-        // The first part that has no record yet.
+        // The first part that has no fragment yet.
         uint r = WORDS - 1u, fields = pending[WORDS - 1u];
         [[unroll]] for (uint i = 1u; i < WORDS; i++) {
             uint q = WORDS - 1u - i;
@@ -646,31 +646,31 @@ uint write_parts(Cell cell, bool exists, uint slot, uint base) {
                 sums += grid.lines > span ? others : uvec2(0u);
             }
         }
-        if (writes && fields != 0u) records_out[at + step] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
+        if (writes && fields != 0u) fragments_out[at + step] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
     } while (++step < steps);
     return all;
 }
 
-// Makes the records of what a cell's samples see, unless it has `failed`. Returns the cell's header.
+// Makes the fragments of what a cell's samples see, unless it has `failed`. Returns the cell's header.
 uvec2 record_cell(Cell cell, bool failed) {
-    uint all = count_records(cell), singles = 0u, several = 0u;
-    // If there is no room for the records of all parts, each triangle is shaded once.
-    bool too_many = all > frame.sample_count + MORE_RECORDS;
+    uint all = count_fragments(cell), singles = 0u, several = 0u;
+    // If there is no room for the fragments of all parts, each triangle is shaded once.
+    bool too_many = all > frame.sample_count + MORE_FRAGMENTS;
     [[unroll]] for (uint h = 0u; h < HELD; h++) {
         bool single = too_many || slots[h].parts == PARTS_ONE, some = slots[h].count != 0u;
         singles |= single && some ? 1u << (h * TEAM + member()) : 0u;
         several |= !single && some ? 1u << (h * TEAM + member()) : 0u;
     }
     singles = team_or(singles);
-    uint single_records = uint(bitCount(singles));
-    all = failed ? 0u : too_many ? single_records : all;
+    uint single_fragments = uint(bitCount(singles));
+    all = failed ? 0u : too_many ? single_fragments : all;
     bool fits;
-    uint base = allocate_records(all, fits);
+    uint base = allocate_fragments(all, fits);
     fits = fits && !failed;
     write_singles(cell, fits ? singles : 0u, base);
     if (BY_PART) {
         several = fits ? team_or(several) : 0u;
-        uint at = base + single_records;
+        uint at = base + single_fragments;
         do {
             at += write_parts(cell, several != 0u, several != 0u ? uint(findLSB(several)) : 0u, at);
             several &= several - 1u;
@@ -698,7 +698,7 @@ void main() {
         bool failed = find_owners(cell) || !exists;
         uvec2 header = record_cell(cell, failed);
         uint at = taken.tile.z + number_of_cell(taken, of_member(my_bit, cell.holder)) * headers_a_cell;
-        if (!failed && member() == 0u) headers[min(at, frame.record_capacity - 1u)] = header;
+        if (!failed && member() == 0u) headers[min(at, frame.fragment_capacity - 1u)] = header;
         left |= failed ? 1u << cell.holder : 0u;
         pending &= pending - 1u;
     } while (pending != 0u);

@@ -72,7 +72,7 @@ void main() {
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_WAITING] = tile_count() - next;
-        counters[COUNTER_RECORDS] = 0u;
+        counters[COUNTER_FRAGMENTS] = 0u;
         [[unroll]] for (uint list = 0u; list < TILE_LISTS; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
         [[unroll]] for (uint list = 0u; list < TILE_LIST_UNLISTED; list++) counters[COUNTER_PLAIN_LEFT + list] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;

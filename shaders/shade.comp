@@ -1,7 +1,7 @@
 // shade: computes the radiance of surfaces, in a dispatch for each material bin. With PIXELS an invocation takes the centre of a
 // pixel of a span, which sees the triangle in raster's IDs. Otherwise it takes a visibility sample, which is shaded at its place
 // in a pixel or in the cell of a location (LOCATIONS). The Jacobian of a location scales the footprint of textures.
-// Reads: shade_order, bins, ids or records, the geometry, textures, shadow words. Writes: color and display, or shaded.
+// Reads: shade_order, bins, ids or fragments, the geometry, textures, shadow words. Writes: color and display, or shaded.
 // All values are in linear light. TRANSMISSION: a layer has a tint (see tint.glsl), not an opacity.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +10,7 @@
 #include "include/color.glsl"
 #include "include/environment.glsl"
 #include "include/finite.glsl"
-#include "include/record_position.glsl"
+#include "include/fragment_position.glsl"
 #include "include/shadows.glsl"
 #include "include/triangle.glsl"
 #include "include/tint.glsl"
@@ -68,12 +68,12 @@ Task task_of(uint source, uint i) {
         t.source = pixel.y * frame.size.x + pixel.x;
         t.shadow_place = t.source;
     } else {
-        uvec4 record = texelFetch(records, int(source));
-        t.id = record.y;
-        t.at = record_position(record);
-        t.sides = frame.place_footprint * (BOX_FILTER ? place_sides(record.z) : vec2(1.0));
-        t.location = record.x & POINT_LOCATION;
-        t.shadow_place = place_of_record(source);
+        uvec4 fragment = texelFetch(fragments, int(source));
+        t.id = fragment.y;
+        t.at = fragment_position(fragment);
+        t.sides = frame.place_footprint * (BOX_FILTER ? place_sides(fragment.z) : vec2(1.0));
+        t.location = fragment.x & POINT_LOCATION;
+        t.shadow_place = place_of_fragment(source);
     }
     return t;
 }
@@ -250,7 +250,7 @@ vec3 radiance_of(Place place, Point p, Surface s, inout Response r, uint shadow_
 void main() {
     uint i = invocation_number(), entry = PIXELS ? i / 8u : i, source = i;
     if (ONE_BIN && !PIXELS) {
-        if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
+        if (i >= min(counters[COUNTER_FRAGMENTS], frame.fragment_capacity)) return;
     } else {
         uvec4 bin = bins[push.bin];
         if (entry >= bin.x) return;

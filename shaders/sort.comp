@@ -1,7 +1,7 @@
 // sort: sorts visibility samples by material bin. It runs twice: the first run counts the samples of each bin, the second one
-// (`scatter`) stores them in `shade_order`. Background and empty records are left out. A team takes 64 records, and a
-// member some successive ones of these, so that a bin costs one atomic operation for 64 records.
-// Reads: records, the geometry. Writes: bins, shade_order.
+// (`scatter`) stores them in `shade_order`. Background and empty fragments are left out. A team takes 64 fragments, and a
+// member some successive ones of these, so that a bin costs one atomic operation for 64 fragments.
+// Reads: fragments, the geometry. Writes: bins, shade_order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -10,17 +10,17 @@
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(push_constant) uniform Push { uint scatter; } push;
 
-const uint OWN = 64u / TEAM;       // records of a member
+const uint OWN = 64u / TEAM;       // fragments of a member
 const uint NONE = ~0u;
 
 void main() {
     bool scatter = push.scatter != 0u;
     uint first = team_number() * 64u + member() * OWN;
-    uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
+    uint count = min(counters[COUNTER_FRAGMENTS], frame.fragment_capacity);
 
     uint bin[OWN], least = NONE;
     [[unroll]] for (uint r = 0u; r < OWN; r++) {
-        uint i = first + r, id = i < count ? texelFetch(records, int(i)).y : 0u;
+        uint i = first + r, id = i < count ? texelFetch(fragments, int(i)).y : 0u;
         bin[r] = id == 0u ? NONE : bin_of(triangle_word(id - 1u));
         least = min(least, bin[r]);
     }

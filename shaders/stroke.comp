@@ -114,8 +114,8 @@ void main() {
     if (i >= part.corners + 4u * part.edges) return;
     bool is_edge = i >= part.corners;
     uint corner_of_edge = (i - part.corners) & 3u;
-    uint record = is_edge ? part.corners + (i - part.corners) / 4u : i;
-    uvec4 ends = texelFetch(strokes, int(2u * record)), shape = texelFetch(strokes, int(2u * record + 1u));
+    uint stroke = is_edge ? part.corners + (i - part.corners) / 4u : i;
+    uvec4 ends = texelFetch(strokes, int(2u * stroke)), shape = texelFetch(strokes, int(2u * stroke + 1u));
     uint flags = 0u;
     uvec2 opposite = uvec2(0u);
     if (is_edge) {

@@ -102,8 +102,8 @@
 //! ```
 //!
 //! [`vulkan::Requirements`] says what a device needs before there is one. `render::Renderer` takes your handles and, if you like,
-//! your allocator. `Frame::record` never submits, waits or allocates. An image comes back in the layout, stage and access that you
-//! name. Once the commands are done, `Frame::statistics` fails with `EngineError::Unfinished` if a dense scene needed more memory;
+//! your allocator. `SceneFrame::record` never submits, waits or allocates. An image comes back in the layout, stage and access that you
+//! name. Once the commands are done, `SceneFrame::statistics` fails with `EngineError::Unfinished` if a dense scene needed more memory;
 //! `Renderer::prepare_again` makes a frame with more. `examples/embed.rs` is a complete host.
 //!
 //! ## 3. Your own scene
@@ -143,30 +143,27 @@
 
 #[cfg(feature = "capi")]
 mod capi;
+#[cfg(feature = "cli")]
+pub mod compare;
 // Scenes of files use all of the engine, hosts a part.
 #[cfg_attr(not(feature = "gltf"), allow(dead_code, unused_imports))]
 #[macro_use]
 mod engine;
-#[cfg(feature = "gltf")]
-mod random;
+#[cfg(feature = "cli")]
+pub mod names;
+#[cfg(feature = "cli")]
+pub mod output;
 #[cfg(feature = "gltf")]
 pub mod render;
-#[cfg(feature = "gltf")]
-#[doc(hidden)]
-pub mod testing;
 #[cfg(feature = "cli")]
-mod tools;
+pub mod resample;
 
 pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
-pub use render::{camera, scene};
-#[cfg(feature = "cli")]
-pub use tools::{compare, names, output, resample};
-
-/// What `gpc bench` and tests measure with: no part of the library's interface, and changes without notice.
-#[cfg(feature = "cli")]
 #[doc(hidden)]
-pub use tools::bench;
+pub use render::testing;
+#[cfg(feature = "gltf")]
+pub use render::{camera, scene};
 
 /// Compiles the library's example in the README.
 #[cfg(all(doctest, feature = "gltf"))]

@@ -12,7 +12,7 @@ use gpc::camera::zoom::{Transition, ZoomMap, ZoomRegion};
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::output::{self, Picture};
 use gpc::render::{
-    CellOptions, Frame, Headless, HeadlessOptions, Pixel, PixelAttributes, PreparedScene, RenderError, Rendered,
+    CellOptions, Headless, HeadlessOptions, Pixel, PixelAttributes, PreparedScene, RenderError, Rendered, SceneFrame,
     SceneRequest, Settings, Shadows,
 };
 use gpc::scene::{PoseRequest, SceneCamera};
@@ -36,7 +36,7 @@ pub struct Renderer {
 
 struct Inner {
     /// The last frame, with the settings that it was prepared for.
-    frame: Option<(Settings, Kind, Frame)>,
+    frame: Option<(Settings, Kind, SceneFrame)>,
     prepared: PreparedScene,
     headless: Headless,
     bounds: (DVec3, DVec3),

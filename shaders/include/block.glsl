@@ -7,7 +7,7 @@
 #define BLOCK_GLSL
 #include "owners.glsl"
 #include "place.glsl"
-#include "records.glsl"
+#include "fragments.glsl"
 
 const uint BLOCK = ROWS * TEAM;                        // samples of a block
 
@@ -22,7 +22,7 @@ struct Cell {
     uint bit;               // the cell's bit in words of its tile
     vec2 at, half_side;     // its middle relative to the tile's centre, and half its sides
     mat2 pixel;             // its axes, which offsets of samples are multiplied by; unused with POINTS
-    uint id;                // what its records name it by: the pixel (x | y << 16), or `location`
+    uint id;                // what its fragments name it by: the pixel (x | y << 16), or `location`
     uint location;          // index of its location; POINTS: place in the order where the block's locations begin
     uint samples;           // number of its samples in the block
 };

@@ -4,7 +4,7 @@
 #include "layer_list.glsl"
 #include "tint.glsl"
 
-// The colour of a list of layers. `node` is the record of the nearest one.
+// The colour of a list of layers. `node` is the fragment of the nearest one.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
     vec3 through = vec3(1.0);

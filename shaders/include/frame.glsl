@@ -9,7 +9,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "interface.glsl"
 
-// In place of the number of records in a header: its block lacked room or iterations, so that the cell keeps its colour.
+// In place of the number of fragments in a header: its block lacked room or iterations, so that the cell keeps its colour.
 const uint LEFT_BLOCK = 0x80000000u;
 
 // Pixel positions are relative to the screen's centre, x right, y down. A region is the part of the screen that this frame
@@ -36,7 +36,7 @@ layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
     uint survivor_capacity; // room for triangles that `thin` selects and that `cull` keeps
     uint pair_capacity;     // room for pairs of a triangle and a tile
     uint list_capacity;     // room for candidates of a round
-    uint record_capacity;   // room for visibility samples
+    uint fragment_capacity;   // room for visibility samples
     uint bin_count;         // material bins
     uint light_count;
     uint material_vectors;  // vectors of a material in `materials`
@@ -87,9 +87,9 @@ layout(std430, set = SET_DATA, binding = BINDING_TILE_LISTS) buffer TileLists { 
 layout(std430, set = SET_DATA, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
 layout(set = SET_DATA, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl
 layout(std430, set = SET_DATA, binding = BINDING_CANDIDATES_OUT) buffer CandidatesOut { uvec4 candidates_out[]; };
-layout(std430, set = SET_DATA, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count or LEFT_BLOCK
-layout(set = SET_DATA, binding = BINDING_RECORDS) uniform utextureBuffer records;
-layout(std430, set = SET_DATA, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };
+layout(std430, set = SET_DATA, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first fragment, count or LEFT_BLOCK
+layout(set = SET_DATA, binding = BINDING_FRAGMENTS) uniform utextureBuffer fragments;
+layout(std430, set = SET_DATA, binding = BINDING_FRAGMENTS_OUT) writeonly buffer FragmentsOut { uvec4 fragments_out[]; };
 layout(set = SET_DATA, binding = BINDING_SHADED) uniform textureBuffer shaded;
 layout(std430, set = SET_DATA, binding = BINDING_SHADED_OUT) writeonly buffer ShadedOut { vec4 shaded_out[]; };
 layout(std430, set = SET_DATA, binding = BINDING_SHADE_ORDER) buffer ShadeOrder { uint shade_order[]; };

@@ -16,7 +16,7 @@
 //         gpc_store(s, vec4(shade(normal), 1.0));
 //     }
 //
-// A visibility sample is a record of four words:
+// A visibility sample is four words:
 //     x   pixel: x | y << 16; in a list of locations, the index of its location in the lower 31 bits
 //     y   triangle ID: 1 + index of the triangle in the order of the frame's draws
 //     z   place in the pixel: offset from its centre, x and y in 12 bits each, signed, in units of 2^-12 of a pixel, and
@@ -32,8 +32,8 @@
 #define GPC_SET 0
 #endif
 
-// Version of the interface between this file and the library: bindings, records, functions. gpc_check_shader reads it from a
-// shader's SPIR-V. An application's own constants need other IDs.
+// Version of the interface between this file and the library: bindings, the words of a visibility sample,
+// functions. gpc_check_shader reads it from a shader's SPIR-V. An application's own constants need other IDs.
 layout(constant_id = 2046) const uint GPC_SHADER_VERSION = 1u;
 
 layout(set = GPC_SET, binding = 0) uniform GpcFrame {
@@ -45,8 +45,8 @@ layout(set = GPC_SET, binding = 0) uniform GpcFrame {
     uint list;          // whether the samples are those of a list of locations, not of pixels
 } gpc_frame;
 layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // number of samples, first in gpc_order
-layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
-layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcRecords { uvec4 gpc_records[]; };
+layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices in gpc_fragments
+layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcFragments { uvec4 gpc_fragments[]; };
 layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three positions; key << 16 and flags
 layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 gpc_positions[]; };  // clip space
 layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
@@ -56,7 +56,7 @@ layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_
 layout(std430, set = GPC_SET, binding = 9) readonly buffer GpcLocations { uvec4 gpc_locations[]; }; // two each: pixel and place in it; Jacobian
 
 struct GpcSample {
-    uint record;        // index, for gpc_store
+    uint fragment;      // index, for gpc_store
     uint triangle;      // index in the order of the frame's draws
     uint draw;          // index of its draw
     uint material;      // that of its draw
@@ -75,17 +75,17 @@ struct GpcSample {
 bool gpc_sample(uint key, out GpcSample s) {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uvec4 listed = gpc_keys[key];
-    s.record = gpc_order[listed.y + min(i, max(listed.x, 1u) - 1u)];
-    uvec4 record = gpc_records[s.record];
-    s.triangle = max(record.y, 1u) - 1u;
+    s.fragment = gpc_order[listed.y + min(i, max(listed.x, 1u) - 1u)];
+    uvec4 fragment = gpc_fragments[s.fragment];
+    s.triangle = max(fragment.y, 1u) - 1u;
     uvec4 words = gpc_triangles[s.triangle];
     s.draw = gpc_draw_of[s.triangle];
     uvec4 draw = gpc_draws[2u * s.draw + 1u];
     s.vertices = words.xyz + draw.z;
     s.material = draw.w;
-    vec2 place = place_location(record.z), centred;
+    vec2 place = place_location(fragment.z), centred;
     mat2 jacobian = mat2(1.0);
-    s.location = gpc_frame.list != 0u ? record.x & 0x7fffffffu : 0u;
+    s.location = gpc_frame.list != 0u ? fragment.x & 0x7fffffffu : 0u;
     if (gpc_frame.list != 0u) {
         uvec4 at = gpc_locations[2u * s.location];
         vec4 axes = uintBitsToFloat(gpc_locations[2u * s.location + 1u]);
@@ -94,12 +94,12 @@ bool gpc_sample(uint key, out GpcSample s) {
         vec2 tile = vec2((ivec2(at.xy) & ~ivec2(7, 3)) + ivec2(4, 2)) - gpc_frame.middle;
         centred = tile + place_in_tile(at) + jacobian * place;
     } else {
-        centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.middle + place;
+        centred = vec2(fragment.x & 0xffffu, fragment.x >> 16) + 0.5 - gpc_frame.middle + place;
     }
     s.position = centred + gpc_frame.middle;
     vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);
     Barycentric b = barycentric(gpc_positions[words.x] * scale, gpc_positions[words.y] * scale, gpc_positions[words.z] * scale, centred);
-    vec2 sides = gpc_frame.place_side * (gpc_frame.box != 0u ? place_sides(record.z) : vec2(1.0));
+    vec2 sides = gpc_frame.place_side * (gpc_frame.box != 0u ? place_sides(fragment.z) : vec2(1.0));
     s.weights = b.at;
     mat2x3 change = mat2x3(b.dx, b.dy);
     if (gpc_frame.list != 0u) change = change * jacobian;
@@ -133,7 +133,7 @@ GpcSample gpc_part(GpcSample s, uint i, uint side) {
 // Writes the colour of a sample: light, in the linear space in which the image's colours are averaged, and opacity. Light is not
 // premultiplied by the opacity. If the draw is not blended, the opacity is ignored, and the sample's alpha is 1.
 void gpc_store(GpcSample s, vec4 light) {
-    gpc_shaded[s.record] = light;
+    gpc_shaded[s.fragment] = light;
 }
 
 #endif

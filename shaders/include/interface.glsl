@@ -42,8 +42,8 @@
 #define BINDING_CANDIDATES 24
 #define BINDING_CANDIDATES_OUT 25
 #define BINDING_HEADERS 26
-#define BINDING_RECORDS 27
-#define BINDING_RECORDS_OUT 28
+#define BINDING_FRAGMENTS 27
+#define BINDING_FRAGMENTS_OUT 28
 #define BINDING_SHADED 29
 #define BINDING_SHADED_OUT 30
 #define BINDING_SHADE_ORDER 31
@@ -239,14 +239,14 @@
 #define COUNTER_ROUND_FIRST 8
 #define COUNTER_NEXT_TILE 9
 #define COUNTER_UNFINISHED 10
-#define COUNTER_RECORDS 11
+#define COUNTER_FRAGMENTS 11
 #define COUNTER_PLAIN_TILES 12
 #define COUNTER_MASKED_TILES 13
 #define COUNTER_BLENDED_TILES 14
 #define COUNTER_UNLISTED_TILES 15
 #define COUNTER_ROUNDS 16
 #define COUNTER_CANDIDATES_TOTAL 17
-#define COUNTER_RECORDS_TOTAL 18
+#define COUNTER_FRAGMENTS_TOTAL 18
 #define COUNTER_SHADED_TOTAL 19
 #define COUNTER_UNLISTED_TOTAL 20
 #define COUNTER_PAIRS 21
@@ -290,7 +290,7 @@
 #define ARGUMENT_SCATTER 18
 #define ARGUMENT_SCATTER_EVERY 19
 #define ARGUMENT_LAYERS 20
-#define ARGUMENT_RECORDS 21
+#define ARGUMENT_FRAGMENTS 21
 #define ARGUMENT_RESOLVE_PLAIN 22
 #define ARGUMENT_RESOLVE_MASKED 23
 #define ARGUMENT_RESOLVE_BLENDED 24
@@ -301,7 +301,7 @@
 #define AFTER_DETECT 0u
 #define AFTER_CULL 1u
 #define AFTER_SAMPLE 2u
-#define AFTER_RECORDS 3u
+#define AFTER_FRAGMENTS 3u
 #define AFTER_SPANS 4u
 #define AFTER_THIN 5u
 #define AFTER_GROUPS 6u
@@ -463,8 +463,8 @@
 #define SHORT_LIST 2500u
 #define SHORT_LAYERED 160u
 
-// The most records that `sample_lines` makes of a cell in excess of its number of samples. Triangles that are seen in the same
-// part of a cell have a record each.
-#define MORE_RECORDS 16u
+// The most fragments that `sample_lines` makes of a cell in excess of its number of samples. Triangles that are seen in the same
+// part of a cell have a fragment each.
+#define MORE_FRAGMENTS 16u
 
 #endif

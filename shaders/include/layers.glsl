@@ -1,10 +1,10 @@
-// LAYERED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers in front of these, in
+// LAYERED fragments of the samples of a block: the opaque surfaces that they see, then the BLEND layers in front of these, in
 // exact order of depth.
 //
-// Samples that see the same surfaces, from the farthest one on, share the records of these. Records form a tree: the record of
+// Samples that see the same surfaces, from the farthest one on, share the fragments of these. Fragments form a tree: the fragment of
 // a surface is a node that links to the surface behind it, and is shaded at the centroid of the samples that share it. Samples
 // that share a node are split by the triangle that they see next in front. A leaf says how many samples end at which node.
-// Samples do not share records if each is shaded by itself (EACH), nor in front of SHARED_LAYERS layers, so that loops end in
+// Samples do not share fragments if each is shaded by itself (EACH), nor in front of SHARED_LAYERS layers, so that loops end in
 // time.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
@@ -59,10 +59,10 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     bool fits = true;
     if (each) {
         uint mine = uint(bitCount(left)), before = team_before(mine);
-        uint slot = allocate_records(team_add(mine), fits) + before;
+        uint slot = allocate_fragments(team_add(mine), fits) + before;
         [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
-            if (moves && fits) records_out[slot] = uvec4(POINTS ? location_at(cell_id + sample_of(g)) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
+            if (moves && fits) fragments_out[slot] = uvec4(POINTS ? location_at(cell_id + sample_of(g)) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
             node[g] = moves ? slot : node[g];
             slot += moves ? 1u : 0u;
         }
@@ -70,7 +70,7 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
     }
     do {
         uint count = 0u, before = left;
-        uvec4 held;             // record of one group: member n holds that of group n
+        uvec4 held;             // fragment of one group: member n holds that of group n
         uint number[ROWS];
         do {
             Group s = first_group(left);
@@ -82,8 +82,8 @@ bool add_nodes(uint cell_id, uint samples, bool each) {
         } while (count < TEAM && team_any(left != 0u));
         trips += count + 2u;
         bool room;
-        uint base = allocate_records(count, room);
-        if (room && lane < count) records_out[base + lane] = held;
+        uint base = allocate_fragments(count, room);
+        if (room && lane < count) fragments_out[base + lane] = held;
         [[unroll]] for (uint g = 0u; g < ROWS; g++) node[g] = ((before & ~left) >> g & 1u) != 0u ? base + number[g] : node[g];
         fits = fits && room;
     } while (team_any(left != 0u));
@@ -95,12 +95,12 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     uint lane = member();
     bool fits;
     if (EACH) {
-        uint base = allocate_records(complete ? samples : 0u, fits);
+        uint base = allocate_fragments(complete ? samples : 0u, fits);
         fits = fits && complete;
         [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             uint s = sample_of(g);
             if (fits && s < samples)
-                records_out[base + s] = uvec4(POINTS ? location_at(cell_id + s) | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
+                fragments_out[base + s] = uvec4(POINTS ? location_at(cell_id + s) | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
         }
         return uvec2(base, fits ? samples : 0u);
     }
@@ -117,14 +117,14 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         count += s.samples > 0.0 ? 1u : 0u;
         beyond = count <= TEAM ? left : beyond;
     } while (team_any(left != 0u));
-    uint base = allocate_records(complete ? count : 0u, fits);
+    uint base = allocate_fragments(complete ? count : 0u, fits);
     fits = fits && complete;
-    if (fits && lane < count) records_out[base + lane] = held;
+    if (fits && lane < count) fragments_out[base + lane] = held;
     // Members hold TEAM leaves. Others are written one by one.
     uint stored = TEAM;
     do {
         Group s = first_group(beyond);
-        if (fits && stored < count && member() == 0u) records_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
+        if (fits && stored < count && member() == 0u) fragments_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
         beyond &= ~s.rows;
     } while (++stored < count);
     trips += 2u * count;
@@ -194,7 +194,7 @@ bool find_layers(Cell cell) {
     return left != 0u || team_any(most > 1u);
 }
 
-// Makes all records of a cell's block; returns the first leaf and their number.
+// Makes all fragments of a cell's block; returns the first leaf and their number.
 uvec2 record_layers(Cell cell) {
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         node[g] = ~0u;

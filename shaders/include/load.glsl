@@ -10,18 +10,18 @@
 // Options of sampling are pushed, not specialised, so that one pipeline of each pass serves all of them.
 layout(push_constant) uniform Push {
     uint block;             // samples of a block, which has one header
-    uint per_sample;        // 1 if each sample is a record
+    uint per_sample;        // 1 if each sample is a fragment
     uint layers;            // BLEND layers before a sample that memory is reserved for
-    uint parts;             // records that a triangle makes in a block, at most
+    uint parts;             // fragments that a triangle makes in a block, at most
     uint teams_first;       // teams of the first run of `sample` for an entry of a work list
     uint teams_unlisted;    // the same for tiles without a list
     uint longest_list;      // most candidates of a tile; a tile with more has no list
     uint longest_layered;   // the same if some candidates are BLEND
-    uint more_records;      // most records of a cell that `sample_lines` takes in excess of its number of samples
+    uint more_fragments;      // most fragments of a cell that `sample_lines` takes in excess of its number of samples
 } push;
 
 struct Load {
-    uvec4 needs;    // candidates (without a list: room for owners, in candidates), records, headers, entries without a list
+    uvec4 needs;    // candidates (without a list: room for owners, in candidates), fragments, headers, entries without a list
     uvec4 entries;  // entries in each of the work lists
 };
 
@@ -32,7 +32,7 @@ uvec4 room;     // what a round has room for, in the order of `needs`
 uint blocks;    // blocks of a cell
 
 void begin_loads() {
-    room = uvec4(frame.list_capacity, uvec2(frame.record_capacity), max(MOST_TRIALS / max(frame.triangle_count, 1u), FEWEST_TRIED));
+    room = uvec4(frame.list_capacity, uvec2(frame.fragment_capacity), max(MOST_TRIALS / max(frame.triangle_count, 1u), FEWEST_TRIED));
     blocks = (frame.sample_count + push.block - 1u) / push.block;
 }
 
@@ -69,16 +69,16 @@ Load load_of(uint index, uvec4 tile) {
     bool layered = (tile.w & TILE_HAS_BLEND) != 0u || (!listed && frame.first_blend < frame.triangle_count);
     uint candidates_ = listed ? tile.x : frame.triangle_count;
     // Number of different lists of layers that memory is reserved for in a block. Most blocks need less than half of these
-    // records. If a frame found too little room, it is made again with more layers.
+    // fragments. If a frame found too little room, it is made again with more layers.
     uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
-    uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
-        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
+    uint fragments_ = layered ? lists * (2u + min(candidates_, push.layers))
+        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_fragments), samples + cells * push.more_fragments);
     uint entries = (cells + CELLS_OF_ENTRY - 1u) / CELLS_OF_ENTRY;
     // The number of layers is not known yet: room is reserved for half of `push.layers` vectors a sample.
     uint owners = candidates_of_owners(cells) * (layered ? push.layers / 2u : 1u);
     Load load;
-    load.needs = uvec4(!busy ? 0u : listed ? tile.x : owners, records_, cells * blocks, listed ? 0u : entries);
+    load.needs = uvec4(!busy ? 0u : listed ? tile.x : owners, fragments_, cells * blocks, listed ? 0u : entries);
     load.entries = (LOCATIONS ? 0u : entries) * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
     return load;
 }

@@ -23,8 +23,8 @@ layout(std430, set = SET_DATA, binding = BINDING_TILE_LOADS) readonly buffer Til
 // POINTS: indices of locations, tile by tile, those of a cell one after the other.
 layout(set = SET_DATA, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
 
-// A record of POINTS holds its location in the lower 31 bits of its first word. The topmost bit marks the record that stands
-// for all that the location sees: its leaf, or its only record.
+// A fragment of POINTS holds its location in the lower 31 bits of its first word. The topmost bit marks the fragment that stands
+// for all that the location sees: its leaf, or its only fragment.
 #define POINT_VALUE 0x80000000u
 #define POINT_LOCATION 0x7fffffffu
 

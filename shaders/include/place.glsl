@@ -1,11 +1,11 @@
 // The place at which a visibility sample is shaded, and the part of its cell that it stands for, in a word:
 // - offsets x and y from the middle of the cell, in 12 bits each, in units of 2^-12 of the cell's sides
-// - above them, in 7 bits, the side of the square that the record stands for, as -16 log2 of (side / side of the cell)
+// - above them, in 7 bits, the side of the square that the fragment stands for, as -16 log2 of (side / side of the cell)
 // - in the topmost bit, whether it stands for a rectangle of the same area that is twice as wide as high, not a square
 #ifndef PLACE_GLSL
 #define PLACE_GLSL
 
-// `share` is the share of the cell's area that the record stands for, from 2^-15 to 1.
+// `share` is the share of the cell's area that the fragment stands for, from 2^-15 to 1.
 uint pack_place(vec2 offset, float share, bool wide) {
     ivec2 q = clamp(ivec2(round(offset * 4096.0)), ivec2(-2048), ivec2(2047));
     uint side = uint(round(clamp(-8.0 * log2(share), 0.0, 127.0)));

@@ -11,7 +11,7 @@
 layout(constant_id = CONSTANT_SHADOW_WORDS) const uint SHADOW_WORDS = 0u;
 layout(set = SET_DATA, binding = BINDING_SHADOW_WORDS) uniform utextureBuffer shadow_words;
 
-uint place_of_record(uint record) { return (LOCATIONS ? 0u : frame.size.x * frame.size.y) + record; }
+uint place_of_fragment(uint fragment) { return (LOCATIONS ? 0u : frame.size.x * frame.size.y) + fragment; }
 
 uint shadows_at(uint place) { return SHADOW_WORDS != 0u ? texelFetch(shadow_words, int(place * SHADOW_WORDS)).x : 0u; }
 

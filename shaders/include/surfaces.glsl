@@ -2,7 +2,7 @@
 // block, or one for each sample.
 #ifndef SURFACES_GLSL
 #define SURFACES_GLSL
-#include "records.glsl"
+#include "fragments.glsl"
 #include "variation.glsl"
 
 // What a block of samples sees of one triangle.
@@ -121,7 +121,7 @@ uint merge_bits(uint bits, uint merged) {
 }
 
 // Surfaces of a block of which the team holds what it sees of them, and those that a member holds: numbers member() and, with teams
-// of 4, member() + 4. Teams of each size hold as many, so that they make the same records.
+// of 4, member() + 4. Teams of each size hold as many, so that they make the same fragments.
 const uint HELD = 8u, OWN_SURFACES = HELD / TEAM;
 
 struct HeldSurface {
@@ -155,32 +155,32 @@ uint find_surfaces(out HeldSurface held[OWN_SURFACES]) {
     return count;
 }
 
-// Makes a record for each point that sees something; returns the first record and their number.
+// Makes a fragment for each point that sees something; returns the first fragment and their number.
 uvec2 record_points(Cell cell) {
     uint made = 0u;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) made += uint(bitCount(team_ballot(id[g] != 0u)));
     bool fits;
-    uint base = allocate_records(made, fits), slot = base;
+    uint base = allocate_fragments(made, fits), slot = base;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint seeing = team_ballot(id[g] != 0u);
-        if (fits && id[g] != 0u) records_out[slot + bits_before(seeing)] = uvec4(location_of(cell, g) | POINT_VALUE, id[g], 0u, ~0u);
+        if (fits && id[g] != 0u) fragments_out[slot + bits_before(seeing)] = uvec4(location_of(cell, g) | POINT_VALUE, id[g], 0u, ~0u);
         slot += uint(bitCount(seeing));
     }
     return uvec2(base, fits ? made : 0u);
 }
 
-// Makes a record for each sample; returns the first record and their number.
+// Makes a fragment for each sample; returns the first fragment and their number.
 uvec2 record_samples(Cell cell) {
     bool fits;
-    uint base = allocate_records(cell.samples, fits);
+    uint base = allocate_fragments(cell.samples, fits);
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint s = sample_of(g);
-        if (fits && s < cell.samples) records_out[base + s] = uvec4(cell.id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
+        if (fits && s < cell.samples) fragments_out[base + s] = uvec4(cell.id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }
 
-// Makes a record for each surface or part of one; returns the first record and their number.
+// Makes a fragment for each surface or part of one; returns the first fragment and their number.
 uvec2 record_surfaces(Cell cell) {
     HeldSurface held[OWN_SURFACES];
     uint count = find_surfaces(held), own = 0u, singles = 0u, several = 0u, greatest = 0u, shaded_in[OWN_SURFACES];
@@ -200,19 +200,19 @@ uvec2 record_surfaces(Cell cell) {
     singles = team_or(singles);
     uint single_count = uint(bitCount(singles)), beyond = count - min(count, HELD), used = single_count + beyond + team_add(own);
     bool fits;
-    uint base = allocate_records(used, fits);
+    uint base = allocate_fragments(used, fits);
 
-    // Surfaces with one record: those that members hold are written at once, the others one by one.
+    // Surfaces with one fragment: those that members hold are written at once, the others one by one.
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
-        if (fits && (singles & bit) != 0u) records_out[base + before] = uvec4(cell.id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
+        if (fits && (singles & bit) != 0u) fragments_out[base + before] = uvec4(cell.id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
     }
     uint slot = base + single_count;
     uint seen = team_max(greatest), stored = 0u;
     do {
         Surface s = surface_after(seen);
         if (fits && stored < beyond && member() == 0u)
-            records_out[slot] = uvec4(cell.id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
+            fragments_out[slot] = uvec4(cell.id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
@@ -236,7 +236,7 @@ uvec2 record_surfaces(Cell cell) {
                 vec3 part = h < PARTS_HELD ? parts[h] : vec3(0.0);
                 uint before = uint(bitCount(present & ((1u << held_part(h)) - 1u)));
                 if (fits && part.z != 0.0)
-                    records_out[slot + before] = uvec4(cell.id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z));
+                    fragments_out[slot + before] = uvec4(cell.id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z));
             }
             slot += uint(bitCount(present));
             pending &= pending - 1u;

@@ -1,5 +1,5 @@
 // The tint of a layer: the share of light that it lets through, for each channel. It is packed into the fourth number of a
-// shaded record: ten bits for the square root of each channel, so that dark tints keep their colour.
+// shaded fragment: ten bits for the square root of each channel, so that dark tints keep their colour.
 #ifndef TINT_GLSL
 #define TINT_GLSL
 #include "interface.glsl"

@@ -10,7 +10,7 @@
 
 layout(constant_id = CONSTANT_INSTANCED) const bool INSTANCED = false;  // indices of triangles count those of all instances
 
-// Vectors of an instance: (added to an index, modulo 2^32: the index of its record in `triangles`; end of its indices; flags; 0),
+// Vectors of an instance: (added to an index, modulo 2^32: the index of its words in `triangles`; end of its indices; flags; 0),
 // four columns of the matrix to clip space, three rows of the matrix to the geometry's space.
 const int INSTANCE_VECTORS = 8;
 
@@ -32,10 +32,10 @@ vec4 to_clip(mat4 matrix, vec4 p) {
 
 // Vertices and word of the triangle at an index. `instance` is the first vector of its instance.
 uvec4 triangle_in(uvec4 instance, uint index) {
-    uvec4 record = texelFetch(triangles, int(min(index, instance.y - 1u) + instance.x));
-    record.yz = (instance.z & INSTANCE_MIRRORED) != 0u ? record.zy : record.yz;
-    record.yz = index < instance.y ? record.yz : record.xx;
-    return record;
+    uvec4 words = texelFetch(triangles, int(min(index, instance.y - 1u) + instance.x));
+    words.yz = (instance.z & INSTANCE_MIRRORED) != 0u ? words.zy : words.yz;
+    words.yz = index < instance.y ? words.yz : words.xx;
+    return words;
 }
 
 int instance_at(uint index) {
@@ -50,24 +50,24 @@ uint triangle_word(uint index) {
 
 Triangle triangle_at(uint index) {
     Triangle t;
-    uvec4 record;
+    uvec4 words;
     mat4 matrix;
     if (INSTANCED) {
         t.instance = instance_at(index);
         uvec4 instance = texelFetch(instances, t.instance);
-        record = triangle_in(instance, index);
+        words = triangle_in(instance, index);
         t.exists = index < instance.y;
         matrix = mat4(
             uintBitsToFloat(texelFetch(instances, t.instance + 1)), uintBitsToFloat(texelFetch(instances, t.instance + 2)),
             uintBitsToFloat(texelFetch(instances, t.instance + 3)), uintBitsToFloat(texelFetch(instances, t.instance + 4)));
     } else {
         t.instance = 0;
-        record = texelFetch(triangles, int(index));
+        words = texelFetch(triangles, int(index));
         t.exists = true;
         matrix = frame.transform;
     }
-    t.vertices = ivec3(record.xyz);
-    t.word = record.w;
+    t.vertices = ivec3(words.xyz);
+    t.word = words.w;
     t.v0 = to_clip(matrix, texelFetch(positions, t.vertices.x));
     t.v1 = to_clip(matrix, texelFetch(positions, t.vertices.y));
     t.v2 = to_clip(matrix, texelFetch(positions, t.vertices.z));

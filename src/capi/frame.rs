@@ -313,7 +313,7 @@ pub unsafe extern "C" fn gpc_frame_outcome(frame: *const GpcFrame, outcome: *mut
                     left_over: found.left_over,
                     superpixels: statistics.superpixels,
                     triangles: statistics.triangles.total,
-                    visibility_samples: statistics.records,
+                    visibility_samples: statistics.visibility_samples,
                     memory_bytes: statistics.memory_bytes,
                     gpu_milliseconds: statistics.gpu_ms(),
                     indirect_draws: found.indirect.draws,

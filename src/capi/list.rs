@@ -290,7 +290,7 @@ pub unsafe extern "C" fn gpc_list_outcome(list: *const GpcList, outcome: *mut Gp
                 Ok(GpcListOutcome {
                     left_out: found.left_out,
                     left_over: found.left_over,
-                    visibility_samples: statistics.records,
+                    visibility_samples: statistics.visibility_samples,
                     memory_bytes: statistics.memory_bytes,
                     gpu_milliseconds: statistics.gpu_ms(),
                     ..GpcListOutcome::defaults()

@@ -39,8 +39,8 @@ pub mod frame_set {
     pub const CANDIDATES: Binding = Binding::new(24, "candidates", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const CANDIDATES_OUT: Binding = Binding::new(25, "candidates_out", Kind::STORAGE_BUFFER, 1);
     pub const HEADERS: Binding = Binding::new(26, "headers", Kind::STORAGE_BUFFER, 1);
-    pub const RECORDS: Binding = Binding::new(27, "records", Kind::UNIFORM_TEXEL_BUFFER, 1);
-    pub const RECORDS_OUT: Binding = Binding::new(28, "records_out", Kind::STORAGE_BUFFER, 1);
+    pub const FRAGMENTS: Binding = Binding::new(27, "fragments", Kind::UNIFORM_TEXEL_BUFFER, 1);
+    pub const FRAGMENTS_OUT: Binding = Binding::new(28, "fragments_out", Kind::STORAGE_BUFFER, 1);
     pub const SHADED: Binding = Binding::new(29, "shaded", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const SHADED_OUT: Binding = Binding::new(30, "shaded_out", Kind::STORAGE_BUFFER, 1);
     pub const SHADE_ORDER: Binding = Binding::new(31, "shade_order", Kind::STORAGE_BUFFER, 1);
@@ -230,7 +230,7 @@ pub struct Frame {
     pub survivor_capacity: u32,
     pub pair_capacity: u32,
     pub list_capacity: u32,
-    pub record_capacity: u32,
+    pub fragment_capacity: u32,
     pub bin_count: u32,
     pub light_count: u32,
     pub material_vectors: u32,
@@ -487,7 +487,7 @@ impl Specialized for Centres {
             Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Write },
-            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::FRAGMENTS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
         ],
         push_bytes: 8,
@@ -540,7 +540,7 @@ impl Specialized for Composite {
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
         ],
@@ -948,7 +948,7 @@ pub struct EnlistPush {
     pub teams_unlisted: u32,
     pub longest_list: u32,
     pub longest_layered: u32,
-    pub more_records: u32,
+    pub more_fragments: u32,
 }
 
 /// Constants of `shaders/enlist.comp`.
@@ -1103,7 +1103,7 @@ pub mod gpc_visibility_set {
     pub const GPC_FRAME: Binding = Binding::new(0, "gpc_frame", Kind::UNIFORM_BUFFER, 1);
     pub const GPC_KEYS: Binding = Binding::new(1, "gpc_keys", Kind::STORAGE_BUFFER, 1);
     pub const GPC_ORDER: Binding = Binding::new(2, "gpc_order", Kind::STORAGE_BUFFER, 1);
-    pub const GPC_RECORDS: Binding = Binding::new(3, "gpc_records", Kind::STORAGE_BUFFER, 1);
+    pub const GPC_FRAGMENTS: Binding = Binding::new(3, "gpc_fragments", Kind::STORAGE_BUFFER, 1);
     pub const GPC_TRIANGLES: Binding = Binding::new(4, "gpc_triangles", Kind::STORAGE_BUFFER, 1);
     pub const GPC_POSITIONS: Binding = Binding::new(5, "gpc_positions", Kind::STORAGE_BUFFER, 1);
     pub const GPC_SHADED: Binding = Binding::new(6, "gpc_shaded", Kind::STORAGE_BUFFER, 1);
@@ -1114,7 +1114,7 @@ pub mod gpc_visibility_set {
         GPC_FRAME,
         GPC_KEYS,
         GPC_ORDER,
-        GPC_RECORDS,
+        GPC_FRAGMENTS,
         GPC_TRIANGLES,
         GPC_POSITIONS,
         GPC_SHADED,
@@ -1349,7 +1349,7 @@ impl Specialized for Multisample {
             Use { set: 1, binding: frame_set::TILES, access: Access::Write },
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Write },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::FRAGMENTS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::ARGUMENTS, access: Access::Write },
         ],
         push_bytes: 0,
@@ -1631,7 +1631,7 @@ impl Specialized for Points {
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
             Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
             Use { set: 1, binding: frame_set::ATTRIBUTES_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
@@ -1891,7 +1891,7 @@ impl Specialized for Receivers {
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
             Use { set: 1, binding: frame_set::IDS, access: Access::Read },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
             Use { set: 2, binding: receivers_set::LOCATIONS_OUT, access: Access::Write },
         ],
@@ -1979,7 +1979,7 @@ impl Specialized for Resolve {
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED, access: Access::Read },
             Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
@@ -2078,7 +2078,7 @@ impl Specialized for Sample {
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
             Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::FRAGMENTS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::PATTERN_OFFSETS, access: Access::Read },
             Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
@@ -2174,7 +2174,7 @@ impl Specialized for SampleLines {
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::Write },
-            Use { set: 1, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 1, binding: frame_set::FRAGMENTS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::LOCATIONS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
@@ -2555,7 +2555,7 @@ impl Specialized for Shade {
             Use { set: 1, binding: frame_set::DISPLAY_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::COLOR, access: Access::Write },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADED_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Read },
             Use { set: 1, binding: frame_set::BINS, access: Access::Read },
@@ -2666,7 +2666,7 @@ impl Specialized for Sort {
             Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
             Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
-            Use { set: 1, binding: frame_set::RECORDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
             Use { set: 1, binding: frame_set::SHADE_ORDER, access: Access::Write },
             Use { set: 1, binding: frame_set::BINS, access: Access::ReadWrite },
         ],
@@ -3103,14 +3103,14 @@ pub struct Counters {
     pub round_first: u32,
     pub next_tile: u32,
     pub unfinished: u32,
-    pub records: u32,
+    pub fragments: u32,
     pub plain_tiles: u32,
     pub masked_tiles: u32,
     pub blended_tiles: u32,
     pub unlisted_tiles: u32,
     pub rounds: u32,
     pub candidates_total: u32,
-    pub records_total: u32,
+    pub fragments_total: u32,
     pub shaded_total: u32,
     pub unlisted_total: u32,
     pub pairs: u32,
@@ -3148,14 +3148,14 @@ pub enum Counter {
     RoundFirst,
     NextTile,
     Unfinished,
-    Records,
+    Fragments,
     PlainTiles,
     MaskedTiles,
     BlendedTiles,
     UnlistedTiles,
     Rounds,
     CandidatesTotal,
-    RecordsTotal,
+    FragmentsTotal,
     ShadedTotal,
     UnlistedTotal,
     Pairs,
@@ -3203,7 +3203,7 @@ pub enum Argument {
     Scatter = 18,
     ScatterEvery = 19,
     Layers = 20,
-    Records = 21,
+    Fragments = 21,
     ResolvePlain = 22,
     ResolveMasked = 23,
     ResolveBlended = 24,
@@ -3235,7 +3235,7 @@ impl Argument {
         "scatter",
         "scatter every",
         "layers",
-        "records",
+        "fragments",
         "resolve plain",
         "resolve masked",
         "resolve blended",
@@ -3247,7 +3247,7 @@ impl Argument {
 pub const AFTER_DETECT: u32 = 0;
 pub const AFTER_CULL: u32 = 1;
 pub const AFTER_SAMPLE: u32 = 2;
-pub const AFTER_RECORDS: u32 = 3;
+pub const AFTER_FRAGMENTS: u32 = 3;
 pub const AFTER_SPANS: u32 = 4;
 pub const AFTER_THIN: u32 = 5;
 pub const AFTER_GROUPS: u32 = 6;
@@ -3352,4 +3352,4 @@ pub const FEWEST_TRIED: u32 = 4096;
 pub const LONGEST_LIST: u32 = 40000;
 pub const SHORT_LIST: u32 = 2500;
 pub const SHORT_LAYERED: u32 = 160;
-pub const MORE_RECORDS: u32 = 16;
+pub const MORE_FRAGMENTS: u32 = 16;

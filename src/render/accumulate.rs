@@ -1,6 +1,6 @@
 //! Accumulation: the mean of frames whose cameras are moved within a pixel.
 
-use super::{Frame, Headless, Pixel, RenderError, Rendered};
+use super::{Headless, Pixel, RenderError, Rendered, SceneFrame};
 use crate::camera::Camera;
 use crate::engine::sampler::Statistics;
 use glam::DVec2;
@@ -13,7 +13,7 @@ impl Headless {
     /// As [`Headless::render`].
     pub fn accumulate(
         &mut self,
-        frame: &mut Frame,
+        frame: &mut SceneFrame,
         camera: &Camera,
         offsets: &[DVec2],
         progress: impl FnMut(),
@@ -24,7 +24,7 @@ impl Headless {
     /// As [`Self::accumulate`], for a type of pixel that holds light.
     pub(super) fn mean<P: Pixel>(
         &mut self,
-        frame: &mut Frame,
+        frame: &mut SceneFrame,
         camera: &Camera,
         offsets: &[DVec2],
         mut progress: impl FnMut(),

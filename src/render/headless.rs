@@ -1,7 +1,7 @@
 //! Renderer with a device of its own, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
-use super::{EngineError, Frame, Method, Pixel, RenderError, Settings, Shadows, Statistics, Target};
+use super::{EngineError, Method, Pixel, RenderError, SceneFrame, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError};
@@ -81,7 +81,7 @@ impl ReadBack {
     }
 
     /// Memory for a frame's image of pixels of a type: `known` if it is large enough, otherwise new.
-    fn for_frame<P>(gpu: &Arc<Gpu>, frame: &Frame, known: Option<Self>) -> Result<Self, RenderError> {
+    fn for_frame<P>(gpu: &Arc<Gpu>, frame: &SceneFrame, known: Option<Self>) -> Result<Self, RenderError> {
         let settings = frame.settings();
         let pixels = pixel_count(settings);
         let needs =
@@ -233,7 +233,7 @@ impl Headless {
     /// # Errors
     /// [`RenderError::OtherDevice`] for a scene of another device, [`RenderError::NotUploaded`] for a scene that was
     /// not uploaded by [`Self::upload`]; otherwise if the settings are impossible or memory runs out.
-    pub fn prepare(&self, scene: &PreparedScene, settings: &Settings) -> Result<Frame, RenderError> {
+    pub fn prepare(&self, scene: &PreparedScene, settings: &Settings) -> Result<SceneFrame, RenderError> {
         self.prepare_pixels::<[f32; 4]>(scene, settings)
     }
 
@@ -241,7 +241,11 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Self::prepare`].
-    pub fn prepare_pixels<P: Pixel>(&self, scene: &PreparedScene, settings: &Settings) -> Result<Frame, RenderError> {
+    pub fn prepare_pixels<P: Pixel>(
+        &self,
+        scene: &PreparedScene,
+        settings: &Settings,
+    ) -> Result<SceneFrame, RenderError> {
         let reserved = ReadBack::bytes::<P>(settings);
         self.check(&scene.gpu_scene)?;
         if P::ENCODING.is_some() && matches!(settings.method, Method::Accumulate { .. }) {
@@ -257,7 +261,7 @@ impl Headless {
     /// # Errors
     /// [`RenderError::OtherDevice`] for a frame of another device, [`RenderError::OtherPixels`] for a frame that was prepared
     /// for another type of pixel; otherwise if the device is lost, or the lists do not fit even into the largest memory.
-    pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+    pub fn render(&mut self, frame: &mut SceneFrame, camera: &Camera) -> Result<Rendered, RenderError> {
         self.render_pixels(frame, camera)
     }
 
@@ -266,7 +270,11 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Self::render`].
-    pub fn render_pixels<P: Pixel>(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered<P>, RenderError> {
+    pub fn render_pixels<P: Pixel>(
+        &mut self,
+        frame: &mut SceneFrame,
+        camera: &Camera,
+    ) -> Result<Rendered<P>, RenderError> {
         match &frame.settings().method {
             Method::Accumulate { samples, pattern } => {
                 let offsets = pattern.offsets(*samples).map_err(EngineError::from)?;
@@ -280,7 +288,7 @@ impl Headless {
     /// Renders one frame, with more memory if its lists outgrow what it has.
     pub(super) fn render_one<P: Pixel>(
         &mut self,
-        frame: &mut Frame,
+        frame: &mut SceneFrame,
         camera: &Camera,
     ) -> Result<Rendered<P>, RenderError> {
         loop {
@@ -326,7 +334,7 @@ impl Headless {
 
     pub(super) fn render_once<P: Pixel>(
         &mut self,
-        frame: &mut Frame,
+        frame: &mut SceneFrame,
         camera: &Camera,
     ) -> Result<Rendered<P>, RenderError> {
         self.check(frame.scene())?;

@@ -15,10 +15,13 @@ mod pass_list;
 pub(crate) mod passes;
 mod pixel;
 mod plane;
+mod random;
 mod renderer;
 pub mod scene;
 mod settings;
 mod shadows;
+#[doc(hidden)]
+pub mod testing;
 mod viewpoint;
 
 pub use crate::engine::sampler::{
@@ -26,7 +29,7 @@ pub use crate::engine::sampler::{
     Shading, Statistics, SuperpixelOptions, TriangleCounts,
 };
 pub use error::RenderError;
-pub use frame::{Frame, Target};
+pub use frame::{SceneFrame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
 pub use pass_list::{FramePass, RecordedPasses};

@@ -1,6 +1,6 @@
 //! List of the passes of a frame, in the order in which they are recorded.
 
-use super::{Frame, Headless, RenderError};
+use super::{Headless, RenderError, SceneFrame};
 use crate::camera::Camera;
 use crate::engine::data::Argument;
 use crate::vulkan::{Access, Dispatched, Traced, TracedDispatch};
@@ -75,7 +75,7 @@ impl Headless {
     ///
     /// # Errors
     /// As [`Headless::render`].
-    pub fn passes(&mut self, frame: &mut Frame, camera: &Camera) -> Result<RecordedPasses, RenderError> {
+    pub fn passes(&mut self, frame: &mut SceneFrame, camera: &Camera) -> Result<RecordedPasses, RenderError> {
         let (rendered, passes) = self.passes_of(|headless| headless.render_once::<[f32; 4]>(frame, camera));
         rendered?;
         Ok(passes)

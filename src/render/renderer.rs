@@ -1,6 +1,6 @@
 //! The renderer: requirements for a device, and preparation of scenes and frames.
 
-use super::frame::Frame;
+use super::frame::SceneFrame;
 use super::shadows::Casters;
 use super::{RenderError, Settings, Shadows};
 use crate::engine::pipelines::FrameLayout;
@@ -27,7 +27,7 @@ pub struct Renderer {
 pub struct SceneRequest<'a> {
     /// Scene with its materials.
     pub scene: &'a Scene,
-    /// Moment that is shown unless a frame [shows](Frame::show) another one.
+    /// Moment that is shown unless a frame [shows](SceneFrame::show) another one.
     pub pose: &'a Pose,
     /// Motion that the pose was made with, if frames will show other moments of it. Images of locations always show
     /// the pose.
@@ -199,7 +199,7 @@ impl Renderer {
         scene: &PreparedScene,
         settings: &Settings,
         encoding: Option<Encoding>,
-    ) -> Result<Frame, RenderError> {
+    ) -> Result<SceneFrame, RenderError> {
         self.prepare_with(scene, settings, encoding, self.first_capacity(), 0)
     }
 
@@ -208,7 +208,7 @@ impl Renderer {
     ///
     /// # Errors
     /// As [`Self::prepare`].
-    pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
+    pub fn prepare_again(&self, frame: &SceneFrame) -> Result<SceneFrame, RenderError> {
         let shortfall = frame.shortfall()?;
         log::debug!("the frame lacked room and is made again: {shortfall:?}");
         let present = frame.capacity();
@@ -225,9 +225,9 @@ impl Renderer {
         if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) { Ok(()) } else { Err(RenderError::OtherDevice) }
     }
 
-    pub(super) fn prepare_like(&self, frame: &Frame, capacity: Capacity) -> Result<Frame, RenderError> {
+    pub(super) fn prepare_like(&self, frame: &SceneFrame, capacity: Capacity) -> Result<SceneFrame, RenderError> {
         self.check(frame.scene())?;
-        let mut like = Frame::new(
+        let mut like = SceneFrame::new(
             &self.layout,
             frame.scene(),
             frame.casters(),
@@ -250,11 +250,11 @@ impl Renderer {
         encoding: Option<Encoding>,
         capacity: Capacity,
         reserved: u64,
-    ) -> Result<Frame, RenderError> {
+    ) -> Result<SceneFrame, RenderError> {
         self.check(&scene.gpu_scene)?;
         settings.check(self.gpu.limits())?;
         let (shown, casters) = (&scene.gpu_scene, scene.casters.as_ref());
         let reserved = reserved + scene.casters_bytes();
-        Frame::new(&self.layout, shown, casters, settings, encoding, capacity, reserved)
+        SceneFrame::new(&self.layout, shown, casters, settings, encoding, capacity, reserved)
     }
 }

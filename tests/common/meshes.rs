@@ -1,7 +1,10 @@
-//! The meshes of the stress suite.
+//! The meshes of the stress suite of `gpc bench`, and the random numbers that they are made from.
 
 // Each test program uses only some of them.
-#![allow(unused_imports)]
+#![allow(dead_code, unused_imports)]
 
-pub use gpc::bench::Random;
-pub use gpc::bench::stress::meshes::*;
+#[path = "../../src/bin/gpc/cli/bench/measurement/stress/meshes.rs"]
+mod shapes;
+
+pub use gpc::testing::Random;
+pub use shapes::*;

@@ -3,7 +3,7 @@
 // Each test program uses only a part of this module.
 #![allow(dead_code)]
 
-use gpc::scene::{Geometry, Loaded, Pose, PoseRequest, Scene, SceneError};
+use gpc::scene::{Loaded, Pose, PoseRequest, PosedGeometry, Scene, SceneError};
 use serde_json::{Value, json};
 
 /// A glTF file that is being built, with a single buffer, the GLB's.
@@ -195,7 +195,7 @@ where
 }
 
 /// World positions of the corners of triangle `t`.
-pub fn corners(geometry: &Geometry, t: usize) -> [[f64; 3]; 3] {
+pub fn corners(geometry: &PosedGeometry, t: usize) -> [[f64; 3]; 3] {
     geometry.triangles[t].map(|v| {
         let relative = geometry.positions[v as usize].map(f64::from);
         (glam::DVec3::from_array(relative) + geometry.origin).to_array()

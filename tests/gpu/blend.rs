@@ -179,8 +179,8 @@ fn shared_layers_are_those_of_each_sample() {
                     let shared = shaded(gpu, shading);
                     let apart = distance(&each, &shared);
                     assert!(apart < tolerance, "{name}, {samples} samples, {shading:?}: {apart}");
-                    let [fewer, all] = [&shared, &each].map(|image| image.statistics.records);
-                    assert!(fewer < all, "{name}, {shading:?}: {fewer} of {all} records");
+                    let [fewer, all] = [&shared, &each].map(|image| image.statistics.visibility_samples);
+                    assert!(fewer < all, "{name}, {shading:?}: {fewer} of {all} visibility samples");
                 }
             }
         }

@@ -364,7 +364,7 @@ fn an_image_without_edges_has_no_superpixels() {
         let settings = once(size).method(SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).thin(false));
         let statistics = stage.render(gpu, &settings).statistics;
         assert!(statistics.skipped_passes.contains(&"sample"), "{statistics:?}");
-        assert_eq!((statistics.busy_tiles, statistics.records), (0, 0));
+        assert_eq!((statistics.busy_tiles, statistics.visibility_samples), (0, 0));
     });
 }
 

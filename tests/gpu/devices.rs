@@ -2,7 +2,7 @@
 
 use gpc::render::{EngineError, Headless, RenderError, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
-use gpc::scene::{AlphaMode, Instance, Material};
+use gpc::scene::{AlphaMode, Material, MeshInstance};
 use gpc::vulkan::{Limits, Teams, VulkanError};
 
 use crate::detect::mosaic;
@@ -163,7 +163,7 @@ fn the_last_of_many_triangles_is_sampled() {
         stage.add(0, [[0.0, 0.0, 9.0], [1.0, 0.0, 9.0], [0.0, 1.0, 9.0]]);
     }
     let (scene, mut pose) = stage.build();
-    let instance = |first_triangle, triangle_count, first_index| Instance {
+    let instance = |first_triangle, triangle_count, first_index| MeshInstance {
         first_triangle,
         triangle_count,
         first_index,
@@ -174,7 +174,7 @@ fn the_last_of_many_triangles_is_sampled() {
     while first_index < MANY {
         let some = instance(64, MESH - 64, first_index);
         pose.geometry.instances.push(some);
-        first_index += (MESH - 64).next_multiple_of(Instance::ALIGNMENT);
+        first_index += (MESH - 64).next_multiple_of(MeshInstance::ALIGNMENT);
     }
     pose.geometry.instances.push(instance(0, 1, first_index));
     on_gpu(|gpu| {

@@ -1,7 +1,7 @@
 //! Tiles, cells and groups that `distribute` makes of a list, compared with the CPU's.
 
-use gpc::bench::Random;
 use gpc::render::Headless;
+use gpc::testing::Random;
 use gpc::testing::{Buffer, Recorder};
 use gpc::testing::{
     CellSizes, Cells, Counter, Data, Distribute, FrameUniform, ListRegion, ListedLocation, LocationSizes, ResourceSizes,

@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 use gpc::render::{Headless, MethodKind, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
-    AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose, Sampler, Scene,
+    AlphaMode, DrawClass, DrawRange, GeometryError, Image, InstanceFault, Material, MeshInstance, Pose, Sampler, Scene,
 };
 
 use crate::locations::{pinhole, planar};
@@ -60,7 +60,7 @@ fn scene() -> (Scene, Pose) {
             let place = DVec3::new(within(5.0), within(3.0), -6.0 + within(3.0));
             let mirror = if copy % 3 == 0 { -1.0 } else { 1.0 };
             let size = DVec3::new(mirror, 1.4, 0.6) * 0.8;
-            pose.geometry.instances.push(Instance {
+            pose.geometry.instances.push(MeshInstance {
                 first_triangle: draw.first_triangle,
                 triangle_count: draw.triangle_count,
                 first_index,
@@ -69,7 +69,7 @@ fn scene() -> (Scene, Pose) {
                     translation: place,
                 },
             });
-            first_index += draw.triangle_count.next_multiple_of(Instance::ALIGNMENT);
+            first_index += draw.triangle_count.next_multiple_of(MeshInstance::ALIGNMENT);
         }
     }
     (scene, pose)
@@ -147,12 +147,12 @@ fn a_crowd_that_outgrows_its_room_is_drawn_all_the_same() {
         scene.materials[0].double_sided = true;
         let ball = pose.geometry.draws[0];
         pose.geometry.triangles.truncate(ball.triangle_count as usize);
-        pose.geometry.draws = vec![Draw { class: DrawClass::OpaqueDoubleSided, ..ball }];
+        pose.geometry.draws = vec![DrawRange { class: DrawClass::OpaqueDoubleSided, ..ball }];
         let mut random = Random::new(9);
-        let at = |index: u32, random: &mut Random| Instance {
+        let at = |index: u32, random: &mut Random| MeshInstance {
             first_triangle: 0,
             triangle_count: ball.triangle_count,
-            first_index: index * ball.triangle_count.next_multiple_of(Instance::ALIGNMENT),
+            first_index: index * ball.triangle_count.next_multiple_of(MeshInstance::ALIGNMENT),
             transform: DAffine3::from_scale_rotation_translation(
                 DVec3::splat(0.3),
                 DQuat::IDENTITY,
@@ -173,7 +173,7 @@ fn a_crowd_that_outgrows_its_room_is_drawn_all_the_same() {
 #[test]
 fn contradictions_are_named() {
     let (scene, pose) = scene();
-    let fault_of = |change: fn(&mut Vec<Instance>)| {
+    let fault_of = |change: fn(&mut Vec<MeshInstance>)| {
         let mut geometry = pose.geometry.clone();
         change(&mut geometry.instances);
         match geometry.check(scene.materials.len()) {
@@ -183,7 +183,7 @@ fn contradictions_are_named() {
     };
     assert_eq!(pose.geometry.check(scene.materials.len()), Ok(()));
     for (change, expected) in [
-        ((|all| all[2].triangle_count = 0) as fn(&mut Vec<Instance>), (2, InstanceFault::Triangles)),
+        ((|all| all[2].triangle_count = 0) as fn(&mut Vec<MeshInstance>), (2, InstanceFault::Triangles)),
         (|all| all[30].triangle_count = 9, (30, InstanceFault::Triangles)),
         (|all| all[1].first_index = 64, (1, InstanceFault::Index)),
         (|all| all[3].first_index += 1, (3, InstanceFault::Index)),

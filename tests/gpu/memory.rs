@@ -14,7 +14,7 @@ fn buffers_have_the_bytes_that_are_planned() {
             filtered_triangles: 5_000,
             pair_capacity: 33_331,
             list_capacity: 7_777,
-            record_capacity: 12_345,
+            fragment_capacity: 12_345,
             filtered: 999,
             shadow_words: 3,
             attributes: true,

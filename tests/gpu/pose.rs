@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::{Camera, Orbit};
-use gpc::render::{Frame, Headless, RenderError, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
-use gpc::scene::{Instance, Loaded, Motion, Pose, PoseRequest};
+use gpc::render::{Headless, RenderError, Rendered, SceneFrame, SceneRequest, Settings, Shadows, SuperpixelOptions};
+use gpc::scene::{Loaded, MeshInstance, Motion, Pose, PoseRequest};
 use serde_json::json;
 
 use crate::scene_builder::Builder;
@@ -159,7 +159,7 @@ struct Shown {
     pose: Pose,
     motion: Motion,
     camera: Camera,
-    frame: Frame,
+    frame: SceneFrame,
 }
 
 fn shown(gpu: &mut Headless, settings: &Settings) -> Shown {
@@ -277,7 +277,7 @@ fn thickness_grows_with_the_mesh() {
         let mut drawn = |builder: &Builder, place: Option<DAffine3>| {
             let scene = builder.load().unwrap().scene;
             let mut pose = scene.pose(&at(0.0)).unwrap();
-            pose.geometry.instances.extend(place.map(|transform| Instance {
+            pose.geometry.instances.extend(place.map(|transform| MeshInstance {
                 first_triangle: 0,
                 triangle_count: 2,
                 first_index: 0,

@@ -1,7 +1,7 @@
 //! Rounds of a device with plenty of memory and of one without. One of them is simulated.
 
 use glam::DVec3;
-use gpc::render::{Frame, Headless, PassTime, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions};
+use gpc::render::{Headless, PassTime, Rendered, SceneFrame, SceneRequest, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{Light, LightKind};
 
 use crate::devices::within;
@@ -13,7 +13,7 @@ fn settings(samples: u32) -> Settings {
 }
 
 /// Prepares a frame of a stage in the light of a distant lamp.
-fn prepare(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Frame {
+fn prepare(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> SceneFrame {
     let (scene, mut pose) = stage.build();
     pose.lights = vec![Light {
         kind: LightKind::Directional,

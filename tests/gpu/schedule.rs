@@ -1,9 +1,9 @@
 //! Rounds that `tally`, `schedule` and `enlist` make, compared with the CPU's.
 
-use gpc::bench::Random;
 use gpc::render::Headless;
+use gpc::testing::Random;
 use gpc::testing::{
-    Argument, Buffer, Cells, Counter, Data, FrameUniform, Load, LongLists, Pass, RecordRate, Recorder, ResourceSizes,
+    Argument, Buffer, Cells, Counter, Data, FragmentRate, FrameUniform, Load, LongLists, Pass, Recorder, ResourceSizes,
     SampleBlocks, SampleOptions, load_passes,
 };
 use twins::schedule::{Placed, Round, Rounds, ScheduledList, Tile};
@@ -20,12 +20,12 @@ struct Case {
     /// Width and height of the region in tiles.
     size: [u32; 2],
     samples: u32,
-    records_are: RecordRate,
+    fragments_are: FragmentRate,
     triangles: u32,
     /// Whether the scene has BLEND triangles.
     blends: bool,
     candidates: u32,
-    records: u32,
+    fragments: u32,
     /// Reciprocal of the share of tiles that have superpixels.
     sparseness: u64,
     /// Reciprocal of the share of these tiles that have more candidates than fit. An equal share has dropped pairs.
@@ -38,11 +38,11 @@ const USUAL: Case = Case {
     name: "usual",
     size: [160, 180],
     samples: 64,
-    records_are: RecordRate::Triangle,
+    fragments_are: FragmentRate::Triangle,
     triangles: 30_000,
     blends: false,
     candidates: 20_000,
-    records: 200_000,
+    fragments: 200_000,
     sparseness: 5,
     rarity: 2_000,
     unlisted: true,
@@ -128,7 +128,7 @@ impl<'a> Passes<'a> {
         let sizes = ResourceSizes {
             pair_capacity: 1,
             list_capacity: case.candidates,
-            record_capacity: case.records,
+            fragment_capacity: case.fragments,
             ..ResourceSizes::new([8 * case.size[0], 4 * case.size[1]], 1, gpu.gpu().limits())
         };
         let bare = Bare::new(gpu, sizes, case.samples);
@@ -136,7 +136,7 @@ impl<'a> Passes<'a> {
             cells: Cells::Pixels,
             samples: case.samples,
             lines: false,
-            records: case.records_are,
+            fragments: case.fragments_are,
             one_cell: false,
             long_lists: LongLists::Scattered,
             samples_unlisted: case.unlisted,
@@ -157,13 +157,13 @@ impl<'a> Passes<'a> {
             sample_count: case.samples,
             pair_capacity: 1,
             list_capacity: case.candidates,
-            record_capacity: case.records,
+            fragment_capacity: case.fragments,
             ..FrameUniform::default()
         };
         let twin = Rounds {
             samples: case.samples,
             block: blocks.block,
-            per_sample: case.records_are == RecordRate::Sample,
+            per_sample: case.fragments_are == FragmentRate::Sample,
             parts: blocks.parts(),
             layers: LAYERS,
             triangles: case.triangles,
@@ -172,7 +172,7 @@ impl<'a> Passes<'a> {
             longest_layered: 160,
             blends: case.blends,
             candidates: case.candidates,
-            records: case.records,
+            fragments: case.fragments,
         };
         Self { gpu, bare, load, passes, sizes, uniform, twin }
     }
@@ -314,7 +314,7 @@ fn rounds_are_the_twins() {
                 name: "all in one round",
                 size: [240, 270],
                 candidates: 400_000,
-                records: 4_000_000,
+                fragments: 4_000_000,
                 sparseness: 20,
                 rarity: 1 << 40,
                 ..USUAL
@@ -323,7 +323,7 @@ fn rounds_are_the_twins() {
                 name: "little room",
                 size: [33, 31],
                 candidates: 500,
-                records: 4_000,
+                fragments: 4_000,
                 sparseness: 2,
                 rarity: 60,
                 ..USUAL
@@ -331,9 +331,9 @@ fn rounds_are_the_twins() {
             Case {
                 name: "layers by part",
                 samples: 256,
-                records_are: RecordRate::Part,
+                fragments_are: FragmentRate::Part,
                 blends: true,
-                records: 1_000_000,
+                fragments: 1_000_000,
                 rarity: 500,
                 ..USUAL
             },
@@ -341,7 +341,7 @@ fn rounds_are_the_twins() {
                 name: "many triangles to try",
                 size: [60, 40],
                 triangles: 350_000,
-                records: 1_000_000,
+                fragments: 1_000_000,
                 sparseness: 1,
                 rarity: 2,
                 ..USUAL
@@ -350,12 +350,18 @@ fn rounds_are_the_twins() {
                 name: "more triangles than are tried",
                 size: [60, 40],
                 triangles: 350_001,
-                records: 4_000_000,
+                fragments: 4_000_000,
                 candidates: 1 << 17,
                 rarity: 2,
                 ..USUAL
             },
-            Case { name: "records of samples", samples: 16, records_are: RecordRate::Sample, blends: true, ..USUAL },
+            Case {
+                name: "fragments of samples",
+                samples: 16,
+                fragments_are: FragmentRate::Sample,
+                blends: true,
+                ..USUAL
+            },
         ];
         let counts = cases.map(|case| {
             let passes = Passes::new(gpu, &case);
@@ -371,7 +377,7 @@ fn rounds_are_the_twins() {
 #[test]
 fn rounds_end_with_stretches() {
     on_gpu(|gpu| {
-        let case = Case { name: "even", size: [256, 40], samples: 4, candidates: 9 * 256, records: 1 << 20, ..USUAL };
+        let case = Case { name: "even", size: [256, 40], samples: 4, candidates: 9 * 256, fragments: 1 << 20, ..USUAL };
         let content = vec![(1, [3, 0, 0, 0]); 256 * 40];
         let passes = Passes::new(gpu, &case);
         let expected = passes.twin.of(&twins_of(&content));
@@ -390,14 +396,14 @@ fn rounds_end_with_stretches() {
 fn as_many_rounds_are_recorded_as_tiles_may_take() {
     on_gpu(|gpu| {
         const MUCH: u32 = 8_000_000;
-        for (name, triangles, records, records_are, tile) in [
-            ("records", 1000, 200_000, RecordRate::Part, [2, 0, 0, 0]),
-            ("samples", 1000, 200_000, RecordRate::Sample, [0; 4]),
-            ("candidates", 1000, MUCH, RecordRate::Triangle, [60, 0, 0, 0]),
-            ("dense", 350_000, MUCH, RecordRate::Triangle, [2501, 0, 0, 0]),
+        for (name, triangles, fragments, fragments_are, tile) in [
+            ("fragments", 1000, 200_000, FragmentRate::Part, [2, 0, 0, 0]),
+            ("samples", 1000, 200_000, FragmentRate::Sample, [0; 4]),
+            ("candidates", 1000, MUCH, FragmentRate::Triangle, [60, 0, 0, 0]),
+            ("dense", 350_000, MUCH, FragmentRate::Triangle, [2501, 0, 0, 0]),
         ] {
             let case =
-                Case { name, size: [60, 40], triangles, records_are, records, unlisted: tile[0] > 2500, ..USUAL };
+                Case { name, size: [60, 40], triangles, fragments_are, fragments, unlisted: tile[0] > 2500, ..USUAL };
             let passes = Passes::new(gpu, &case);
             let content = vec![(u32::MAX, tile); 60 * 40];
             let taken = passes.twin.of(&twins_of(&content)).len();

@@ -4,9 +4,9 @@
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
 use gpc::render::{
-    EngineError, Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings, Target,
+    EngineError, Headless, HeadlessOptions, RenderError, Renderer, SceneFrame, SceneRequest, Settings, Target,
 };
-use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
+use gpc::scene::{AlphaMode, DrawClass, GeometryError, Image, PosedGeometry, Sampler};
 use gpc::testing::{MemoryUse, memory};
 use gpc::vulkan::VulkanError;
 
@@ -76,13 +76,13 @@ fn discarded_recordings_change_nothing() {
         let pixels = (SIZE[0] * SIZE[1]) as usize;
         let colors = memory.buffer("colours", 16 * pixels as u64, usage, MemoryUse::Readback).unwrap();
         let target = Target::Buffer { colors: colors.handle(), attributes: None };
-        let refusal = |frame: &Frame| match frame.statistics() {
+        let refusal = |frame: &SceneFrame| match frame.statistics() {
             Err(RenderError::Engine(EngineError::Vulkan(error))) => error,
             other => panic!("{other:?}"),
         };
         let is_not_done = |error: &_| matches!(error, VulkanError::NotDone);
         assert!(matches!(refusal(&frame), VulkanError::NotRecorded));
-        let record = |frame: &mut Frame, commands| {
+        let record = |frame: &mut SceneFrame, commands| {
             // SAFETY: the commands are discarded, or submitted and waited for while everything that they use is alive.
             unsafe {
                 prepared.record_upload(commands);
@@ -106,7 +106,7 @@ fn geometry_that_contradicts_itself_is_refused() {
         let (scene, pose) = stage().build();
         let vertices = pose.geometry.positions.len();
         let triangles = pose.geometry.triangles.len();
-        let mut refused = |spoil: &dyn Fn(&mut Geometry)| {
+        let mut refused = |spoil: &dyn Fn(&mut PosedGeometry)| {
             let mut pose = pose.clone();
             spoil(&mut pose.geometry);
             match gpu.upload(SceneRequest::new(&scene, &pose)) {

@@ -5,15 +5,24 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 use glam::{DVec3, Vec3};
-use gpc::bench::stress::stage;
 use gpc::render::{
     CellOptions, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Rendered, SceneRequest, SceneSettings,
     Settings,
 };
 use gpc::scene::Material;
+use gpc::testing::Random;
 use gpc::vulkan::Limits;
 
-pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
+use crate::meshes;
+#[path = "../../src/bin/gpc/cli/bench/measurement/stress/stage.rs"]
+#[allow(dead_code, reason = "the stress suite of `gpc bench` uses the rest")]
+mod bench;
+
+#[path = "../common/textured.rs"]
+mod textured;
+
+pub use bench::{NEAR, camera, everywhere, flat, once, seen_at};
+pub use textured::textured;
 
 /// Settings for one sample at each location, like [`once`] for pixels.
 pub fn once_each() -> SceneSettings {
@@ -97,12 +106,20 @@ pub fn run(gpu: &mut Headless, test: impl FnOnce(&mut Headless)) {
 
 /// A stage whose methods panic if it can't be rendered.
 #[derive(Clone, Debug, Default)]
-pub struct Stage(stage::Stage);
+pub struct Stage(bench::Stage);
 
 impl Stage {
     /// Makes a stage with these materials and without triangles.
     pub fn new(materials: Vec<Material>) -> Self {
-        Self(stage::Stage::new(materials))
+        Self(bench::Stage::new(materials))
+    }
+
+    /// Colours each triangle with the [code](code) of its ID.
+    pub fn color_by_code(&mut self) {
+        for (index, triangle) in self.triangles.iter_mut().enumerate() {
+            let [r, g, b] = code(index as u32 + 1);
+            triangle.color = [r, g, b, 1.0];
+        }
     }
 
     /// Uploads the stage.
@@ -118,17 +135,24 @@ impl Stage {
 }
 
 impl Deref for Stage {
-    type Target = stage::Stage;
+    type Target = bench::Stage;
 
-    fn deref(&self) -> &stage::Stage {
+    fn deref(&self) -> &bench::Stage {
         &self.0
     }
 }
 
 impl DerefMut for Stage {
-    fn deref_mut(&mut self) -> &mut stage::Stage {
+    fn deref_mut(&mut self) -> &mut bench::Stage {
         &mut self.0
     }
+}
+
+/// Code of an ID as an unlit colour: three whole numbers from 1 to 4,095. Sums over up to 1,024 samples still tell
+/// triangles apart.
+pub fn code(id: u32) -> [f32; 3] {
+    let mut random = Random::new(u64::from(id));
+    [0; 3].map(|_| (1 + random.below(4095)) as f32)
 }
 
 /// Position in clip space as the GPU computes it: (pixel x * w, pixel y * w, z, w).

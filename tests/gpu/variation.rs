@@ -115,8 +115,8 @@ fn places_are_as_many_as_the_twin_says() {
                         };
                     }
                 }
-                let records = rendered.statistics.records;
-                assert_eq!(records, expected, "{materials} materials, {samples} samples, contrast {contrast}");
+                let fragments = rendered.statistics.visibility_samples;
+                assert_eq!(fragments, expected, "{materials} materials, {samples} samples, contrast {contrast}");
                 // Texels are pixels, so that all places of a pixel have one colour: nothing is lost or counted twice.
                 let sampled = stage.render(gpu, &settings(Shading::Sample));
                 let apart = mean(&rendered) / mean(&sampled) - 1.0;

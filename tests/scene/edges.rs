@@ -1,7 +1,7 @@
 //! Edges of meshes as lines.
 
 use crate::scene_builder::Builder;
-use gpc::scene::{Edges, Geometry, PoseRequest};
+use gpc::scene::{Edges, PoseRequest, PosedGeometry};
 use serde_json::{Value, json};
 
 /// Two squares of two faces each, whose planes meet at an angle in degrees.
@@ -14,7 +14,7 @@ fn folded(degrees: f32) -> Vec<[f32; 3]> {
     [square(-1.0), square(0.0)].concat().iter().map(|[x, y]| at(*x, *y)).collect()
 }
 
-fn edges_of(primitives: &[Vec<[f32; 3]>]) -> Geometry {
+fn edges_of(primitives: &[Vec<[f32; 3]>]) -> PosedGeometry {
     let mut builder = Builder::new();
     let primitives: Vec<Value> =
         primitives.iter().map(|positions| json!({"attributes": {"POSITION": builder.floats(positions)}})).collect();
@@ -28,7 +28,7 @@ fn edges_of(primitives: &[Vec<[f32; 3]>]) -> Geometry {
 }
 
 /// Numbers of smooth edges and of other edges.
-fn counts(geometry: &Geometry) -> [usize; 2] {
+fn counts(geometry: &PosedGeometry) -> [usize; 2] {
     let edges = &geometry.edges;
     let smooth = edges.iter().filter(|edge| edge.is_smooth).count();
     [smooth, edges.len() - smooth]

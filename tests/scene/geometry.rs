@@ -2,7 +2,7 @@
 
 use crate::scene_builder::{Builder, TRIANGLE, assert_near, corners, le};
 use glam::DVec3;
-use gpc::scene::{DrawClass, Instance, PoseRequest, StrokePart};
+use gpc::scene::{DrawClass, MeshInstance, PoseRequest, StrokePart};
 use serde_json::{Value, json};
 
 const FIRST: [[f64; 3]; 3] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
@@ -403,7 +403,7 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     assert_eq!(drawn as usize, flat.triangles.len());
     assert_near(corners(&flat, 0), FIRST);
     for (copy, instance) in geometry.instances[1..].iter().enumerate() {
-        assert_eq!(instance.first_index % Instance::ALIGNMENT, 0);
+        assert_eq!(instance.first_index % MeshInstance::ALIGNMENT, 0);
         assert_eq!(instance.mirrored(), copy == 3);
         for (triangle, corners_of) in indices.chunks(3).enumerate() {
             let place = |v: u16| {

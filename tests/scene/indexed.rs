@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use crate::shared::{gltf_files, shared};
-use gpc::scene::{Geometry, Pose, PoseRequest, Scene, SceneError, StrokePart};
+use gpc::scene::{Pose, PoseRequest, PosedGeometry, Scene, SceneError, StrokePart};
 use serde_json::Value;
 
 /// Checks the properties that every geometry must have.
-fn check(geometry: &Geometry, what: &str) {
+fn check(geometry: &PosedGeometry, what: &str) {
     let vertices = geometry.positions.len();
     let streams = &geometry.streams;
     assert_eq!(streams.normals.len(), vertices, "{what}");
@@ -103,7 +103,7 @@ fn indexed_scenes_have_their_triangles_or_are_refused_by_name() {
 }
 
 /// Number of joints of lines, each of which is filled by a triangle.
-fn joints(geometry: &Geometry) -> u64 {
+fn joints(geometry: &PosedGeometry) -> u64 {
     let centres = geometry.strokes.iter().filter(|s| s.part == StrokePart::JointCentre);
     centres.count() as u64
 }

@@ -20,7 +20,7 @@ fn load(name: &str) -> (Loaded, Pose) {
 /// Colours of the materials of all triangles' first corners, in order, without repetitions.
 fn colours(loaded: &Loaded, pose: &Pose) -> Vec<[f32; 3]> {
     let draws = pose.geometry.draws.iter();
-    let of_draw = |draw: &gpc::scene::Draw| {
+    let of_draw = |draw: &gpc::scene::DrawRange| {
         let [r, g, b, _] = loaded.scene.materials[draw.material as usize].base_color;
         [r, g, b]
     };

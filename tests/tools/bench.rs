@@ -2,8 +2,8 @@
 
 use crate::command::{Run, asset, files, gpc};
 use crate::difference::rmse;
+use crate::measurement::{Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force};
 use glam::DVec2;
-use gpc::bench::{Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force};
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{

@@ -1,4 +1,4 @@
-//! Library of the tools: image files, comparisons, resampling, benchmarks, and the references against which errors are
+//! Image files, comparisons, resampling, `gpc bench` and its measurements, and the references against which errors are
 //! measured.
 
 mod bench;
@@ -9,7 +9,12 @@ mod command;
 mod compare;
 #[path = "../common/difference.rs"]
 mod difference;
+#[path = "../../src/bin/gpc/cli/bench/measurement/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "the command uses the rest")]
+mod measurement;
 mod output;
 mod resample;
 mod stress;
+#[path = "../common/textured.rs"]
+mod textured;
 mod truth;

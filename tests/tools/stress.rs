@@ -1,10 +1,10 @@
 //! The short stress suite, under the validation layer.
 
+use crate::measurement::stress::stage::camera;
+use crate::measurement::stress::{Check, Finding, Length};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec3;
-use gpc::bench::stress::stage::camera;
-use gpc::bench::stress::{Check, Finding, Length};
 use gpc::camera::Camera;
 use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings};
 use gpc::scene::{PoseRequest, Scene};
@@ -17,7 +17,7 @@ fn headless() -> Headless {
 fn hold(name: &str) {
     let check = Check::ALL.iter().find(|check| check.name == name).unwrap();
     let mut headless = headless();
-    let findings = check.run(&mut headless, Length::Short).unwrap();
+    let findings = check.run(&mut headless, Length { is_long: false }).unwrap();
     assert!(!findings.is_empty());
     for finding in &findings {
         println!("{finding:?}");

@@ -45,9 +45,9 @@ pub struct Rounds {
     pub samples: u32,
     /// Number of samples of a block.
     pub block: u32,
-    /// Whether each sample is a record.
+    /// Whether each sample is a fragment.
     pub per_sample: bool,
-    /// Largest number of records of a triangle in a block.
+    /// Largest number of fragments of a triangle in a block.
     pub parts: u32,
     /// Number of BLEND layers of a list for which a tile is admitted.
     pub layers: u32,
@@ -63,8 +63,8 @@ pub struct Rounds {
     pub blends: bool,
     /// Number of candidates for which a round has room.
     pub candidates: u32,
-    /// Number of records, and of headers, for which a round has room.
-    pub records: u32,
+    /// Number of fragments, and of headers, for which a round has room.
+    pub fragments: u32,
 }
 
 /// Place of a tile with superpixels in a round.
@@ -105,7 +105,7 @@ impl Rounds {
         }
     }
 
-    /// Needs of a tile: candidates, or the room that samples take in their place; records; headers; and entries without
+    /// Needs of a tile: candidates, or the room that samples take in their place; fragments; headers; and entries without
     /// a list.
     fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] = [self.samples, self.block, self.parts, self.layers].map(u64::from);
@@ -115,7 +115,7 @@ impl Rounds {
         let all_samples = u64::from(tile.cells) * samples;
         let candidates = u64::from(if unlisted { self.triangles } else { tile.candidates });
         let layered = tile.has_blend || (unlisted && self.blends);
-        let records = if layered {
+        let fragments = if layered {
             let lists_of_block = if parts > 8 { layers * parts / 4 } else { 2 * layers };
             let lists = if self.per_sample { all_samples } else { all_samples.min(headers * lists_of_block) };
             lists * (2 + candidates.min(layers))
@@ -128,17 +128,17 @@ impl Rounds {
         let owners = all_samples.div_ceil(4) * if layered { layers / 2 } else { 1 };
         match (unlisted, cells) {
             (_, 0) => [0; 4],
-            (true, _) => [owners, records, headers, cells.div_ceil(self.team.into())],
-            (false, _) => [candidates, records, headers, 0],
+            (true, _) => [owners, fragments, headers, cells.div_ceil(self.team.into())],
+            (false, _) => [candidates, fragments, headers, 0],
         }
     }
 
     /// Rounds for all tiles.
     #[must_use]
     pub fn of(&self, tiles: &[Tile]) -> Vec<Round> {
-        let [candidates, records] = [self.candidates, self.records].map(u64::from);
+        let [candidates, fragments] = [self.candidates, self.fragments].map(u64::from);
         let tried = (MOST_TRIALS / self.triangles).max(FEWEST_TRIED);
-        let room = [candidates, records, records, tried.into()];
+        let room = [candidates, fragments, fragments, tried.into()];
         let mut rounds = Vec::new();
         let mut next = 0;
         while next < tiles.len() {

@@ -5,7 +5,7 @@ use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
 use super::picture;
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
-use gpc::bench::Random;
+use gpc::testing::Random;
 use serde_json::json;
 
 const LIGHT: [u8; 3] = [238, 230, 214];

@@ -4,7 +4,7 @@
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
 use glam::{DQuat, DVec3, dvec2, dvec3};
-use gpc::bench::Random;
+use gpc::testing::Random;
 
 /// Length of one fence panel in metres, and how many stand in a row.
 const PANEL: f64 = 2.0;

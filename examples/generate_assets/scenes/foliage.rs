@@ -4,7 +4,7 @@ use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
 use super::picture::{coverage, paint};
 use glam::{DVec3, dvec2, dvec3};
-use gpc::bench::Random;
+use gpc::testing::Random;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 

@@ -4,7 +4,7 @@
 use super::glb::{Builder, Placement, linear};
 use super::mesh::{Mesh, icosphere};
 use glam::{DQuat, DVec3, dvec3};
-use gpc::bench::Random;
+use gpc::testing::Random;
 use serde_json::json;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
-//! Last word of a triangle's record: the same layout as in `shaders/include/frame.glsl`.
+//! Last word of a triangle: the same layout as in `shaders/include/frame.glsl`.
 
-/// Fields of the last word of a triangle's record.
+/// Fields of the last word of a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TriangleWord {
     /// Index of the material, 16 bits.

@@ -45,7 +45,7 @@ impl Resources {
             (gpc_visibility_set::GPC_FRAME, uniform.into()),
             (gpc_visibility_set::GPC_KEYS, self.buffer(Data::Bins).into()),
             (gpc_visibility_set::GPC_ORDER, self.buffer(Data::ShadeOrder).into()),
-            (gpc_visibility_set::GPC_RECORDS, self.buffer(Data::Records).into()),
+            (gpc_visibility_set::GPC_FRAGMENTS, self.buffer(Data::Fragments).into()),
             (gpc_visibility_set::GPC_TRIANGLES, geometry.triangles.into()),
             (gpc_visibility_set::GPC_POSITIONS, geometry.positions.into()),
             (gpc_visibility_set::GPC_SHADED, self.buffer(Data::Shaded).into()),

@@ -11,7 +11,7 @@ pub(crate) enum CountedBy {
     Detect = spirv::AFTER_DETECT,
     Cull = spirv::AFTER_CULL,
     Sample = spirv::AFTER_SAMPLE,
-    Records = spirv::AFTER_RECORDS,
+    Fragments = spirv::AFTER_FRAGMENTS,
     Spans = spirv::AFTER_SPANS,
     Thin = spirv::AFTER_THIN,
     Groups = spirv::AFTER_GROUPS,

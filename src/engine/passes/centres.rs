@@ -26,7 +26,7 @@ impl Centres {
         Ok(Self { list: make(false)?, gather: make(true)? })
     }
 
-    /// Records the pass for an image of `pixels` pixels, in bands that fit into the room for records. `shade` records
+    /// Records the pass for an image of `pixels` pixels, in bands that fit into the room for fragments. `shade` records
     /// sorting and shading of each band.
     pub fn record(
         &self,
@@ -35,7 +35,7 @@ impl Centres {
         pixels: u32,
         mut shade: impl FnMut(&Recorder<'_>),
     ) {
-        for band in Self::bands(pixels, resources.sizes().record_capacity) {
+        for band in Self::bands(pixels, resources.sizes().fragment_capacity) {
             let count = band.end - band.start;
             let push = spirv::CentresPush { first: band.start, count };
             self.list.record(recorder, &push, count);
@@ -44,7 +44,7 @@ impl Centres {
         }
     }
 
-    /// Bands of pixels in which an image of `pixels` pixels is shaded; a band fits into the room for `room` records.
+    /// Bands of pixels in which an image of `pixels` pixels is shaded; a band fits into the room for `room` fragments.
     fn bands(pixels: u32, room: u32) -> impl ExactSizeIterator<Item = Range<u32>> {
         let room = room.max(1);
         (0..pixels.div_ceil(room)).map(move |n| n * room..pixels.min((n + 1).saturating_mul(room)))

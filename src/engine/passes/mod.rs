@@ -48,7 +48,7 @@ pub use distribute::{Distribute, ListRegion};
 pub(crate) use patch::{Patch, Patched};
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};
-pub use sample::{LongLists, RecordRate, SampleBlocks, SampleOptions, TileList};
+pub use sample::{FragmentRate, LongLists, SampleBlocks, SampleOptions, TileList};
 
 #[cfg(test)]
 mod tests {

@@ -29,5 +29,5 @@ pub(crate) fn pass(
         tonemap: output.tonemap,
         tonemap_codes: output.tonemap_codes,
     })?;
-    Ok(Pass::named(spirv::Points::INTERFACE).dispatch(points.dispatch((), Argument::Records)))
+    Ok(Pass::named(spirv::Points::INTERFACE).dispatch(points.dispatch((), Argument::Fragments)))
 }

@@ -48,7 +48,7 @@ pub struct SampleOptions {
     /// Whether the samples of cells that `sample_lines` can process lie on lines.
     pub lines: bool,
     /// Rate of visibility samples.
-    pub records: RecordRate,
+    pub fragments: FragmentRate,
     /// Whether a team samples a single cell, however short the lists of candidates are. A GPU runs thousands of teams at
     /// once, and would wait for the fullest tile; on a CPU, the cells share the work of a tile.
     pub one_cell: bool,
@@ -103,7 +103,7 @@ impl LongLists {
 
 /// Number of visibility samples that represent the samples of a block that see the same triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RecordRate {
+pub enum FragmentRate {
     /// One visibility sample.
     Triangle,
     /// One visibility sample for each part of a cell. A part has 1 sample in cells of fewer than 32 samples, and 2 or 4 in
@@ -165,9 +165,9 @@ impl SampleBlocks {
     /// Largest number of visibility samples of a triangle in a block, if all samples of the cell are processed.
     #[must_use]
     pub fn parts(&self) -> u32 {
-        match self.options.records {
-            RecordRate::Part => (self.block / self.options.part_samples()).max(1),
-            RecordRate::Triangle | RecordRate::Sample => 1,
+        match self.options.fragments {
+            FragmentRate::Part => (self.block / self.options.part_samples()).max(1),
+            FragmentRate::Triangle | FragmentRate::Sample => 1,
         }
     }
 
@@ -187,7 +187,7 @@ impl SampleBlocks {
             teams: teams.in_workgroup,
             cells_of_entry: teams.members,
             rows: block / teams.members,
-            per_sample: options.records == RecordRate::Sample,
+            per_sample: options.fragments == FragmentRate::Sample,
             has_mask: masked,
             list: list as u32,
             left_cells,
@@ -284,7 +284,7 @@ impl SampleOptions {
 
     /// Whether cells are shaded by parts, which makes no difference if a part is at least a block.
     fn by_part(&self, block: u32) -> bool {
-        self.records == RecordRate::Part && self.part_samples() < block
+        self.fragments == FragmentRate::Part && self.part_samples() < block
     }
 
     /// Whether `sample_lines` processes cells that no BLEND triangle touches. It leaves the others, and some more, to a second run,
@@ -292,7 +292,7 @@ impl SampleOptions {
     pub fn by_lines(&self) -> bool {
         !self.cells.are_points()
             && !self.always_blends
-            && self.records != RecordRate::Sample
+            && self.fragments != FragmentRate::Sample
             && self.lines
             && self.samples >= 4
     }
@@ -317,7 +317,7 @@ mod tests {
                 cells: Cells::Pixels,
                 samples,
                 lines: true,
-                records: RecordRate::Part,
+                fragments: FragmentRate::Part,
                 one_cell: false,
                 long_lists: LongLists::SeveralCells,
                 samples_unlisted: false,

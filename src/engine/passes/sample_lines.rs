@@ -59,7 +59,7 @@ impl SampleOptions {
     }
 
     /// Largest number by which a cell's visibility samples may exceed its samples.
-    pub(crate) fn more_records(&self) -> u32 {
-        if self.by_lines() { spirv::MORE_RECORDS } else { 0 }
+    pub(crate) fn more_fragments(&self) -> u32 {
+        if self.by_lines() { spirv::MORE_FRAGMENTS } else { 0 }
     }
 }

@@ -27,6 +27,6 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, one_bin: bool) -> 
     })?;
     Ok(pass
         .dispatch(sort.dispatch(spirv::SortPush { scatter: 0 }, Argument::Sort))
-        .dispatch(arguments::dispatch(layout, CountedBy::Records)?)
+        .dispatch(arguments::dispatch(layout, CountedBy::Fragments)?)
         .dispatch(sort.dispatch(spirv::SortPush { scatter: 1 }, Argument::Sort)))
 }

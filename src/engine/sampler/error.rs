@@ -73,7 +73,7 @@ pub enum EngineError {
     /// Superpixels that could not be finished: their visibility samples did not fit into memory, or their tiles had
     /// more triangles than a kernel can process, for example because one pixel shows tens of thousands of triangles.
     #[error(
-        "{cells} superpixels have more records than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or allow more memory"
+        "{cells} superpixels have more visibility samples than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or allow more memory"
     )]
     Unfinished {
         /// Number of superpixels or tiles that were not finished.

@@ -6,7 +6,9 @@ use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSize
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{Distribute, points};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::plan::{MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, most_records, records_of_superpixel};
+use crate::engine::sampler::plan::{
+    MOST_CANDIDATES, MOST_FRAGMENTS, MOST_PAIRS, fragments_of_superpixel, most_fragments,
+};
 use crate::engine::sampler::{Capacity, CellOptions, EngineError};
 use crate::vulkan::Descriptor;
 
@@ -54,10 +56,10 @@ impl ListCells {
         let limits = layout.gpu.limits();
         let tiles = tile_count(region);
         let most = u64::from(locations);
-        let records = match self.cells {
+        let fragments = match self.cells {
             Cells::Points if scene.has_blend() => u64::from(Capacity::LAYERS) * most,
             Cells::Points => most,
-            Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(options, scene),
+            Cells::Superpixels | Cells::Pixels => most * fragments_of_superpixel(options, scene),
         };
         let triangles = u64::from(scene.triangle_slots());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
@@ -74,13 +76,13 @@ impl ListCells {
             Cells::Points => 1,
             Cells::Superpixels | Cells::Pixels => u64::from(options.samples),
         };
-        let layered = if scene.has_blend() { capacity.layered(of_location).min(most_records(limits)) } else { 0 };
+        let layered = if scene.has_blend() { capacity.layered(of_location).min(most_fragments(limits)) } else { 0 };
         ResourceSizes {
             locations: Some(locations),
             survivor_capacity: scene.triangle_slots(),
             pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
-            record_capacity: records.clamp(1 << 16, MOST_RECORDS).max(layered) as u32,
+            fragment_capacity: fragments.clamp(1 << 16, MOST_FRAGMENTS).max(layered) as u32,
             shadow_words: self.shadow_words,
             attributes: self.attributes,
             ..ResourceSizes::new(region, scene.bin_count(), limits)

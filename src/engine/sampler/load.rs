@@ -1,7 +1,7 @@
 //! Load of a round: what tiles need of its memory, and how many rounds suffice for all tiles.
 
 use crate::engine::data::ResourceSizes;
-use crate::engine::passes::{RecordRate, SampleBlocks};
+use crate::engine::passes::{FragmentRate, SampleBlocks};
 use crate::engine::spirv;
 use crate::vulkan::Limits;
 
@@ -29,14 +29,14 @@ impl Load {
             most_pairs: ResourceSizes::most_pairs(limits),
             pushed: spirv::SchedulePush {
                 block: blocks.block,
-                per_sample: u32::from(options.records == RecordRate::Sample),
+                per_sample: u32::from(options.fragments == FragmentRate::Sample),
                 layers,
                 parts: blocks.parts(),
                 teams_first,
                 teams_unlisted,
                 longest_list,
                 longest_layered,
-                more_records: options.more_records(),
+                more_fragments: options.more_fragments(),
             },
             blocks,
         }
@@ -55,13 +55,13 @@ impl Load {
         let Some(factor) = factor else {
             return [most; 2];
         };
-        let records_of_cell = self.blocks.options.samples + self.pushed.more_records;
-        let records = match sizes.locations {
-            None => u64::from(sizes.pixels()) / USUAL_PIXELS * u64::from(records_of_cell),
+        let fragments_of_cell = self.blocks.options.samples + self.pushed.more_fragments;
+        let fragments = match sizes.locations {
+            None => u64::from(sizes.pixels()) / USUAL_PIXELS * u64::from(fragments_of_cell),
             Some(list) if self.blocks.options.cells.are_points() => list.locations.into(),
-            Some(list) => u64::from(list.cells) * u64::from(records_of_cell),
+            Some(list) => u64::from(list.cells) * u64::from(fragments_of_cell),
         };
-        let usual = records.div_ceil(u64::from(sizes.record_capacity).max(1));
+        let usual = fragments.div_ceil(u64::from(sizes.fragment_capacity).max(1));
         [1, 8].map(|share| {
             let rounds = usual.div_ceil(share) * u64::from(factor);
             rounds.clamp(1, most.into()) as u32
@@ -75,31 +75,31 @@ impl Load {
     pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
         let tiles = u64::from(sizes.tiles());
         let samples = u64::from(self.blocks.options.samples);
-        let [pairs, candidates, records] =
-            [sizes.pair_capacity, sizes.list_capacity, sizes.record_capacity].map(u64::from);
+        let [pairs, candidates, fragments] =
+            [sizes.pair_capacity, sizes.list_capacity, sizes.fragment_capacity].map(u64::from);
         /// Number of pixels of a tile.
         const PIXELS: u64 = 32;
-        let records_of_cell = samples + u64::from(self.pushed.more_records);
+        let fragments_of_cell = samples + u64::from(self.pushed.more_fragments);
         let (cells, all_samples) = match sizes.locations {
-            None => (PIXELS * tiles, PIXELS * tiles * records_of_cell),
+            None => (PIXELS * tiles, PIXELS * tiles * fragments_of_cell),
             Some(list) => {
                 let of_location = if self.blocks.options.cells.are_points() { 1 } else { samples };
                 (list.cells.into(), of_location * u64::from(list.locations))
             }
         };
         let (cells_of_tile, samples_of_tile) = match sizes.locations {
-            None => (PIXELS, PIXELS * records_of_cell),
+            None => (PIXELS, PIXELS * fragments_of_cell),
             Some(_) => (cells, all_samples),
         };
         let headers = |cells: u64| cells * samples.div_ceil(self.pushed.block.into());
         let listed = [
             (pairs, candidates, candidates),
             (
-                self.most_records(headers(cells), all_samples),
-                records,
-                self.most_records(headers(cells_of_tile), samples_of_tile),
+                self.most_fragments(headers(cells), all_samples),
+                fragments,
+                self.most_fragments(headers(cells_of_tile), samples_of_tile),
             ),
-            (headers(cells), records, headers(cells_of_tile)),
+            (headers(cells), fragments, headers(cells_of_tile)),
         ];
         let needs = listed.into_iter();
         let needs = needs.chain(self.unlisted_needs(sizes, triangles, cells, cells_of_tile));
@@ -141,7 +141,7 @@ impl Load {
     }
 
     /// Largest number of visibility samples for which tiles with `headers` headers and `samples` samples are admitted.
-    fn most_records(&self, headers: u64, samples: u64) -> u64 {
+    fn most_fragments(&self, headers: u64, samples: u64) -> u64 {
         if !self.blocks.options.has_blend {
             return samples;
         }

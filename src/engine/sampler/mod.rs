@@ -21,7 +21,7 @@ pub(crate) mod plan;
 mod rounds;
 mod settings;
 mod statistics;
-mod tile_lists;
+mod triangle_lists;
 pub(crate) mod uniform;
 
 pub use crate::vulkan::timings::PassTime;
@@ -38,7 +38,7 @@ pub(crate) use rounds::RoundPolicy;
 pub use settings::{Footprint, PixelRect, Reference};
 pub(crate) use settings::{ImageRequest, SamplerSettings, check_image_size};
 pub use statistics::{Statistics, TriangleCounts};
-pub(crate) use tile_lists::TileLists;
+pub(crate) use triangle_lists::TriangleLists;
 
 use crate::engine::data::{
     Cells, ColorConstants, Content, Counter, Data, FrameUniform, HostImage, ResourceSizes, Resources, SampleSet,
@@ -47,7 +47,7 @@ use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::setup::ListOrder;
 use crate::engine::passes::{
-    Distribute, ListRegion, RecordRate, SampleBlocks, SampleOptions, bin, composite, cull, groups, resolve, sample,
+    Distribute, FragmentRate, ListRegion, SampleBlocks, SampleOptions, bin, composite, cull, groups, resolve, sample,
     schedule, setup, sort, tally,
 };
 use crate::engine::pipelines::{FrameLayout, Pass};
@@ -60,7 +60,7 @@ use std::sync::Arc;
 /// sets of the run before each of these calls, and after it.
 pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
-    /// written to its place in the buffer of shaded records.
+    /// written to its place in the buffer of shaded fragments.
     fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
 
     /// Records marking of pixels that show more than their centres, in addition to the marks of `thin`.
@@ -93,7 +93,7 @@ impl SamplerContext<'_> {
             cells,
             samples,
             lines: options.pattern == Pattern::Lines,
-            records: if points { RecordRate::Sample } else { record_rate(options.shading, scene) },
+            fragments: if points { FragmentRate::Sample } else { fragment_rate(options.shading, scene) },
             one_cell: !self.layout.gpu.limits().is_cpu(),
             long_lists: self.capacity.long_lists,
             samples_unlisted: self.capacity.samples_unlisted,
@@ -274,14 +274,14 @@ impl Sampler {
                 // schedule: masks, tiles ─▶ tiles
                 // enlist: masks, tiles ─▶ tiles, tile_lists
                 // setup: tiles, pairs ─▶ candidates
-                // sample_lines: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ tile_lists, headers, records, marks
-                // sample: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ headers, records
+                // sample_lines: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ tile_lists, headers, fragments, marks
+                // sample: ids, display, masks, tiles, tile_lists, candidates, marks ─▶ headers, fragments
                 pass.record(recorder);
             }
             self.sort.record(recorder);
             shading.record(recorder, resources);
             for pass in &self.colors {
-                // resolve: ids, display, masks, tiles, tile_lists, headers, records, shaded, marks ─▶ display, color, marks
+                // resolve: ids, display, masks, tiles, tile_lists, headers, fragments, shaded, marks ─▶ display, color, marks
                 pass.record(recorder);
             }
         });
@@ -370,10 +370,10 @@ fn averaging(
 }
 
 /// Rate of visibility samples for a rate of shading.
-pub(crate) fn record_rate(shading: Shading, scene: &dyn Content) -> RecordRate {
+pub(crate) fn fragment_rate(shading: Shading, scene: &dyn Content) -> FragmentRate {
     match shading {
-        Shading::Part if scene.has_high_frequency() => RecordRate::Part,
-        Shading::Triangle | Shading::Part => RecordRate::Triangle,
-        Shading::Sample => RecordRate::Sample,
+        Shading::Part if scene.has_high_frequency() => FragmentRate::Part,
+        Shading::Triangle | Shading::Part => FragmentRate::Triangle,
+        Shading::Sample => FragmentRate::Sample,
     }
 }

@@ -88,11 +88,11 @@ const LINES_AS_POINTS: u32 = 64;
 /// Factor for the cost of a sample with shadows: the sample is projected once for each light, on up to six planes.
 const SHADOWED: u64 = 8;
 /// Largest number of visibility samples and of candidates in a round.
-pub(crate) const MOST_RECORDS: u64 = 6 << 20;
+pub(crate) const MOST_FRAGMENTS: u64 = 6 << 20;
 pub(crate) const MOST_CANDIDATES: u64 = 2 << 20;
 /// Limit for the visibility samples of a round, for each 64 samples of a superpixel. Room above this limit is reduced
 /// to a third, which makes more rounds; these cost little.
-const LARGE_RECORDS: u64 = 1 << 20;
+const LARGE_FRAGMENTS: u64 = 1 << 20;
 /// Largest number of pairs of a triangle and a tile, over all rounds, for which a frame is first planned.
 pub(crate) const MOST_PAIRS: u64 = 8 << 20;
 /// Largest number of pairs for each tile if the scene has instances. Instanced scenes have many triangles, so this
@@ -104,12 +104,12 @@ const TILE_CANDIDATES: u64 = 10;
 const FEWEST_CANDIDATES: u32 = 32 * 1024 / ResourceSizes::CANDIDATE_TEXELS as u32;
 
 /// Largest number of visibility samples in the buffers of a device.
-pub(crate) fn most_records(limits: &Limits) -> u64 {
+pub(crate) fn most_fragments(limits: &Limits) -> u64 {
     (limits.max_storage_bytes / 16).min(limits.max_texel_elements)
 }
 
 /// Average number of visibility samples for which a superpixel has room.
-pub(crate) fn records_of_superpixel(options: &CellOptions, scene: &dyn Content) -> u64 {
+pub(crate) fn fragments_of_superpixel(options: &CellOptions, scene: &dyn Content) -> u64 {
     let samples = u64::from(options.samples);
     let usual = if options.shading == Shading::Sample || scene.has_blend() {
         samples.min(64)
@@ -200,8 +200,8 @@ impl Plan {
         let all = |plan: &Self| plan.bytes(scene, image) + taken;
         let mut needed = all(self);
         // Smaller rounds cost less than more regions.
-        while wanted.is_some_and(|wanted| needed > wanted) && self.sizes.record_capacity > 1 << 16 {
-            self.sizes.record_capacity /= 2;
+        while wanted.is_some_and(|wanted| needed > wanted) && self.sizes.fragment_capacity > 1 << 16 {
+            self.sizes.fragment_capacity /= 2;
             self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(FEWEST_CANDIDATES);
             needed = all(self);
         }
@@ -250,21 +250,24 @@ impl Plan {
         let tiles = tile_count(outer);
         let samples = u64::from(image.method.samples_a_frame());
         let policy = RoundPolicy::of(limits);
-        let records = match image.method {
+        let fragments = match image.method {
             Method::Superpixel(options) => {
-                let most = policy.most_records(limits);
-                (pixels * records_of_superpixel(&options.cells, scene)).clamp(1 << 16, most)
+                let most = policy.most_fragments(limits);
+                (pixels * fragments_of_superpixel(&options.cells, scene)).clamp(1 << 16, most)
             }
             Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             _ if scene.has_blend() => pixels * 3,
             Method::None | Method::Ssaa { .. } | Method::Accumulate { .. } => 0,
         };
-        let large = LARGE_RECORDS * samples.div_ceil(64);
-        let records =
-            if detects && records > large && policy == RoundPolicy::Small { (records / 3).max(large) } else { records };
+        let large = LARGE_FRAGMENTS * samples.div_ceil(64);
+        let fragments = if detects && fragments > large && policy == RoundPolicy::Small {
+            (fragments / 3).max(large)
+        } else {
+            fragments
+        };
         // A tile has room for all layers of its samples.
         let of_tile = capacity.layered(pixels.min(32) * samples);
-        let records = records.max(of_tile.min(most_records(limits)));
+        let fragments = fragments.max(of_tile.min(most_fragments(limits)));
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
@@ -291,7 +294,7 @@ impl Plan {
             filtered_triangles: if filters { scene.triangle_slots() } else { 0 },
             pair_capacity: at_most(pairs, most_listed),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
-            record_capacity: records as u32,
+            fragment_capacity: fragments as u32,
             filtered: filtered as u32,
             attributes: image.attributes,
             encoded: match encoded_bytes {
@@ -388,16 +391,16 @@ mod tests {
                     let limits = gpu(local << 30);
                     let plan = Plan::whole(&image, &Triangles, &limits, Capacity::default(), 0);
                     let plan = plan.unwrap();
-                    (plan.bytes(&Triangles, &image), plan.sizes.record_capacity)
+                    (plan.bytes(&Triangles, &image), plan.sizes.fragment_capacity)
                 };
                 for local in [2, 8, 24, 141] {
-                    let (bytes, records) = taken(local, None);
+                    let (bytes, fragments) = taken(local, None);
                     assert!(bytes <= 960 << 20, "{size:?}, {samples}, {local}: {bytes}");
-                    assert!(records >= 1 << 20, "{size:?}, {samples}, {local}: {records}");
+                    assert!(fragments >= 1 << 20, "{size:?}, {samples}, {local}: {fragments}");
                 }
-                let (bytes, records) = taken(141, Some(4 << 30));
+                let (bytes, fragments) = taken(141, Some(4 << 30));
                 assert!(bytes <= 4 << 30, "{bytes}");
-                assert!(records >= taken(141, None).1, "{records}");
+                assert!(fragments >= taken(141, None).1, "{fragments}");
                 if size[0] > 1920 {
                     assert!(bytes > 1 << 30, "{bytes}");
                 }

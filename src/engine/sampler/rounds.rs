@@ -1,7 +1,7 @@
 //! Policy for dividing a frame's samples into rounds.
 
 use super::Capacity;
-use super::plan::MOST_RECORDS;
+use super::plan::MOST_FRAGMENTS;
 use crate::vulkan::Limits;
 
 /// Policy for dividing a frame's samples into rounds, which depends on the kind of device.
@@ -12,7 +12,7 @@ pub(crate) enum RoundPolicy {
     /// Large rounds, for devices with plenty of memory, because a GPU is idle during each barrier.
     Large {
         /// Largest number of visibility samples in a round.
-        records: u64,
+        fragments: u64,
     },
 }
 
@@ -24,7 +24,7 @@ const PART: u64 = 32;
 /// triangles.
 const USUAL_MEMORY: u64 = 960 << 20;
 /// Number of bytes of a visibility sample in all buffers of a round.
-const RECORD_BYTES: u64 = 44;
+const FRAGMENT_BYTES: u64 = 44;
 
 impl RoundPolicy {
     /// Policy for a device.
@@ -32,8 +32,8 @@ impl RoundPolicy {
         if limits.is_cpu() || limits.local_bytes < PLENTY {
             Self::Small
         } else {
-            let records = limits.local_bytes / (PART * RECORD_BYTES);
-            Self::Large { records }
+            let fragments = limits.local_bytes / (PART * FRAGMENT_BYTES);
+            Self::Large { fragments }
         }
     }
 
@@ -47,10 +47,10 @@ impl RoundPolicy {
     }
 
     /// Largest number of visibility samples in a round of an image.
-    pub fn most_records(self, limits: &Limits) -> u64 {
+    pub fn most_fragments(self, limits: &Limits) -> u64 {
         match self {
-            Self::Small => MOST_RECORDS,
-            Self::Large { records } => records.min(limits.max_storage_bytes / 16).min(limits.max_texel_elements),
+            Self::Small => MOST_FRAGMENTS,
+            Self::Large { fragments } => fragments.min(limits.max_storage_bytes / 16).min(limits.max_texel_elements),
         }
     }
 }

@@ -36,7 +36,7 @@ pub struct Statistics {
     /// Number of entries in the candidate lists of all tiles.
     pub candidates: u64,
     /// Number of visibility samples.
-    pub records: u64,
+    pub visibility_samples: u64,
     /// Number of tiles without a candidate list: they have too many triangles, or the list outgrew its buffer.
     pub unlisted_tiles: u64,
     /// Number of rounds that had work to do.
@@ -83,7 +83,7 @@ impl Statistics {
         self.triangles.degenerate += other.triangles.degenerate;
         self.triangles.untouching += other.triangles.untouching;
         self.candidates += other.candidates;
-        self.records += other.records;
+        self.visibility_samples += other.visibility_samples;
         self.unlisted_tiles += other.unlisted_tiles;
         self.rounds += other.rounds;
         self.regions += other.regions;
@@ -99,7 +99,7 @@ impl Statistics {
         self.superpixels += get(Counter::Superpixels);
         self.resampled += get(Counter::Resampled);
         self.candidates += get(Counter::CandidatesTotal);
-        self.records += get(Counter::RecordsTotal);
+        self.visibility_samples += get(Counter::FragmentsTotal);
         self.unlisted_tiles += get(Counter::UnlistedTotal);
         self.rounds += get(Counter::Rounds);
     }

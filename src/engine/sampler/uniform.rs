@@ -107,7 +107,7 @@ pub(crate) fn frame_uniform(
         survivor_capacity: sizes.survivor_capacity,
         pair_capacity: sizes.pair_capacity,
         list_capacity: sizes.list_capacity,
-        record_capacity: sizes.record_capacity,
+        fragment_capacity: sizes.fragment_capacity,
         bin_count: scene.bin_count,
         light_count: scene.light_count,
         material_vectors: scene.material_vectors,

@@ -1,4 +1,4 @@
-//! Descriptor sets, and records of the buffers in them.
+//! Descriptor sets, and lists of the buffers in them.
 
 use super::{Binding, Buffer, Gpu, SetLayout, VulkanError};
 use ash::vk;
@@ -55,7 +55,7 @@ pub type BoundDescriptor = (Binding, Descriptor);
 /// Descriptor sets that show the same data to several passes: a set for each layout, with the bindings that passes of
 /// this layout use.
 ///
-/// They record which buffers they show, so that a [`Recorder`](super::Recorder) knows what a dispatch reads and writes.
+/// They list which buffers they show, so that a [`Recorder`](super::Recorder) knows what a dispatch reads and writes.
 pub(crate) struct DescriptorSets {
     of_frame: bool,
     shown: Arc<ShownSets>,

@@ -5,9 +5,9 @@ use super::{FrameGeometry, FrameLook};
 use crate::engine::spirv::{self, frame_set};
 use crate::render::{Headless, HeadlessOptions, SceneRequest};
 use crate::scene::{
-    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Draw, DrawClass, Filter, Geometry, Image, Instance,
-    Iridescence, Light, LightKind, Lobes, Material, Pose, Sampler, Scene, Sheen, Specular, SpecularGlossiness, Texture,
-    TextureTransform, TextureUse, Transmission, VertexStreams, Wrap,
+    AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, DrawClass, DrawRange, Filter, Image, Iridescence, Light,
+    LightKind, Lobes, Material, MeshInstance, Pose, PosedGeometry, Sampler, Scene, Sheen, Specular, SpecularGlossiness,
+    Texture, TextureTransform, TextureUse, Transmission, VertexStreams, Wrap,
 };
 use crate::vulkan::{
     Access, Binding, DescriptorSets, Interface, Invocations, Memory, MemoryUse, PassLayout, Recorder, SharedLayout,
@@ -148,16 +148,16 @@ fn scene(n: &mut Numbers) -> (Scene, Pose) {
             ..Sampler::default()
         },
     }];
-    let draw = |triangle: u32| Draw {
+    let draw = |triangle: u32| DrawRange {
         first_triangle: triangle,
         triangle_count: 1,
         material: triangle,
         class: DrawClass::of(&scene.materials[triangle as usize]),
     };
-    let instance = |triangle: u32, transform| Instance {
+    let instance = |triangle: u32, transform| MeshInstance {
         first_triangle: triangle,
         triangle_count: 1,
-        first_index: Instance::ALIGNMENT * triangle,
+        first_index: MeshInstance::ALIGNMENT * triangle,
         transform,
     };
     let mut vectors = || -> Vec<[f32; 4]> { (0..6).map(|_| n.several()).collect() };
@@ -176,13 +176,13 @@ fn scene(n: &mut Numbers) -> (Scene, Pose) {
         range: Some(0.25),
     };
     let pose = Pose {
-        geometry: Geometry {
+        geometry: PosedGeometry {
             positions: (0..6).map(|_| n.several()).collect(),
             streams,
             triangles: vec![[0, 1, 2], [3, 4, 5]],
             draws: vec![draw(0), draw(1)],
             instances: vec![instance(0, DAffine3::IDENTITY), instance(1, placed())],
-            ..Geometry::default()
+            ..PosedGeometry::default()
         },
         materials: Vec::new(),
         lights: vec![light(LightKind::Point), light(LightKind::Spot { inner_angle: 0.0, outer_angle: 1.0 })],
@@ -217,7 +217,7 @@ impl Fields {
     }
 
     /// The second triangle, which lies at `matrix` of its first vertex.
-    fn triangle(&mut self, vertices: [u32; 3], matrix: DMat4, geometry: &Geometry) {
+    fn triangle(&mut self, vertices: [u32; 3], matrix: DMat4, geometry: &PosedGeometry) {
         self.words("exists", &[1]);
         self.words("vertices", &vertices);
         self.words("material, bin, high frequency, single-sided", &[1, 1, 1, 0]);
@@ -226,7 +226,7 @@ impl Fields {
         self.floats("position in clip space", &clip.as_vec4().to_array());
     }
 
-    fn attributes(&mut self, geometry: &Geometry) {
+    fn attributes(&mut self, geometry: &PosedGeometry) {
         let (streams, first) = (&geometry.streams, 3);
         self.floats("position", &geometry.positions[first]);
         self.floats("normal", &streams.normals[first]);
@@ -336,7 +336,7 @@ fn read_by_shader(headless: &mut Headless, scene: &Scene, pose: &Pose, instanced
     let constants = spirv::Bin { instanced }.constants();
     let code = include_bytes!("../../../tests/rows/shaders/spirv/rows.spv");
     let pipeline = compute_pipeline(&layout, (code, &INTERFACE), &constants, None).unwrap();
-    let triangle = if instanced { Instance::ALIGNMENT } else { 1 };
+    let triangle = if instanced { MeshInstance::ALIGNMENT } else { 1 };
     headless
         .submit(|commands| {
             // SAFETY: `submit` waits for the commands, and everything belongs to its device.

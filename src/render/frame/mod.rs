@@ -28,7 +28,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Pipelines and memory for frames of one scene in one size with one method. A frame keeps its scene alive.
-pub struct Frame {
+pub struct SceneFrame {
     scene: Arc<GpuScene>,
     /// Casters of shadows, and the passes that find the shadows; `None` for settings without shadows.
     casters: Option<Arc<Casters>>,
@@ -53,7 +53,7 @@ fn drawn_pixels(settings: &Settings) -> u64 {
     drawn.into_iter().product()
 }
 
-impl Frame {
+impl SceneFrame {
     /// Prepares a frame. `reserved` bytes of the memory that the settings allow are left to other owners.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
@@ -213,11 +213,11 @@ impl Frame {
         self.plan.regions.len()
     }
 
-    /// Records some of the regions of a frame, as [`Frame::record`] records all; an image's regions may be recorded
+    /// Records some of the regions of a frame, as [`SceneFrame::record`] records all; an image's regions may be recorded
     /// into several command buffers.
     ///
     /// # Safety
-    /// As [`Frame::record`]; and the regions before `regions` were recorded, and are executed before these.
+    /// As [`SceneFrame::record`]; and the regions before `regions` were recorded, and are executed before these.
     pub(super) unsafe fn record_regions(
         &mut self,
         camera: &Camera,

@@ -1,6 +1,6 @@
 //! Counters of a frame, read once its commands have run.
 
-use super::Frame;
+use super::SceneFrame;
 use crate::engine::data::tiles::tile_count;
 use crate::engine::sampler::Shortfall;
 use crate::engine::sampler::plan::Region;
@@ -8,7 +8,7 @@ use crate::engine::spirv;
 use crate::render::{RenderError, Statistics};
 use crate::vulkan::Specialized;
 
-impl Frame {
+impl SceneFrame {
     /// Work that the last recording could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
         let samplers = [&self.passes.blended, &self.passes.superpixels];

@@ -2,9 +2,9 @@
 
 use crate::engine::data::{Cells, Content};
 use crate::engine::passes::detect::DetectMode;
-use crate::engine::passes::{Raster, RecordRate, resolve, sort};
+use crate::engine::passes::{FragmentRate, Raster, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
-use crate::engine::sampler::{Job, PixelCells, Sampler, record_rate};
+use crate::engine::sampler::{Job, PixelCells, Sampler, fragment_rate};
 use crate::render::data::GpuScene;
 use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
 use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
@@ -72,7 +72,7 @@ impl Passes {
         let grows = antialiased && superpixels.growth_count() > 0;
         let side = settings.method.side();
         let compares = !matches!(detection, Detection::Exact | Detection::Every);
-        let by_part = record_rate(context.settings.cells.shading, scene) == RecordRate::Part;
+        let by_part = fragment_rate(context.settings.cells.shading, scene) == FragmentRate::Part;
         let words = context.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
@@ -82,11 +82,11 @@ impl Passes {
                 shade: shade::pass(layout, scene, source, words, &output)?,
             })
         };
-        const SUPERPIXELS: ShadeSource = ShadeSource::Records { cells: Cells::Pixels };
+        const SUPERPIXELS: ShadeSource = ShadeSource::Fragments { cells: Cells::Pixels };
         let shading = || shade::pass(layout, scene, SUPERPIXELS, words, &output);
-        let shades_records = scene.has_blend() || antialiased || multisampled;
+        let shades_fragments = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) =
-            rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_records.then(shading).transpose());
+            rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_fragments.then(shading).transpose());
         let (pixels, shading) = (pixels?, shading?.map(Arc::new));
         let blended = PixelCells {
             mode: DetectMode::Blended,

@@ -50,7 +50,7 @@ pub(in crate::render) struct SceneShading<'a> {
 impl RecordShading for SceneShading<'_> {
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some((shadows, shadowed)) = self.shadows {
-            shadows.record(recorder, shadowed, Receiving::Records);
+            shadows.record(recorder, shadowed, Receiving::Fragments);
         }
         if let Some(shade) = self.shade {
             shade.record(recorder);

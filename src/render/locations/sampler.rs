@@ -53,7 +53,7 @@ impl LocationSampler {
         let run = RunMemory::new(layout, prepared, settings, plan, offsets)?;
         let (job, resources) = (&run.job, run.job.resources());
         let context = job.context(scene, 1);
-        let source = ShadeSource::Records { cells: *cells };
+        let source = ShadeSource::Fragments { cells: *cells };
         // SAFETY: the list lives as long as the resources, and has room for that many locations.
         let sampler = unsafe { listed.sampler(&context, resources, resources.texels(Data::Locations)) }?;
         let shadows = |casters| {

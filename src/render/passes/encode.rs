@@ -127,7 +127,7 @@ fn around(reaches: impl Fn([u32; 2]) -> bool) -> [[u32; 2]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::render::random::Random;
     use crate::vulkan::PassTime;
 
     /// Times leave out the pass by its name.

@@ -99,7 +99,7 @@ impl Occlude {
         };
         let region = match receiving {
             Receiving::Pixels(size) => size,
-            Receiving::Records => [0; 2],
+            Receiving::Fragments => [0; 2],
         };
         let push = LightPlane { step, first_place, region, ..*plane };
         recorder.show(&self.own);
@@ -108,7 +108,7 @@ impl Occlude {
                 let groups = size.map(|side| side.div_ceil(SIDE));
                 self.kernel.record_teams(recorder, &push, groups[0] * groups[1]);
             }
-            Receiving::Records => {
+            Receiving::Fragments => {
                 let size = (resources.buffer(Data::Arguments), Argument::Sort);
                 self.kernel.record_counted(recorder, &push, size);
             }

@@ -17,13 +17,13 @@ pub enum Receiving {
     /// Centres of a region's pixels; holds the region's width and height.
     Pixels([u32; 2]),
     /// Visibility samples of a round.
-    Records,
+    Fragments,
 }
 
 /// Lists the surfaces that receive light.
 pub struct Receivers {
     of_pixels: Kernel<spirv::Receivers>,
-    of_records: Kernel<spirv::Receivers>,
+    of_fragments: Kernel<spirv::Receivers>,
     own: DescriptorSets,
 }
 
@@ -44,7 +44,7 @@ impl Receivers {
         };
         Ok(Self {
             of_pixels: kernel(true)?,
-            of_records: kernel(false)?,
+            of_fragments: kernel(false)?,
             // SAFETY: the buffer lives as long as the frame to which this belongs.
             own: unsafe { layout.own_set(spirv::Receivers::INTERFACE, &shown) }?,
         })
@@ -60,8 +60,8 @@ impl Receivers {
             Receiving::Pixels([width, height]) => {
                 self.of_pixels.record(recorder, &push, width * height);
             }
-            Receiving::Records => {
-                self.of_records.record_indirect(recorder, &push, Argument::Records);
+            Receiving::Fragments => {
+                self.of_fragments.record_indirect(recorder, &push, Argument::Fragments);
             }
         }
     }

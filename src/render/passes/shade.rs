@@ -16,7 +16,7 @@ pub(crate) enum ShadeSource {
         display_codes: bool,
     },
     /// Visibility samples.
-    Records {
+    Fragments {
         /// Kind of the cells to which the visibility samples belong.
         cells: Cells,
     },
@@ -38,7 +38,7 @@ pub(crate) fn pass(
     let lights = scene.light_features();
     let (pixels, cells) = match source {
         ShadeSource::Pixels { .. } => (true, Cells::Pixels),
-        ShadeSource::Records { cells } => (false, cells),
+        ShadeSource::Fragments { cells } => (false, cells),
     };
     let display_codes = source == ShadeSource::Pixels { display_codes: true };
     let one_bin = scene.bins.len() <= 1;
@@ -62,7 +62,7 @@ pub(crate) fn pass(
     let dispatch = |(number, bin): (u32, &MaterialBin)| {
         let textures = if output.box_filter { &bin.averaged_textures } else { &bin.textures };
         let size = if one_bin && !pixels {
-            Size::from(Argument::Records)
+            Size::from(Argument::Fragments)
         } else {
             Size::Indirect(Argument::Shade as u32 + number)
         };

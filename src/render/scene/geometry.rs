@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-/// Class of a draw: how its triangles are rasterized. [`Geometry::draws`] are in the order of these variants.
+/// Class of a draw: how its triangles are rasterized. [`PosedGeometry::draws`] are in the order of these variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DrawClass {
     /// Opaque, back faces culled.
@@ -41,8 +41,8 @@ impl DrawClass {
 
 /// Consecutive triangles with the same material and class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Draw {
-    /// Index of the first triangle in [`Geometry::triangles`].
+pub struct DrawRange {
+    /// Index of the first triangle in [`PosedGeometry::triangles`].
     pub first_triangle: u32,
     /// Number of triangles, at least 1.
     pub triangle_count: u32,
@@ -52,8 +52,8 @@ pub struct Draw {
     pub class: DrawClass,
 }
 
-impl Draw {
-    /// Indices of the triangles in [`Geometry::triangles`].
+impl DrawRange {
+    /// Indices of the triangles in [`PosedGeometry::triangles`].
     fn triangles(&self) -> std::ops::Range<usize> {
         let first = self.first_triangle as usize;
         first..first + self.triangle_count as usize
@@ -78,17 +78,17 @@ pub struct VertexStreams {
     pub scales: Vec<f32>,
 }
 
-/// Consecutive triangles of a [`Geometry`], drawn at one place.
+/// Consecutive triangles of a [`PosedGeometry`], drawn at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instance {
-    /// Index of the first triangle in [`Geometry::triangles`].
+pub struct MeshInstance {
+    /// Index of the first triangle in [`PosedGeometry::triangles`].
     pub first_triangle: u32,
     /// Number of triangles, at least 1; all have the same [`DrawClass`].
     pub triangle_count: u32,
-    /// ID of the first triangle minus 1, a multiple of [`Instance::ALIGNMENT`]; the IDs of the other triangles follow
+    /// ID of the first triangle minus 1, a multiple of [`MeshInstance::ALIGNMENT`]; the IDs of the other triangles follow
     /// it. IDs between the last triangle of an instance and the first of the next belong to no triangle.
     pub first_index: u32,
-    /// Transform from the space of the vertices to the world relative to [`Geometry::origin`].
+    /// Transform from the space of the vertices to the world relative to [`PosedGeometry::origin`].
     pub transform: DAffine3,
 }
 
@@ -97,8 +97,8 @@ pub(super) fn length_scale(transform: &DAffine3) -> f64 {
     transform.matrix3.determinant().abs().cbrt()
 }
 
-impl Instance {
-    /// Divisor of every [`Instance::first_index`].
+impl MeshInstance {
+    /// Divisor of every [`MeshInstance::first_index`].
     pub const ALIGNMENT: u32 = 64;
 
     /// Whether the transform mirrors, which reverses the winding of triangles.
@@ -113,7 +113,7 @@ impl Instance {
         length_scale(&self.transform)
     }
 
-    /// Indices of the triangles in [`Geometry::triangles`].
+    /// Indices of the triangles in [`PosedGeometry::triangles`].
     pub(crate) fn triangles(&self) -> std::ops::Range<usize> {
         let first = self.first_triangle as usize;
         first..first + self.triangle_count as usize
@@ -126,7 +126,7 @@ impl Instance {
 /// world space, and triangle `i` has the ID `i + 1`; 0 is background. With instances, each instance draws some of the
 /// triangles at its own place and with its own IDs, so that a mesh that is drawn many times is stored once.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Geometry {
+pub struct PosedGeometry {
     /// World position to which [`positions`](Self::positions) are relative, so that a scene far from the world's
     /// origin keeps its precision.
     pub origin: DVec3,
@@ -137,17 +137,17 @@ pub struct Geometry {
     /// Vertex indices of each triangle, in range.
     pub triangles: Vec<[u32; 3]>,
     /// Ranges that partition `triangles`, sorted by [`DrawClass`], then by order in the file.
-    pub draws: Vec<Draw>,
+    pub draws: Vec<DrawRange>,
     /// Places where triangles are drawn, in the order of their IDs and therefore of their classes. If the list is
     /// empty, each triangle is drawn once, at the positions of its vertices.
-    pub instances: Vec<Instance>,
+    pub instances: Vec<MeshInstance>,
     /// Corners of points and lines, in world space, with vertices in range and ascending.
     pub strokes: Vec<Stroke>,
     /// Edges of meshes, in world space and in range.
     pub edges: Vec<Edge>,
 }
 
-/// Error: a [`Geometry`] that can't be drawn.
+/// Error: a [`PosedGeometry`] that can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -231,7 +231,7 @@ pub enum GeometryError {
     },
 }
 
-/// Reason why an [`Instance`] can't be drawn.
+/// Reason why an [`MeshInstance`] can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InstanceFault {
@@ -253,7 +253,7 @@ pub enum InstanceFault {
     Order,
 }
 
-impl Geometry {
+impl PosedGeometry {
     /// Checks everything that a renderer relies on, for a scene with `materials` materials. Positions that are not
     /// finite are allowed: their triangles are invisible.
     ///
@@ -323,7 +323,7 @@ impl Geometry {
             if own.is_empty() || own.end > self.triangles.len() {
                 return error(InstanceFault::Triangles);
             }
-            if instance.first_index < next || !instance.first_index.is_multiple_of(Instance::ALIGNMENT) {
+            if instance.first_index < next || !instance.first_index.is_multiple_of(MeshInstance::ALIGNMENT) {
                 return error(InstanceFault::Index);
             }
             match instance.first_index.checked_add(instance.triangle_count) {
@@ -346,7 +346,7 @@ impl Geometry {
     }
 
     /// Draws that contain triangles of an instance.
-    fn draws_of(&self, instance: &Instance) -> impl Iterator<Item = &Draw> + Clone {
+    fn draws_of(&self, instance: &MeshInstance) -> impl Iterator<Item = &DrawRange> + Clone {
         let own = instance.triangles();
         let first = self.draws.partition_point(|draw| draw.triangles().end <= own.start);
         let after = self.draws.get(first..).unwrap_or(&[]).iter();
@@ -399,7 +399,7 @@ impl Geometry {
     }
 
     /// Lowest and highest corner of the box around an instance's vertices, before its transform.
-    pub(crate) fn own_box(&self, instance: &Instance) -> Option<[DVec3; 2]> {
+    pub(crate) fn own_box(&self, instance: &MeshInstance) -> Option<[DVec3; 2]> {
         let (low, high) = self.box_of(instance.triangles(), DAffine3::IDENTITY)?;
         Some([low, high])
     }
@@ -429,7 +429,7 @@ impl Geometry {
     }
 
     /// Adds the triangles of an instance to a geometry without instances.
-    fn flatten(&self, instance: &Instance, flat: &mut Self) {
+    fn flatten(&self, instance: &MeshInstance, flat: &mut Self) {
         let triangles = self.triangles.get(instance.triangles()).unwrap_or(&[]);
         let vertices = triangles.iter().flatten();
         let (Some(&low), Some(&high)) = (vertices.clone().min(), vertices.max()) else {
@@ -453,7 +453,7 @@ impl Geometry {
         for draw in self.draws_of(instance) {
             let start = draw.triangles().start.max(own.start);
             let end = draw.triangles().end.min(own.end);
-            flat.draws.push(Draw {
+            flat.draws.push(DrawRange {
                 first_triangle: instance.first_index + (start - own.start) as u32,
                 triangle_count: (end - start) as u32,
                 ..*draw
@@ -462,7 +462,7 @@ impl Geometry {
     }
 
     /// Adds a range of an instance's vertices in world space; returns the index of the first one there.
-    fn place(&self, used: RangeInclusive<usize>, instance: &Instance, flat: &mut Self) -> u32 {
+    fn place(&self, used: RangeInclusive<usize>, instance: &MeshInstance, flat: &mut Self) -> u32 {
         let first = flat.positions.len() as u32;
         let place = instance.transform;
         // The inverse transpose, up to a positive factor, exists even if the inverse does not.

@@ -1,7 +1,7 @@
 //! Scenes: the contents of a file, and their triangles in the pose of one moment.
 //!
 //! This module does not use Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] turns one of its scenes into
-//! [`Geometry`], which a renderer uploads. Positions are in world space, except in large meshes that are drawn many
+//! [`PosedGeometry`], which a renderer uploads. Positions are in world space, except in large meshes that are drawn many
 //! times.
 //!
 //! ```no_run
@@ -52,7 +52,7 @@ pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
 #[cfg(feature = "cli")]
 pub(crate) use error::Warnings;
-pub use geometry::{Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams};
+pub use geometry::{DrawClass, DrawRange, GeometryError, InstanceFault, MeshInstance, PosedGeometry, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use lobes::{
@@ -139,7 +139,7 @@ impl Scene {
         read::read(bytes, name, base, Some(variant))
     }
 
-    /// Makes a scene of materials, without a file and without textures, for [`Geometry`] from another source. glTF's
+    /// Makes a scene of materials, without a file and without textures, for [`PosedGeometry`] from another source. glTF's
     /// default material is appended.
     #[must_use]
     pub fn from_materials(mut materials: Vec<Material>) -> Self {

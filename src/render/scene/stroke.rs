@@ -2,7 +2,7 @@
 
 use crate::engine::spirv;
 
-/// Vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of
+/// Vertex of a [`PosedGeometry`](super::PosedGeometry) that a renderer places for each camera: a corner of a point's disc or of
 /// a line. The other vertices that it refers to are positions in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {

@@ -4,7 +4,7 @@ use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, most_planes, plane_side, views};
 use crate::engine::data::{Cells, Data, Offsets, ResourceRequest, ResourceSizes, Resources, SampleSet, ShownIds};
 use crate::engine::pipelines::FrameLayout;
-use crate::engine::sampler::{Capacity, SamplerSettings, Shortfall, TileLists};
+use crate::engine::sampler::{Capacity, SamplerSettings, Shortfall, TriangleLists};
 use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
@@ -23,7 +23,7 @@ pub(in crate::render) struct ShadowFinder {
     /// Side of the lights' planes in pixels.
     side: u32,
     receivers: Receivers,
-    lists: TileLists,
+    lists: TriangleLists,
     occlude: Occlude,
     unshadowed: Unshadowed,
     pose: Option<PosePass>,
@@ -74,7 +74,7 @@ impl ShadowRequest<'_> {
     fn plan(&self) -> PlanePlan {
         let Self { layout, casters, settings, capacity, places, max_memory } = *self;
         let side = plane_side(places, capacity.planes.longest);
-        let sizes = TileLists::sizes(layout, &*casters.scene, &settings.cells, [side; 2], capacity);
+        let sizes = TriangleLists::sizes(layout, &*casters.scene, &settings.cells, [side; 2], capacity);
         let planes = most_planes(&casters.lit, casters.scene.moves()).max(1);
         let most = max_memory.map_or(MOST_LIST_BYTES, |limit| MOST_LIST_BYTES.min(limit / LIST_SHARE));
         let is_room = u64::from(planes) * sizes.planned_bytes() <= most;
@@ -122,7 +122,7 @@ impl ShadowFinder {
         Ok(Self {
             side,
             receivers: Receivers::new(layout, scene, cells, shading.buffer(Data::Surfaces))?,
-            lists: TileLists::new(layout, occluding)?,
+            lists: TriangleLists::new(layout, occluding)?,
             occlude: Occlude::new(layout, occluding, shading, &unshadowed)?,
             unshadowed,
             pose: occluding.moves().then(|| PosePass::new(layout)).transpose()?,
@@ -211,7 +211,7 @@ impl ShadowFinder {
             }
             let first_place = match receiving {
                 Receiving::Pixels(_) => 0,
-                Receiving::Records => shaded.size[0] * shaded.size[1],
+                Receiving::Fragments => shaded.size[0] * shaded.size[1],
             };
             self.record_search(recorder, shaded, receiving, ShadowTarget::Words(first_place));
         });

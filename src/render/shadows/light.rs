@@ -253,7 +253,7 @@ fn clip(polygon: &[DVec3], (point, inwards): (DVec3, DVec3)) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::render::random::Random;
 
     fn sight(eye: DVec3, target: DVec3) -> Sight {
         let size = [100, 50];

@@ -16,7 +16,7 @@
 //!
 //! ```text
 //! casters ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ setup ─▶ lists of the tiles of a plane ─┐
-//! shaded next: pixels or records ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ words for each ─▶ shade
+//! shaded next: pixels or fragments ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ words for each ─▶ shade
 //! ```
 
 mod casters;

@@ -49,7 +49,7 @@ fn unzooming_comes_close_to_a_direct_render() {
     };
     let region = rmse("z.png", "z.direct.png", &[]);
     // The zoom must be better than an enlargement of the ordinary image in the same view.
-    let record = output::find_text(&std::fs::read(folder.path().join("z.png")).unwrap(), "gpc zoom");
+    let stored = output::find_text(&std::fs::read(folder.path().join("z.png")).unwrap(), "gpc zoom");
     let original = output::read(&folder.path().join("z.original.png")).unwrap();
     let enlarged = Photograph::from(&original).resample([48, 48], |place| {
         let step = glam::DMat2::from_diagonal(DVec2::splat(0.4));
@@ -58,7 +58,7 @@ fn unzooming_comes_close_to_a_direct_render() {
     let enlarged = DecodedImage::from(&output::Picture::new([48, 48], &enlarged).unwrap());
     let direct = output::read(&folder.path().join("z.direct.png")).unwrap();
     let blurred = gpc::compare::compare(&direct, &enlarged).unwrap().rmse;
-    assert!(record.is_some());
+    assert!(stored.is_some());
     assert!(region < 0.5 * blurred, "{region} against {blurred}");
     assert!(rmse("z.png", "z.original.png", &["--whole"]) < 0.1);
 }

@@ -2,8 +2,8 @@
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, Mesh, PLACED, Part, SIZE, Way, World};
-use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
-use gpc::bench::stress::stage::NEAR;
+use crate::stage::{NEAR, Stage, flat, ids, on_gpu, once, seen_at};
+
 use gpc::host::Options;
 use gpc::render::{Shading, SuperpixelOptions};
 use gpc::scene::AlphaMode;

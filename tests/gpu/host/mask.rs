@@ -2,9 +2,9 @@
 
 use super::machine::{Base, Machine};
 use super::world::{Drawn, Map, Mesh, PLACED, Part, SIZE, Way, World};
-use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
+use crate::stage::{NEAR, Stage, flat, ids, on_gpu, once, seen_at, textured};
 use ash::vk;
-use gpc::bench::stress::stage::NEAR;
+
 use gpc::host::Options;
 use gpc::render::{CellOptions, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler, Wrap};

@@ -3,9 +3,9 @@
 use super::machine::{Base, Machine, Seen};
 use super::world::{Drawn, Mesh, PLACED, Part, SIZE, SKY, World};
 use crate::devices::within;
-use crate::stage::{on_gpu, seen_at};
+use crate::stage::{NEAR, on_gpu, seen_at};
 use ash::vk;
-use gpc::bench::stress::stage::NEAR;
+
 use gpc::host::{Location, Options};
 use gpc::render::{Detection, Headless, Shading};
 use gpc::vulkan::Limits;

@@ -1,4 +1,4 @@
-// samples: shades each sample with its barycentric coordinates, so that a change of the library's records changes the image.
+// samples: shades each sample with its barycentric coordinates, so that a change of the library's visibility samples changes the image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define GPC_SET 0

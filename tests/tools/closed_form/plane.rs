@@ -1,8 +1,9 @@
 //! A textured plane to the horizon: rendered, and integrated over each pixel.
 
 use super::texture::Texture;
-use gpc::bench::brute_force;
-use gpc::bench::stress::stage::{Stage, camera, textured};
+use crate::measurement::brute_force;
+use crate::measurement::stress::stage::{Stage, camera};
+use crate::textured::textured;
 use gpc::render::{Footprint, Headless, MethodKind, PreparedScene, Reference, SceneRequest, Settings};
 use gpc::scene::{AlphaMode, Filter, TextureTransform, TextureUse};
 use rayon::prelude::*;

@@ -141,7 +141,7 @@ impl Viewer {
                 self.flight = None;
             }
             Action::Quit => self.wants_to_quit = true,
-            Action::SwapchainFit => {
+            Action::ShowAll => {
                 let size = self.pixels();
                 let photo = self.easel.as_ref();
                 if let Some(photo) = photo.map(|easel| easel.photo.photograph().size()) {

@@ -7,7 +7,7 @@ use super::preparer::{Preparer, Ticket};
 use super::schedule::{PictureSchedule, PictureWork, Took};
 use ash::vk;
 use gpc::camera::Camera;
-use gpc::render::{EngineError, Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
+use gpc::render::{EngineError, PixelRect, PreparedScene, RenderError, SceneFrame, Settings, Shadows, Statistics};
 use gpc::scene::Moment;
 use std::sync::{Arc, Weak};
 use std::time::Instant;
@@ -25,15 +25,15 @@ pub struct Layer {
     /// Ticket that identifies the layer to the preparer.
     ticket: Ticket,
     /// Frames of drafts that are not in use.
-    spare: Vec<Frame>,
+    spare: Vec<SceneFrame>,
     /// A frame for bands that is not in use.
-    band: Option<Frame>,
+    band: Option<SceneFrame>,
     /// Settings of the frames that are being prepared.
     asked: Vec<Settings>,
     /// Work that waits until its frame is prepared.
     waiting: Option<PictureWork>,
     /// Work to repeat, the frame with more room for it, and the number of repetitions.
-    again: Option<(PictureWork, Frame, u32)>,
+    again: Option<(PictureWork, SceneFrame, u32)>,
     /// Number of the picture, which tells the results of older pictures apart.
     version: u64,
     /// Samples a pixel of the visible picture, if all of its pixels have the same number.
@@ -46,7 +46,7 @@ pub struct Layer {
 pub struct Job {
     /// Ticket of the layer that takes the job back.
     pub ticket: Weak<()>,
-    frame: Frame,
+    frame: SceneFrame,
     work: PictureWork,
     version: u64,
     tries: u32,
@@ -203,7 +203,7 @@ impl Layer {
     }
 
     /// Takes a frame that was requested, or the error of preparing it.
-    pub fn prepared(&mut self, settings: &Settings, frame: Result<Frame, RenderError>) -> Result<(), RenderError> {
+    pub fn prepared(&mut self, settings: &Settings, frame: Result<SceneFrame, RenderError>) -> Result<(), RenderError> {
         self.asked.retain(|asked| asked != settings);
         match frame {
             Ok(frame) if settings.region.is_none() => self.spare.push(frame),
@@ -255,7 +255,7 @@ impl Layer {
 
     /// A prepared frame for these settings, if there is one. Frames of drafts are reused while the settings stay, and
     /// dropped otherwise.
-    fn frame(&mut self, settings: &Settings) -> Option<Frame> {
+    fn frame(&mut self, settings: &Settings) -> Option<SceneFrame> {
         if settings.region.is_some() {
             return self.band.take_if(|frame| frame.settings() == settings);
         }

@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::Ray;
-use gpc::scene::Geometry;
+use gpc::scene::PosedGeometry;
 
 /// First point at which a ray meets a triangle. Both sides of triangles count, and alpha is ignored.
-pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
+pub fn first_hit(geometry: &PosedGeometry, ray: &Ray) -> Option<DVec3> {
     let start = ray.start - geometry.origin;
     let meet = |triangles: std::ops::Range<usize>, place: DAffine3| {
         let inverse = place.inverse();
@@ -52,14 +52,14 @@ fn distance(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gpc::scene::Instance;
+    use gpc::scene::MeshInstance;
 
-    fn geometry() -> Geometry {
-        Geometry {
+    fn geometry() -> PosedGeometry {
+        PosedGeometry {
             origin: DVec3::new(10.0, 0.0, 0.0),
             positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             triangles: vec![[0, 1, 2]],
-            ..Geometry::default()
+            ..PosedGeometry::default()
         }
     }
 
@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn the_nearest_instance_is_met() {
         let mut geometry = geometry();
-        let at = |z: f64, first_index: u32| Instance {
+        let at = |z: f64, first_index: u32| MeshInstance {
             first_triangle: 0,
             triangle_count: 1,
             first_index,

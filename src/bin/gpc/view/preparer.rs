@@ -2,7 +2,7 @@
 //! window's thread must not wait.
 
 use super::engine::Engine;
-use gpc::render::{Encoding, Frame, PreparedScene, RenderError, Settings};
+use gpc::render::{Encoding, PreparedScene, RenderError, SceneFrame, Settings};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
@@ -14,7 +14,7 @@ pub type Ticket = Arc<()>;
 pub struct Prepared {
     pub ticket: Weak<()>,
     pub settings: Settings,
-    pub frame: Result<Frame, RenderError>,
+    pub frame: Result<SceneFrame, RenderError>,
     /// Engine whose device the frame uses; dropped after the frame.
     _engine: Arc<Engine>,
 }

@@ -6,7 +6,7 @@ use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
 use glam::DVec3;
 use gpc::render::{PreparedScene, SceneRequest};
-use gpc::scene::{AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera};
+use gpc::scene::{AnimationInfo, Edges, Environment, Motion, Pose, PoseRequest, PosedGeometry, Scene, SceneCamera};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ pub struct LoadedScene {
     pub animations: Vec<AnimationInfo>,
     pub cameras: Vec<SceneCamera>,
     /// Triangles for finding the one under the pointer.
-    pub geometry: Geometry,
+    pub geometry: PosedGeometry,
     pub bounds: Bounds,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,

@@ -31,7 +31,7 @@ pub struct ResourceSizes {
     /// Largest number of candidates in all lists of a round.
     pub list_capacity: u32,
     /// Largest number of visibility samples of a round; 0 if no cell is ever sampled.
-    pub record_capacity: u32,
+    pub fragment_capacity: u32,
     /// Number of pixels of a region after the box filter; 0 without the filter.
     pub filtered: u32,
     /// Number of shadow words of each shaded place; their bits say which lights reach it. 0 without shadows. See
@@ -61,7 +61,7 @@ impl ResourceSizes {
             filtered_triangles: 0,
             pair_capacity: 0,
             list_capacity: 0,
-            record_capacity: 0,
+            fragment_capacity: 0,
             filtered: 0,
             shadow_words: 0,
             attributes: false,
@@ -127,14 +127,14 @@ impl ResourceSizes {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
         match self.shadow_words {
             0 => 0,
-            _ => pixels.max(self.record_capacity).next_multiple_of(64),
+            _ => pixels.max(self.fragment_capacity).next_multiple_of(64),
         }
     }
 
     /// Number of shadow words of all places: of visibility samples and, if cells are pixels, of the pixels.
     pub(super) fn all_shadow_words(&self) -> u64 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
-        u64::from(self.shadow_words) * (u64::from(pixels) + u64::from(self.record_capacity))
+        u64::from(self.shadow_words) * (u64::from(pixels) + u64::from(self.fragment_capacity))
     }
 
     /// Number of work items: tiles or, if there are more, groups of locations.

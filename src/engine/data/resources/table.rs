@@ -37,7 +37,7 @@ pub enum Data {
     /// First visibility sample of each block.
     Headers,
     /// Visibility samples.
-    Records,
+    Fragments,
     /// Radiance of visibility samples.
     Shaded,
     /// Words that say which lights reach a place.
@@ -162,7 +162,7 @@ impl Data {
         Self::Pairs,
         Self::Candidates,
         Self::Headers,
-        Self::Records,
+        Self::Fragments,
         Self::Shaded,
         Self::ShadowWords,
         Self::Surfaces,
@@ -184,7 +184,7 @@ impl Data {
     /// The buffer's row of the table, for memory of these sizes.
     pub(super) fn row(self, sizes: &ResourceSizes) -> Row {
         let colors = sizes.colors();
-        let records = u64::from(sizes.record_capacity);
+        let fragments = u64::from(sizes.fragment_capacity);
         let list = sizes.locations.unwrap_or_default();
         let tiles = u64::from(sizes.tiles());
         let tiles_of_list = if sizes.locations.is_some() { tiles } else { 0 };
@@ -222,16 +222,16 @@ impl Data {
                 let texels = ResourceSizes::CANDIDATE_TEXELS * u64::from(sizes.list_capacity);
                 Row::new("candidates", UINT4, texels).texels_at(frame_set::CANDIDATES).at(frame_set::CANDIDATES_OUT)
             }
-            Self::Headers => Row::new("record headers", Element::Bytes(8), records).at(frame_set::HEADERS),
-            Self::Records => {
-                Row::new("visibility samples", UINT4, records).texels_at(frame_set::RECORDS).at(frame_set::RECORDS_OUT)
-            }
+            Self::Headers => Row::new("fragment headers", Element::Bytes(8), fragments).at(frame_set::HEADERS),
+            Self::Fragments => Row::new("visibility samples", UINT4, fragments)
+                .texels_at(frame_set::FRAGMENTS)
+                .at(frame_set::FRAGMENTS_OUT),
             Self::Shaded => {
-                Row::new("shaded records", FLOAT4, records).texels_at(frame_set::SHADED).at(frame_set::SHADED_OUT)
+                Row::new("shaded fragments", FLOAT4, fragments).texels_at(frame_set::SHADED).at(frame_set::SHADED_OUT)
             }
             Self::ShadowWords => Row::new("shadows", UINT, sizes.all_shadow_words()).texels_at(frame_set::SHADOW_WORDS),
             Self::Surfaces => Row::new("receivers of light", UINT4, 2 * u64::from(sizes.receivers())),
-            Self::ShadeOrder => Row::new("shading order", WORD, records.max(colors)).at(frame_set::SHADE_ORDER),
+            Self::ShadeOrder => Row::new("shading order", WORD, fragments.max(colors)).at(frame_set::SHADE_ORDER),
             Self::Bins => Row::new("material bins", VECTOR, sizes.bins).at(frame_set::BINS),
             Self::Arguments => Row::new("indirect dispatches", VECTOR, Argument::Shade as u32 + sizes.bins)
                 .at(frame_set::ARGUMENTS)

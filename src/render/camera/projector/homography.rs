@@ -3,7 +3,7 @@
 use super::ProjectorError;
 use super::eigen;
 use crate::camera::LocationMap;
-use crate::random::Random;
+use crate::render::random::Random;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 /// Place on a projector and its location on the image plane.

@@ -57,7 +57,7 @@ impl FrameGeometry {
             texels.extend([(frame_set::POSITIONS_OUT, &moving.positions), (frame_set::NORMALS_OUT, &moving.normals)]);
             texels.extend(moving_tangents.map(|tangents| (frame_set::TANGENTS_OUT, tangents)));
             texels.extend(moving.moment.as_ref().map(|moment| (frame_set::MOMENT, moment)));
-            texels.extend(geometry.strokes.as_ref().map(|strokes| (frame_set::STROKES, &strokes.records)));
+            texels.extend(geometry.strokes.as_ref().map(|strokes| (frame_set::STROKES, &strokes.words)));
         }
         if let Some(motion) = &geometry.motion {
             texels.extend([

@@ -1,6 +1,6 @@
 //! Triangles on the device: each mesh once, and the instances that draw it.
 //!
-//! A triangle's ID minus 1 is its index. Without instances, the index is that of the triangle's record. With
+//! A triangle's ID minus 1 is its index. Without instances, the index is that of the triangle's words. With
 //! instances, each instance owns a range of indices that starts at a multiple of 64, so that one look-up, by index /
 //! 64, finds the instance. `shaders/include/triangle.glsl` has the functions with which every pass reads triangles; a
 //! specialisation constant removes the look-up for scenes without instances.
@@ -18,7 +18,7 @@ pub(in crate::render) use placed::PlacedInstances;
 use crate::engine::data::upload::Uploader;
 use crate::engine::spirv;
 use crate::render::data::AlphaUse;
-use crate::scene::{DrawClass, Geometry, Instance, Motion, Scene};
+use crate::scene::{DrawClass, MeshInstance, Motion, PosedGeometry, Scene};
 use crate::vulkan::{TexelBuffer, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
@@ -26,7 +26,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Number of consecutive indices that belong to the same instance.
-const BLOCK: u32 = Instance::ALIGNMENT;
+const BLOCK: u32 = MeshInstance::ALIGNMENT;
 
 /// Consecutive triangles of the same class and the same place, drawn by one command.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ pub(in crate::render) struct Run {
 /// Place at which triangles are drawn: their transform, their bounds, and the range of their indices.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    /// Difference, modulo 2^32, from an index to its record; the index after the last; flags; 0.
+    /// Difference, modulo 2^32, from an index to its words; the index after the last; flags; 0.
     words: [u32; 4],
     transform: DAffine3,
     /// Lowest and highest corner of the box around the vertices, before the transform.
@@ -49,7 +49,7 @@ struct Place {
 }
 
 impl Place {
-    fn of(instance: &Instance, bounds: [DVec3; 2]) -> Self {
+    fn of(instance: &MeshInstance, bounds: [DVec3; 2]) -> Self {
         let offset = instance.first_triangle.wrapping_sub(instance.first_index);
         let end = instance.first_index + instance.triangle_count;
         let flags = if instance.mirrored() { spirv::INSTANCE_MIRRORED } else { 0 };
@@ -89,12 +89,12 @@ fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]
 }
 
 impl GpuGeometry {
-    /// Allocates and fills the buffers for a scene's geometry; `triangles` holds the records of its triangles.
+    /// Allocates and fills the buffers for a scene's geometry; `triangles` holds the words of its triangles.
     pub(in crate::render) fn new(
         uploader: &mut Uploader<'_>,
         scene: &Scene,
-        (geometry, motion): (&Geometry, Option<&Motion>),
-        records: &[[u32; 4]],
+        (geometry, motion): (&PosedGeometry, Option<&Motion>),
+        words: &[[u32; 4]],
         alphas: AlphaUse,
     ) -> Result<Self, VulkanError> {
         // Reading an alpha takes both streams, colours and texture coordinates, even if the scene has only one of them.
@@ -107,10 +107,10 @@ impl GpuGeometry {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let triangle_slots =
-            geometry.instances.last().map_or(records.len() as u32, |last| last.first_index + last.triangle_count);
+            geometry.instances.last().map_or(words.len() as u32, |last| last.first_index + last.triangle_count);
         Ok(Self {
             positions: uploader.texels("positions", float4, &positions)?,
-            triangles: uploader.texels("triangles", uint4, records)?,
+            triangles: uploader.texels("triangles", uint4, words)?,
             normals: uploader.texels("normals", float4, &normals_and_scales(geometry))?,
             tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
             uvs: uploader.texels("texture coordinates", float4, &uvs)?,
@@ -149,7 +149,7 @@ impl GpuGeometry {
 }
 
 /// Normals, with the scale in the fourth component.
-fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
+fn normals_and_scales(geometry: &PosedGeometry) -> Vec<[f32; 4]> {
     let streams = &geometry.streams;
     let scales = streams.scales.iter().copied().chain(std::iter::repeat(1.0));
     let pairs = streams.normals.iter().zip(scales);
@@ -157,7 +157,7 @@ fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
 }
 
 /// Index of the place for each block of indices.
-fn blocks(geometry: &Geometry) -> Vec<u32> {
+fn blocks(geometry: &PosedGeometry) -> Vec<u32> {
     let mut blocks = Vec::new();
     for (place, instance) in (0..).zip(&geometry.instances) {
         let end = instance.first_index + instance.triangle_count;
@@ -168,7 +168,7 @@ fn blocks(geometry: &Geometry) -> Vec<u32> {
 
 /// Places of all instances; for a scene without instances, a single place with the identity as its transform and an
 /// infinite box. If vertices move or have a size in pixels, all places with this transform have an infinite box.
-fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
+fn places(geometry: &PosedGeometry, moves: bool) -> Vec<Place> {
     let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
     if geometry.instances.is_empty() {
         return vec![Place {
@@ -180,7 +180,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     // Instances of the same mesh share its box.
     let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
     let changes = moves || geometry.has_strokes();
-    let place = |instance: &Instance| {
+    let place = |instance: &MeshInstance| {
         if changes && instance.transform == DAffine3::IDENTITY {
             return Place::of(instance, everywhere);
         }
@@ -193,7 +193,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
 }
 
 /// Runs of triangles, each drawn by one command.
-fn runs(geometry: &Geometry) -> Vec<Run> {
+fn runs(geometry: &PosedGeometry) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     if geometry.instances.is_empty() {
         for draw in &geometry.draws {
@@ -235,19 +235,19 @@ mod tests {
 
     #[test]
     fn boxes_are_known_of_what_keeps_its_place_alone() {
-        let instance = |first_triangle, first_index, transform| Instance {
+        let instance = |first_triangle, first_index, transform| MeshInstance {
             first_triangle,
             triangle_count: 1,
             first_index,
             transform,
         };
-        let mut geometry = Geometry {
+        let mut geometry = PosedGeometry {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             triangles: vec![[0, 1, 2]; 2],
             instances: vec![instance(0, 0, DAffine3::IDENTITY), instance(1, 64, DAffine3::from_translation(DVec3::X))],
-            ..Geometry::default()
+            ..PosedGeometry::default()
         };
-        let known = |geometry: &Geometry, moves: bool| -> Vec<bool> {
+        let known = |geometry: &PosedGeometry, moves: bool| -> Vec<bool> {
             let places = places(geometry, moves);
             let corners = places.iter().map(|place| place.bounds);
             corners.map(|[low, high]| low.is_finite() && high.is_finite()).collect()

@@ -46,7 +46,7 @@ impl GpuMotion {
 /// Input of `stroke` that belongs to the scene.
 pub(in crate::render) struct GpuStrokes {
     /// Records: two vectors for each corner of points and lines, then two for each edge.
-    pub(in crate::render) records: TexelBuffer,
+    pub(in crate::render) words: TexelBuffer,
     /// Number of corners of points and lines.
     pub(in crate::render) corner_count: u32,
     pub(in crate::render) edge_count: u32,
@@ -71,10 +71,10 @@ impl GpuStrokes {
             [[edge.first_vertex, from, to, flags], [a, b, 0, 0]]
         };
         let corners = strokes.iter().map(of_corner);
-        let records: Vec<[[u32; 4]; 2]> = corners.chain(edges.iter().map(of_edge)).collect();
+        let words: Vec<[[u32; 4]; 2]> = corners.chain(edges.iter().map(of_edge)).collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         Ok(Self {
-            records: uploader.texels("points, lines and edges", uint4, records.as_flattened())?,
+            words: uploader.texels("points, lines and edges", uint4, words.as_flattened())?,
             corner_count: strokes.len() as u32,
             edge_count: edges.len() as u32,
         })

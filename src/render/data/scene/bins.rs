@@ -4,7 +4,7 @@ use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv;
-use crate::scene::{Geometry, Material, Scene, TextureRole};
+use crate::scene::{Material, PosedGeometry, Scene, TextureRole};
 use crate::vulkan::{DescriptorSets, Specialized, VulkanError};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -138,7 +138,7 @@ impl Bins {
     /// Sorts the materials of all draws into bins, and creates their textures.
     pub(super) fn new(
         scene: &Scene,
-        (materials, geometry): (&[Material], &Geometry),
+        (materials, geometry): (&[Material], &PosedGeometry),
         slots: &[Slots],
         textures: &mut TextureSet<'_>,
     ) -> Result<Self, VulkanError> {

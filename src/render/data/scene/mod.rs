@@ -118,7 +118,7 @@ impl GpuScene {
         let bins = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
         let (environment, environment_upload) = GpuEnvironment::new(layout, &mut uploader, surroundings)?;
-        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records, alphas)?;
+        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.words, alphas)?;
         let TextureSet { textures, texture_uploads, samplers, .. } = textures;
         let scene = Self {
             materials: uploader.texels("materials", uint4, &materials.words)?,

@@ -4,7 +4,7 @@ use super::bins::Bins;
 use super::material::high_frequency;
 use crate::engine::data::TriangleWord;
 use crate::render::data::geometry::double_sided;
-use crate::scene::{Geometry, Material};
+use crate::scene::{Material, PosedGeometry};
 
 /// A triangle's corners, rotated so that the one with the smallest position comes first. Copies of a triangle that
 /// begin with another vertex are then computed identically, and the same copy is visible everywhere.
@@ -27,13 +27,13 @@ fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
 /// All triangles of a scene.
 pub(super) struct Triangles {
     /// Corners and last word of each triangle.
-    pub(super) records: Vec<[u32; 4]>,
+    pub(super) words: Vec<[u32; 4]>,
     /// Number of drawn triangles that may need several shadings in a pixel.
     pub(super) high_frequency: u64,
 }
 
 impl Triangles {
-    pub(super) fn new(materials: &[Material], geometry: &Geometry, bins: &Bins) -> Self {
+    pub(super) fn new(materials: &[Material], geometry: &PosedGeometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         for draw in &geometry.draws {
             let word = TriangleWord {
@@ -45,7 +45,7 @@ impl Triangles {
             let first = draw.first_triangle as usize;
             last_words[first..first + draw.triangle_count as usize].fill(word.bits());
         }
-        let records: Vec<_> = geometry
+        let words: Vec<_> = geometry
             .triangles
             .iter()
             .zip(&last_words)
@@ -54,22 +54,22 @@ impl Triangles {
                 [a, b, c, word]
             })
             .collect();
-        Self { high_frequency: high_frequency_count(geometry, &records), records }
+        Self { high_frequency: high_frequency_count(geometry, &words), words }
     }
 }
 
-/// Number of drawn triangles whose record has this flag.
-fn high_frequency_count(geometry: &Geometry, records: &[[u32; 4]]) -> u64 {
-    let counts = records.iter().scan(0, |count, [.., word]| {
+/// Number of drawn triangles whose words has this flag.
+fn high_frequency_count(geometry: &PosedGeometry, words: &[[u32; 4]]) -> u64 {
+    let counts = words.iter().scan(0, |count, [.., word]| {
         *count += u64::from(word & TriangleWord::HIGH_FREQUENCY != 0);
         Some(*count)
     });
-    // Counts of all records before each index, and at the end of all of them.
+    // Counts of all words before each index, and at the end of all of them.
     let counts: Vec<u64> = std::iter::once(0).chain(counts).collect();
     let up_to = |triangle: usize| counts.get(triangle).copied().unwrap_or(0);
     let of = |range: std::ops::Range<usize>| up_to(range.end) - up_to(range.start);
     match geometry.instances.as_slice() {
-        [] => up_to(records.len()),
+        [] => up_to(words.len()),
         instances => instances.iter().map(|i| of(i.triangles())).sum(),
     }
 }

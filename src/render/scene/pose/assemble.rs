@@ -1,7 +1,7 @@
 //! Assembly of all placements' triangles into one geometry.
 //!
 //! Most placements are transformed into world space here, once, so that passes can read them with the least effort. A
-//! large mesh that many placements share is stored once, in its own space, and drawn by [`Instance`]s.
+//! large mesh that many placements share is stored once, in its own space, and drawn by [`MeshInstance`]s.
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::placement::Placement;
 use crate::scene::{
-    Draw, DrawClass, Edge, Geometry, Instance, Material, Scene, SceneError, Stroke, VertexStreams,
+    DrawClass, DrawRange, Edge, Material, MeshInstance, PosedGeometry, Scene, SceneError, Stroke, VertexStreams,
     document::Primitive,
     error::{Fault, Warnings},
     read::{MAX_DISPLACEMENTS, MAX_ELEMENTS},
@@ -23,7 +23,7 @@ const FARTHEST: f64 = 1e30;
 
 /// Smallest number of triangles of a mesh that is drawn by instances: each instance rounds its indices up to whole
 /// blocks.
-const LEAST_TRIANGLES: usize = 4 * Instance::ALIGNMENT as usize;
+const LEAST_TRIANGLES: usize = 4 * MeshInstance::ALIGNMENT as usize;
 /// Smallest number of triangles that instances must save, at some 60 bytes each; smaller scenes are faster in world
 /// space.
 const LEAST_SAVED: usize = 1 << 16;
@@ -53,7 +53,7 @@ pub fn assemble(
     scene: &Scene,
     placements: &[Placement<'_>],
     warnings: &mut Warnings,
-) -> Result<(Geometry, Vec<MovingPlacement>), SceneError> {
+) -> Result<(PosedGeometry, Vec<MovingPlacement>), SceneError> {
     let total = |count: fn(&Placement<'_>) -> usize, what, limit| {
         let count = placements.iter().map(|p| count(p) as u64).fold(0, u64::saturating_add);
         if count > limit {
@@ -69,7 +69,7 @@ pub fn assemble(
     let count = |count: fn(&Placement<'_>) -> usize| -> usize { jobs.iter().map(|job| count(&job.placement)).sum() };
     let vertices = count(|p| p.primitive.positions.len());
     let needed = Needed::by(scene, &jobs);
-    let mut geometry = Geometry {
+    let mut geometry = PosedGeometry {
         origin,
         positions: vec![[0.0; 3]; vertices],
         streams: VertexStreams {
@@ -217,11 +217,11 @@ fn jobs<'p, 'd>(scene: &Scene, placed: &[(usize, &'p Placement<'d>)], origin: DV
 }
 
 /// Instances that draw the triangles of jobs; empty if all are in world space.
-fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<Instance> {
+fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<MeshInstance> {
     if jobs.iter().all(|job| job.instances.is_empty()) {
         return Vec::new();
     }
-    let mut instances: Vec<Instance> = Vec::new();
+    let mut instances: Vec<MeshInstance> = Vec::new();
     let mut first_triangle = 0;
     let mut last = None;
     for job in jobs {
@@ -242,7 +242,7 @@ fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<Instance> {
                         })
                         .collect(),
                 };
-                instances.extend(transforms.into_iter().map(|transform| Instance {
+                instances.extend(transforms.into_iter().map(|transform| MeshInstance {
                     first_triangle,
                     triangle_count,
                     first_index: 0,
@@ -257,7 +257,7 @@ fn instances(jobs: &[PlacementJob<'_, '_>], origin: DVec3) -> Vec<Instance> {
     for instance in &mut instances {
         // The caller checks that the last index fits.
         instance.first_index = next as u32;
-        next += u64::from(instance.triangle_count).next_multiple_of(Instance::ALIGNMENT.into());
+        next += u64::from(instance.triangle_count).next_multiple_of(MeshInstance::ALIGNMENT.into());
     }
     instances
 }
@@ -284,8 +284,8 @@ fn empty_box() -> (DVec3, DVec3) {
 }
 
 /// Ranges of triangles with the same material and class.
-fn draws(jobs: &[PlacementJob<'_, '_>]) -> Vec<Draw> {
-    let mut draws: Vec<Draw> = Vec::new();
+fn draws(jobs: &[PlacementJob<'_, '_>]) -> Vec<DrawRange> {
+    let mut draws: Vec<DrawRange> = Vec::new();
     let mut first_triangle = 0;
     for job in jobs {
         let (material, class) = (job.placement.primitive.material as u32, job.class);
@@ -294,7 +294,7 @@ fn draws(jobs: &[PlacementJob<'_, '_>]) -> Vec<Draw> {
             Some(last) if last.material == material && last.class == class => {
                 last.triangle_count += triangle_count;
             }
-            _ => draws.push(Draw { first_triangle, triangle_count, material, class }),
+            _ => draws.push(DrawRange { first_triangle, triangle_count, material, class }),
         }
         first_triangle += triangle_count;
     }
@@ -312,7 +312,7 @@ struct StreamSlices<'g> {
     triangles: &'g mut [[u32; 3]],
 }
 
-fn fill(jobs: &[PlacementJob<'_, '_>], geometry: &mut Geometry) {
+fn fill(jobs: &[PlacementJob<'_, '_>], geometry: &mut PosedGeometry) {
     let streams = &mut geometry.streams;
     let mut rest = StreamSlices {
         positions: &mut geometry.positions,

@@ -17,7 +17,7 @@ use super::{
     document::{Document, Primitive},
     environment::Environment,
     error::{Fault, Warnings},
-    geometry::Geometry,
+    geometry::PosedGeometry,
     light::Light,
     material::Material,
     view::{SceneCamera, SceneProjection},
@@ -44,7 +44,7 @@ pub struct PoseRequest {
 #[derive(Clone, Debug)]
 pub struct Pose {
     /// Triangles of the scene.
-    pub geometry: Geometry,
+    pub geometry: PosedGeometry,
     /// Materials that an animation has changed, each with the index of the scene's material that it replaces; indices
     /// ascend.
     pub materials: Vec<(usize, Material)>,

@@ -50,14 +50,14 @@ fn is_plausible(bytes: &[u8]) -> bool {
     };
     let room = bytes.len() - HEADER - COUNT;
     let is_whole = if count == 0 { room.is_multiple_of(TRIANGLE) } else { count <= room / TRIANGLE };
-    let tested = records(bytes).take(TESTED);
-    let is_normal = |record: &[u8; TRIANGLE]| {
-        let [normal, corners @ ..] = vectors(record);
+    let tested = facets(bytes).take(TESTED);
+    let is_normal = |facet: &[u8; TRIANGLE]| {
+        let [normal, corners @ ..] = vectors(facet);
         let length = normal.length();
         let is_corner = |corner: &Vec3| corner.is_finite() && corner.abs().max_element() < 1e15;
         (length == 0.0 || (length - 1.0).abs() < 0.01) && corners.iter().all(is_corner)
     };
-    let has_corners = |record: &[u8; TRIANGLE]| vectors(record)[1..].iter().any(|p| *p != Vec3::ZERO);
+    let has_corners = |facet: &[u8; TRIANGLE]| vectors(facet)[1..].iter().any(|p| *p != Vec3::ZERO);
     is_whole && tested.clone().all(is_normal) && tested.clone().any(has_corners)
 }
 
@@ -71,13 +71,13 @@ fn is_text(bytes: &[u8]) -> bool {
 }
 
 /// Complete triangles of a binary file.
-fn records(bytes: &[u8]) -> impl Iterator<Item = &[u8; TRIANGLE]> + Clone {
+fn facets(bytes: &[u8]) -> impl Iterator<Item = &[u8; TRIANGLE]> + Clone {
     bytes[HEADER + COUNT..].as_chunks().0.iter()
 }
 
 /// Normal and corners of a triangle.
-fn vectors(record: &[u8; TRIANGLE]) -> [Vec3; 4] {
-    let (numbers, _): (&[[u8; 4]], _) = record.as_chunks();
+fn vectors(facet: &[u8; TRIANGLE]) -> [Vec3; 4] {
+    let (numbers, _): (&[[u8; 4]], _) = facet.as_chunks();
     let number = |index: usize| f32::from_le_bytes(numbers[index]);
     [0, 3, 6, 9].map(|at| Vec3::new(number(at), number(at + 1), number(at + 2)))
 }
@@ -120,14 +120,14 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     let mut shape = FileObject::default();
     let mut contrary = 0;
     let (mut unused, mut colored) = (0, false);
-    let attributes = |record: &[u8; TRIANGLE]| u16::from_le_bytes([record[48], record[49]]);
-    let has_colors = records(bytes).take(count).any(|r| colors.of(attributes(r)).is_some());
+    let attributes = |facet: &[u8; TRIANGLE]| u16::from_le_bytes([facet[48], facet[49]]);
+    let has_colors = facets(bytes).take(count).any(|r| colors.of(attributes(r)).is_some());
     shape.positions.reserve(3 * count);
-    for record in records(bytes).take(count) {
-        let [normal, a, b, c] = vectors(record);
+    for facet in facets(bytes).take(count) {
+        let [normal, a, b, c] = vectors(facet);
         contrary += usize::from((b - a).cross(c - a).dot(normal) < 0.0);
         shape.positions.extend([a, b, c].map(|corner| corner.to_array()));
-        let attributes = attributes(record);
+        let attributes = attributes(facet);
         let color = colors.of(attributes);
         unused += usize::from(color.is_none() && attributes != 0);
         if has_colors {

@@ -1,10 +1,10 @@
 //! The options of `gpc bench`.
 
 use super::METHODS;
+use super::measurement::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
 use crate::cli::render::args::CameraArgs;
 use crate::cli::values;
 use clap::Args;
-use gpc::bench::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
 use gpc::render::MethodKind;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;

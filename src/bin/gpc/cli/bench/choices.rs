@@ -1,10 +1,10 @@
 //! Superpixels with other thresholds of contrast, and with other shadings.
 
 use super::columns::{Cell, Column, Study, Table, clocks, column, times};
+use super::measurement::{self, Contender, Yardstick};
 use super::results::{ChoiceRow, SceneChoices};
 use super::subject::{self, Bench};
 use clap::ValueEnum;
-use gpc::bench::{self, Contender, Yardstick};
 use gpc::names::name;
 use gpc::output::Picture;
 use gpc::render::{CellOptions, MethodKind, Shading, SuperpixelOptions};
@@ -52,7 +52,7 @@ impl Bench<'_> {
             contenders.push(contender);
         }
         self.progress.say("taking turns");
-        bench::take_turns(
+        measurement::take_turns(
             &mut self.headless,
             &subject.view.camera,
             &mut contenders,

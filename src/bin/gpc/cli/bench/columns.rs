@@ -1,8 +1,8 @@
 //! Tables of a study. One list of columns makes the console's tables, the CSV and the tables of the report.
 
+use super::measurement::{Cost, Spread};
 use super::results::Results;
 use crate::cli::print;
-use gpc::bench::{Cost, Spread};
 use serde::Serialize;
 
 /// A value in a table.

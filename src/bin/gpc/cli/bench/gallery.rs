@@ -1,8 +1,8 @@
 //! Pictures for the report, as data URIs.
 
+use super::measurement::{Cause, Fault, Yardstick};
 use super::pictures::{CropBox, ErrorMap, colors, small_jpeg};
 use super::split::reason;
-use gpc::bench::{Cause, Fault, Yardstick};
 use gpc::output::DecodedImage;
 
 /// The pictures of one scene.

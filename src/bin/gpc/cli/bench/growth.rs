@@ -1,9 +1,9 @@
 //! Times of the methods while one quantity of the scene or the image grows.
 
 use super::columns::{Cell, Column, Study, Table, clocks, column, times};
+use super::measurement::{self, Contender, Growth, GrowthStep};
 use super::results::{GrowthRow, ScalingCurve};
 use super::subject::{Bench, settings};
-use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{CellOptions, MethodKind, RenderError, SceneRequest};
 
 /// The methods to compare, with their samples a pixel.
@@ -88,7 +88,7 @@ impl Bench<'_> {
                 }
             }
         });
-        bench::take_turns(
+        measurement::take_turns(
             &mut self.headless,
             &step.camera,
             &mut contenders,

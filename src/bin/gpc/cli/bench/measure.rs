@@ -1,10 +1,10 @@
 //! Measurement of one scene: the cost of every method, and its distance from the reference.
 
 use super::gallery::{Gallery, GalleryImage};
+use super::measurement::{self, Accuracy, Contender, Yardstick};
 use super::results::{Row, SceneResults};
 use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
-use gpc::bench::{self, Accuracy, Contender, Yardstick};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{CellOptions, EngineError, Footprint, MethodKind, RenderError, Settings};
 use std::path::Path;
@@ -142,7 +142,7 @@ impl Bench<'_> {
 
     fn time(&mut self, subject: &Subject, mut entries: Vec<Entry>) -> Result<Vec<Row>, RenderError> {
         let progress = &self.progress;
-        bench::take_turns(
+        measurement::take_turns(
             &mut self.headless,
             &subject.view.camera,
             entries.iter_mut().map(|entry| &mut entry.contender),

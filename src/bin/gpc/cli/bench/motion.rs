@@ -1,10 +1,10 @@
 //! Errors and flicker of the methods in motion.
 
 use super::columns::{Cell, Column, Study, Table, column};
+use super::measurement::{Motion, SequenceErrors};
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
-use gpc::bench::{Motion, SequenceErrors};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{EngineError, MethodKind, RenderError, Settings};

@@ -2,8 +2,8 @@
 
 use super::columns::{Cell, Column, Study, Table, clocks, column, times};
 use super::front;
+use super::measurement::{Split, Within};
 use super::results::{Row, SceneResults};
-use gpc::bench::{Split, Within};
 
 impl Study for SceneResults {
     type Row = Row;
@@ -74,7 +74,7 @@ impl Study for SceneResults {
             within("left_inside_texture", "one triangle: texture", |within| within.inside_texture),
             within("left_inside_light", "light", |within| within.inside_light),
         ];
-        let geometry = |name, heading, value: fn(&gpc::bench::Accuracy) -> Cell| {
+        let geometry = |name, heading, value: fn(&super::measurement::Accuracy) -> Cell| {
             column(name, heading, move |_: &Self, row: &Row| Cell::optional(row.geometry.as_ref(), value))
         };
         let alone = vec![

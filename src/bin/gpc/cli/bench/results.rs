@@ -2,10 +2,10 @@
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
+use super::measurement::stress::Finding;
+use super::measurement::{Accuracy, Cost, Motion, Split, Steadiness, VariantCost, Within};
 use super::motion::MotionSummary;
 use super::summary::Summary;
-use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Motion, Split, Steadiness, VariantCost, Within};
 use gpc::render::MethodKind;
 use gpc::vulkan::Limits;
 use serde::Serialize;

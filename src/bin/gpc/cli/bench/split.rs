@@ -1,7 +1,7 @@
 //! Split of an image's error by cause and by fault.
 
+use super::measurement::{self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick};
 use super::subject::{Bench, Subject, Wanted};
-use gpc::bench::{self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 
@@ -37,7 +37,7 @@ impl Splitter {
         let found =
             PixelTriangles::new(&mut bench.headless, &subject.prepared, &subject.view.camera, &settings, || {
                 looks += 1;
-                progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
+                progress.say(&format!("what pixels hold, {looks} of {}", measurement::LOOKS));
             })?;
         let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
             let scene = stripped.of(&subject.scene);

@@ -1,9 +1,9 @@
 //! The stress suite at its full length.
 
 use super::columns::{Cell, Column, Study, Table, column};
+use super::measurement::stress::{Check, Finding, Length};
 use super::results::Stress;
 use super::subject::Bench;
-use gpc::bench::stress::{Check, Finding, Length};
 use std::time::Instant;
 
 impl Bench<'_> {
@@ -11,7 +11,7 @@ impl Bench<'_> {
     pub fn stress(&mut self, check: Check) -> anyhow::Result<Stress> {
         self.progress.begin(check.name);
         let start = Instant::now();
-        let findings = check.run(&mut self.headless, Length::Long)?;
+        let findings = check.run(&mut self.headless, Length { is_long: true })?;
         Ok(Stress { about: check.name, seconds: start.elapsed().as_secs_f64(), findings })
     }
 }

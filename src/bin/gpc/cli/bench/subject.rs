@@ -1,15 +1,15 @@
 //! A scene on the device, and its reference images.
 
 use super::BenchArgs;
+use super::measurement::{self, Cache, Contender, Fingerprint};
 use super::progress::Progress;
 use crate::cli::input;
 use crate::cli::render::{NamedView, choose_views};
-use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
 use gpc::render::{Headless, MethodKind, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
-use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
+use gpc::scene::{Pose, PoseRequest, PosedGeometry, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -35,7 +35,7 @@ pub(super) struct Subject {
 /// Request for a reference image.
 pub(super) struct Wanted<'a> {
     pub prepared: &'a PreparedScene,
-    pub geometry: &'a Geometry,
+    pub geometry: &'a PosedGeometry,
     pub camera: &'a Camera,
     pub settings: &'a Settings,
     /// Samples a pixel.
@@ -77,7 +77,7 @@ impl Bench<'_> {
             return Ok((known, None));
         }
         let start = Instant::now();
-        let parts = samples / bench::GRID_SAMPLES;
+        let parts = samples / measurement::GRID_SAMPLES;
         let mut done = 0;
         let progress = &self.progress;
         let mut count = || {
@@ -85,7 +85,7 @@ impl Bench<'_> {
             done += 1;
         };
         count();
-        let reference = bench::brute_force(&mut self.headless, prepared, camera, settings, samples, count)?;
+        let reference = measurement::brute_force(&mut self.headless, prepared, camera, settings, samples, count)?;
         let seconds = start.elapsed().as_secs_f64();
         let picture = Picture::new(settings.size, &reference)?;
         self.cache.put(fingerprint, &picture)?;

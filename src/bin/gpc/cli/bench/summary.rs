@@ -2,8 +2,8 @@
 
 use super::columns::{Cell, Column, Study, Table, column};
 use super::front::{TARGETS, ratio_at_equal_time, time_to_error};
+use super::measurement::Spread;
 use super::results::{Row, SceneResults};
-use gpc::bench::Spread;
 use gpc::render::MethodKind;
 use serde::Serialize;
 
@@ -247,7 +247,7 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gpc::bench::{Accuracy, Cost};
+    use crate::cli::bench::measurement::{Accuracy, Cost};
 
     fn scene(name: &str, textured: bool, rows: &[(MethodKind, u32, f64, f64)]) -> SceneResults {
         let row = |&(method, samples, ms, rmse): &(MethodKind, u32, f64, f64)| Row {

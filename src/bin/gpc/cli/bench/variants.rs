@@ -1,9 +1,9 @@
 //! Costs of the camera's variants.
 
 use super::columns::{Cell, Column, Study, Table, column, times};
+use super::measurement::{Variant, VariantContender, VariantError};
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
-use gpc::bench::{Variant, VariantContender, VariantError};
 use gpc::render::MethodKind;
 use std::path::Path;
 

@@ -4,7 +4,7 @@ use super::startup::Clock;
 use crate::cli::report::DeviceReport;
 use gpc::camera::Camera;
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, Method, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneRequest,
+    Headless, HeadlessOptions, Method, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneFrame, SceneRequest,
     Settings, Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
@@ -18,7 +18,7 @@ pub struct Session {
     settings: Settings,
     /// Whether images are read back as 8-bit codes.
     reads_codes: bool,
-    shown: Option<Frame>,
+    shown: Option<SceneFrame>,
 }
 
 /// An image in linear light, or in 8-bit codes.

@@ -26,7 +26,7 @@ pub struct Superpixels {
     /// Superpixels that are sampled by points, although samples of others lie on lines.
     resampled: u64,
     /// Number of visibility samples: the shaded places, and the links of BLEND layers.
-    records: u64,
+    visibility_samples: u64,
 }
 
 #[derive(Serialize)]
@@ -66,7 +66,7 @@ impl Effort {
                 count: statistics.superpixels,
                 fraction: statistics.superpixels as f64 / work.cells.max(1) as f64,
                 resampled: statistics.resampled,
-                records: statistics.records,
+                visibility_samples: statistics.visibility_samples,
             },
             triangles: count(&statistics.triangles),
             gpu_ms: medians(work.passes),

@@ -5,7 +5,7 @@
 //! by the joint's matrix. Morph targets widen these boxes by the boxes around their displacements.
 
 use super::{Moment, Motion, MotionPart};
-use crate::scene::Geometry;
+use crate::scene::PosedGeometry;
 use glam::{DMat3, DVec3};
 
 /// Lowest and highest corner of a box.
@@ -31,7 +31,7 @@ struct PartBounds {
 
 impl MovingBounds {
     /// Computes the bounds of a motion and its geometry, which has no instances.
-    pub fn new(geometry: &Geometry, motion: &Motion) -> Self {
+    pub fn new(geometry: &PosedGeometry, motion: &Motion) -> Self {
         let mut moves = vec![false; geometry.positions.len()];
         for part in &motion.parts {
             let vertices = part.first_vertex as usize..(part.first_vertex + part.vertex_count) as usize;
@@ -141,7 +141,7 @@ fn carried([low, high]: Box3, rows: &[[f32; 4]; 3]) -> Box3 {
 mod tests {
     use super::super::{MomentPart, PoseRequest};
     use super::*;
-    use crate::random::Random;
+    use crate::render::random::Random;
     use std::sync::Arc;
 
     const VERTICES: usize = 40;
@@ -236,11 +236,11 @@ mod tests {
         let motion = motion(&mut random);
         let still = [[-9.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 0.5]];
         let positions = vec![[1e3; 3]; 2 * VERTICES].into_iter().chain(still);
-        let geometry = Geometry {
+        let geometry = PosedGeometry {
             origin: motion.origin,
             positions: positions.collect(),
             triangles: (0..2 * VERTICES as u32 + 1).map(|v| [v, v + 1, v + 2]).collect(),
-            ..Geometry::default()
+            ..PosedGeometry::default()
         };
         let bounds = MovingBounds::new(&geometry, &motion);
         let mut extents = 0.0;
