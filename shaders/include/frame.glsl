@@ -68,7 +68,7 @@ struct Light {
     vec4 color_scale;       // rgb; w = spot angular scale
     vec4 offset;            // x = spot angular offset
 };
-layout(std430, set = SET_DATA, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };    // the scene's, then the environment's suns
+layout(std430, set = SET_DATA, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };    // the scene's, then the bright parts of its environment: see environment.glsl
 layout(set = SET_DATA, binding = BINDING_ALPHA_ATLAS) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
 layout(set = SET_DATA, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // an instance for every 64 indices

@@ -1,7 +1,7 @@
 //! Surfaces lit by an environment map: a white furnace, in which a surface that loses no light is invisible, and skies
 //! with a closed form.
 
-use std::sync::Arc;
+use std::{collections::BTreeSet, sync::Arc};
 
 use glam::DVec3;
 use gpc::color::srgb;
@@ -260,71 +260,96 @@ fn a_files_own_light_shines_as_an_image_does() {
     });
 }
 
-/// A sky with a single bright texel: every roughness reflects it as a round spot with the map's light, which is what averaging
-/// many directions gives.
-#[test]
-fn a_sun_of_one_texel_is_a_smooth_highlight() {
-    const SUN: f64 = 8e5;
-    let (width, height) = (1024_u32, 512_u32);
-    let place = (362, 161);
-    let pixels = (0..width * height).map(|i| match (i % width, i / width) == place {
-        true => [SUN as f32; 3],
-        false => [0.5; 3],
+/// Size of the map with bright texels.
+const MAP: [u32; 2] = [1024, 512];
+
+/// Direction of a place in that map, in texels.
+fn towards([x, y]: [f64; 2]) -> DVec3 {
+    let longitude = (x / f64::from(MAP[0]) - 0.5) * std::f64::consts::TAU;
+    let latitude = (0.5 - y / f64::from(MAP[1])) * std::f64::consts::PI;
+    let ((sin, cos), (up, across)) = (longitude.sin_cos(), latitude.sin_cos());
+    DVec3::new(sin * across, up, -cos * across)
+}
+
+fn middle(place: [u32; 2]) -> [f64; 2] {
+    place.map(|i| f64::from(i) + 0.5)
+}
+
+/// Small parts of the light of bright texels, which is interpolated to the texels beside them: directions, and light.
+fn parts_of(sky: &Environment, bright: &[[u32; 2]], fine: u32) -> Vec<(DVec3, f64)> {
+    let around = |[x, y]: [u32; 2]| (0..9).map(move |i| [(x + i % 3 + MAP[0] - 1) % MAP[0], y + i / 3 - 1]);
+    let texels: BTreeSet<[u32; 2]> = bright.iter().flat_map(|place| around(*place)).collect();
+    let divided = texels.into_iter().flat_map(|[x, y]| {
+        let all = (0..fine * fine).map(move |i| [i % fine, i / fine]);
+        all.map(move |[dx, dy]| [(x, dx), (y, dy)].map(|(i, d)| f64::from(i) + (f64::from(d) + 0.5) / f64::from(fine)))
     });
-    let sky = Environment::from_equirectangular(width, height, pixels.collect()).unwrap();
-    let towards = |x: f64, y: f64| {
-        let longitude = (x / f64::from(width) - 0.5) * std::f64::consts::TAU;
-        let latitude = (0.5 - y / f64::from(height)) * std::f64::consts::PI;
-        let ((sin, cos), (up, across)) = (longitude.sin_cos(), latitude.sin_cos());
-        DVec3::new(sin * across, up, -cos * across)
+    let area = std::f64::consts::TAU * std::f64::consts::PI / f64::from(MAP[0] * MAP[1] * fine * fine);
+    let part = |place| {
+        let direction = towards(place);
+        let across = (1.0 - direction.y * direction.y).sqrt();
+        (direction, (sky.radiance(direction).x - 0.5) * area * across)
     };
-    let middle = |i: u32| f64::from(i) + 0.5;
-    let sun = towards(middle(place.0), middle(place.1));
-    let (right, up) = sun.any_orthonormal_pair();
+    divided.map(part).filter(|(_, light)| *light > 0.0).collect()
+}
+
+/// Suns of several sizes: every roughness reflects them as smooth spots with the map's light, which is what averaging very many
+/// directions gives.
+#[test]
+fn suns_are_smooth_highlights() {
+    let square = |side: u32| (0..side * side).map(|i| [362 + i % side, 161 + i / side]).collect::<Vec<_>>();
+    let skies = [("a texel", square(1)), ("8 x 8", square(8)), ("32 x 32", square(32))];
     on_gpu(|gpu| {
-        for roughness in [0.15_f64, 0.2, 0.3, 0.5, 0.7, 1.0] {
-            let alpha = roughness * roughness;
-            // Reflected directions in a row through the sun, over twice the width of the highlight.
-            let step = 6.0 * alpha.min(0.3) / f64::from(WIDE[0]);
-            let reflected = |pixel: u32| {
-                let [x, y] = [pixel % WIDE[0], pixel / WIDE[0]].map(f64::from);
-                let off = [x - f64::from(WIDE[0]) / 2.0, (y - f64::from(WIDE[1]) / 2.0) * 3.0];
-                (sun + step * (off[0] * right + off[1] * up)).normalize()
-            };
-            let directions: Vec<DVec3> = (0..WIDE[0] * WIDE[1]).map(reflected).collect();
-            let found = reflections(gpu, &sky, roughness as f32, &directions);
-            // The average over the texels around the sun, each divided into small parts.
-            let mut parts = Vec::new();
-            const FINE: u32 = 12;
-            for (dx, dy) in (0..4 * FINE).flat_map(|x| (0..4 * FINE).map(move |y| (x, y))) {
-                let at = |place: u32, d: u32| middle(place) - 2.0 + middle(d) / f64::from(FINE);
-                let direction = towards(at(place.0, dx), at(place.1, dy));
-                let across = (1.0 - direction.y * direction.y).sqrt();
-                let cell = std::f64::consts::TAU * std::f64::consts::PI / f64::from(width * height * FINE * FINE);
-                let light = sky.radiance(direction).x - 0.5;
-                parts.push((direction, light * cell * across));
+        for (name, bright) in skies {
+            const SUN: f32 = 2e5;
+            let mut pixels = vec![[0.5; 3]; (MAP[0] * MAP[1]) as usize];
+            for [x, y] in &bright {
+                pixels[(y * MAP[0] + x) as usize] = [SUN; 3];
             }
-            let average = |towards: &DVec3| {
-                let of_sun = parts.iter().map(|(d, light)| light * density(alpha, d.dot(*towards)));
-                0.5 + of_sun.sum::<f64>()
-            };
-            let expected: Vec<f64> = directions.iter().map(average).collect();
-            let peak = expected.iter().copied().fold(0.0, f64::max);
-            assert!(peak > 2.0, "{peak}");
-            for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                let off = (found - expected).abs() / peak;
-                assert!(off < 0.05, "roughness {roughness}, {i}: {found}, expected {expected} of {peak}");
-            }
-            // Nor are there edges: the second differences are those of the average.
-            for row in 0..WIDE[1] as usize {
-                let row = row * WIDE[0] as usize..(row + 1) * WIDE[0] as usize;
-                let bends = |values: &[f64]| -> Vec<f64> {
-                    values.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]) / peak).collect()
+            let sky = Environment::from_equirectangular(MAP[0], MAP[1], pixels).unwrap();
+            let [coarse, fine] = [3, 8].map(|fine| parts_of(&sky, &bright, fine));
+            let centre = towards(middle(bright[0]));
+            let (right, up) = centre.any_orthonormal_pair();
+            // A surface is at least as rough as 0.04.
+            for roughness in [0.04_f64, 0.08, 0.11, 0.15, 0.2, 0.3, 0.5, 0.7] {
+                let alpha = roughness * roughness;
+                // Reflected directions in rows over the centre, at least twice as wide as the highlight of a texel.
+                let wide = 6.0 * alpha.min(0.3) + if bright.len() > 1 { 0.04 } else { 0.01 };
+                let step = wide / f64::from(WIDE[0]);
+                let reflected = |pixel: u32| {
+                    let [x, y] = [pixel % WIDE[0], pixel / WIDE[0]].map(f64::from);
+                    let off = [x - f64::from(WIDE[0]) / 2.0, (y - f64::from(WIDE[1]) / 2.0) * 3.0];
+                    (centre + step * (off[0] * right + off[1] * up)).normalize()
                 };
-                let (found, expected) = (bends(&found[row.clone()]), bends(&expected[row]));
-                let sharpest = expected.iter().fold(0.0, |most: f64, bend| most.max(bend.abs()));
-                let found = found.iter().fold(0.0, |most: f64, bend| most.max(bend.abs()));
-                assert!(found < 1.3 * sharpest + 2e-3, "roughness {roughness}: {found}, {sharpest}");
+                let directions: Vec<DVec3> = (0..WIDE[0] * WIDE[1]).map(reflected).collect();
+                let found = reflections(gpu, &sky, roughness as f32, &directions);
+                let parts = if alpha < 0.02 { &fine } else { &coarse };
+                // Parts beyond these have no share in a narrow lobe that counts.
+                let farthest = 0.5 * wide + 60.0 * alpha;
+                let near: Vec<_> = parts.iter().filter(|(d, _)| d.distance(centre) < farthest).collect();
+                let average = |towards: &DVec3| {
+                    let of_suns = near.iter().map(|(d, light)| light * density(alpha, d.dot(*towards)));
+                    0.5 + of_suns.sum::<f64>()
+                };
+                let expected: Vec<f64> = directions.iter().map(average).collect();
+                let peak = expected.iter().copied().fold(0.0, f64::max);
+                assert!(peak > 2.0, "{name}: {peak}");
+                let mut worst = 0.0_f64;
+                for (found, expected) in found.iter().zip(&expected) {
+                    worst = worst.max((found - expected).abs() / peak);
+                }
+                // Nor are there edges: the second differences are those of the average.
+                let (mut sharpest, mut sharp) = (0.0_f64, 0.0_f64);
+                for row in 0..WIDE[1] as usize {
+                    let row = row * WIDE[0] as usize..(row + 1) * WIDE[0] as usize;
+                    let bend = |values: &[f64]| {
+                        let bends = values.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).abs() / peak);
+                        bends.fold(0.0, f64::max)
+                    };
+                    sharp = sharp.max(bend(&found[row.clone()]));
+                    sharpest = sharpest.max(bend(&expected[row]));
+                }
+                assert!(worst < 0.02, "{name}, roughness {roughness}: {worst} of {peak}");
+                assert!(sharp < 1.3 * sharpest + 2e-3, "{name}, roughness {roughness}: {sharp}, {sharpest}");
             }
         }
     });

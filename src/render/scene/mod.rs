@@ -47,8 +47,8 @@ mod view;
 use std::{path::Path, sync::Arc};
 
 pub use edges::Edges;
-pub(crate) use environment::Sun;
 pub use environment::{Environment, EnvironmentError};
+pub(crate) use environment::{Sun, Suns};
 pub use error::SceneError;
 #[cfg(feature = "cli")]
 pub(crate) use error::Warnings;

@@ -33,7 +33,8 @@ pub struct EnvironmentUniform {
     /// Spherical-harmonic coefficients of the irradiance / pi; the fourth component is unused.
     pub irradiance: [[f32; 4]; 9],
     /// Rows of the rotation from world space to the map's space. In the fourth components, the first row has a factor
-    /// for the cube's values, the second row the index of the last level, and the third row the number of suns.
+    /// for the cube's values, the second row the index of the last level, and the third row the number of
+    /// groups of bright parts.
     pub axes: [[f32; 4]; 3],
 }
 
@@ -95,11 +96,11 @@ impl GpuEnvironment {
         let uniform = environment.map_or(EnvironmentUniform::default(), |environment| {
             let rows = environment.rotation().transpose();
             let last = (levels.len() - 1) as f32;
-            let suns = environment.suns().len() as f32;
+            let groups = environment.suns().groups.len() as f32;
             let row = |row: glam::DVec3, w: f32| row.as_vec3().extend(w).to_array();
             EnvironmentUniform {
                 irradiance: environment.irradiance().map(|[r, g, b]| [r, g, b, 0.0]),
-                axes: [row(rows.x_axis, factor), row(rows.y_axis, last), row(rows.z_axis, suns)],
+                axes: [row(rows.x_axis, factor), row(rows.y_axis, last), row(rows.z_axis, groups)],
             }
         });
         let this = Self { image, sampler: DeviceSampler::new(&layout.gpu, &TRILINEAR)?, uniform, levels };

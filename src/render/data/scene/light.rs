@@ -1,6 +1,6 @@
 //! Lights in the form that shaders read.
 
-use crate::scene::{Light, LightKind, Sun};
+use crate::scene::{Light, LightKind, Sun, Suns};
 use glam::DVec3;
 
 /// `Light` of `shaders/include/frame.glsl`.
@@ -30,16 +30,44 @@ impl GpuLight {
 }
 
 impl GpuLight {
-    /// A sun of the environment, in the map's space.
-    pub(super) fn of_sun(sun: &Sun) -> Self {
+    /// The bright parts of an environment, in the form that `shaders/include/environment.glsl` describes: the groups, then their
+    /// nodes.
+    pub(super) fn of_suns(suns: &Suns) -> impl Iterator<Item = Self> {
+        let first = suns.groups.len();
+        let groups = suns.groups.iter().map(move |group| {
+            let nodes = [group.nodes.start, group.nodes.end].map(|index| (first + index) as f32);
+            Self {
+                position_range: [nodes[0], nodes[1], reach(&group.whole), 0.0],
+                ..Self::of_sun(&group.whole, suns.grid)
+            }
+        });
+        let nodes = suns.nodes.iter().map(move |node| {
+            let [column, row] = node.sun.place.map(|x| x as f32);
+            let next = (first + node.next) as f32;
+            Self { position_range: [column, row, reach(&node.sun), next], ..Self::of_sun(&node.sun, suns.grid) }
+        });
+        groups.chain(nodes)
+    }
+
+    /// Fields that groups and nodes have in common.
+    fn of_sun(sun: &Sun, grid: [u32; 2]) -> Self {
         let [direction, light] = [sun.direction, sun.light].map(|v| v.as_vec3());
+        let [width, height] = sun.size.map(|x| x as f32);
+        let [columns, rows] = grid.map(|count| count as f32);
         Self {
             position_range: [0.0; 4],
-            direction_kind: direction.extend(sun.solid_angle as f32).to_array(),
-            color_scale: light.extend(0.0).to_array(),
-            offset: [0.0; 4],
+            direction_kind: direction.extend(sun.variance as f32).to_array(),
+            color_scale: light.extend(width).to_array(),
+            offset: [height, columns, rows, 0.0],
         }
     }
+}
+
+/// Square of a distance that is large enough beside a light's radius for the light to count as one.
+fn reach(sun: &Sun) -> f32 {
+    /// Distance in radii. Highlights must not change where parts begin to count as one.
+    const FACTOR: f64 = 10.0;
+    (FACTOR * sun.radius).powi(2) as f32
 }
 
 /// Lights of a scene, as far as shading pipelines depend on them.

@@ -109,11 +109,12 @@ impl GpuScene {
         let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &maps));
         let materials = MaterialTable::new(&looks, slots, maps);
         let surroundings = pose.environment(scene);
-        let suns = surroundings.map_or(&[][..], Environment::suns);
+        let suns = surroundings.map(Environment::suns);
+        let suns = suns.into_iter().flat_map(GpuLight::of_suns);
         let lights = pose.lights.iter();
         let lights = lights.map(|light| GpuLight::of_scene(light, geometry.origin));
-        // The environment's suns follow the scene's lights.
-        let lights: Vec<GpuLight> = lights.chain(suns.iter().map(GpuLight::of_sun)).collect();
+        // The environment's bright parts follow the scene's lights.
+        let lights: Vec<GpuLight> = lights.chain(suns).collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let bins = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 use super::cube::{Cube, direction, solid_angle};
-use super::suns::Sun;
+use super::suns::Suns;
 
 /// Largest side of the faces that are integrated: a coarse cube suffices for the first three bands.
 const SIDE: u32 = 32;
@@ -33,7 +33,7 @@ const COSINE: [f64; 9] = {
 };
 
 /// Spherical-harmonic coefficients of the irradiance / pi, due to a map and the suns that were taken out of it.
-pub(super) fn irradiance(pyramid: &[Cube], suns: &[Sun]) -> [[f32; 3]; 9] {
+pub(super) fn irradiance(pyramid: &[Cube], suns: &Suns) -> [[f32; 3]; 9] {
     let Some(cube) = pyramid.iter().find(|cube| cube.side <= SIDE) else {
         return [[0.0; 3]; 9];
     };
@@ -53,7 +53,7 @@ pub(super) fn irradiance(pyramid: &[Cube], suns: &[Sun]) -> [[f32; 3]; 9] {
     }
     let of_all = 4.0 * PI / weights;
     let mut sums = sums.map(|sum| sum * of_all);
-    for sun in suns {
+    for sun in suns.parts() {
         let values = basis(sun.direction);
         sums.iter_mut().zip(values).for_each(|(s, v)| *s += sun.light * v);
     }

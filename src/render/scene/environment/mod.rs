@@ -9,7 +9,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use cube::Cube;
 use equirectangular::Equirectangular;
-pub(crate) use suns::Sun;
+pub(crate) use suns::{Sun, Suns};
 
 /// Error: an image that is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -47,7 +47,7 @@ pub struct Environment {
     /// The image as a cube without the suns, followed by ever coarser averages down to one texel a face. For an environment made
     /// from levels, cube `i` of `n` is the reflection of surfaces with the perceptual roughness `i / (n - 1)`.
     cubes: Vec<Cube>,
-    suns: Vec<Sun>,
+    suns: Suns,
     irradiance: [[f32; 3]; 9],
     /// Rotation from world space to the space of the map.
     rotation: DMat3,
@@ -72,10 +72,12 @@ impl Environment {
                 color: format!("{:?}", pixels[index]),
             });
         }
-        let image = Equirectangular { width, height, pixels };
-        let mut finest = cube::resampled(&image);
-        let suns = suns::take(&mut finest);
-        let cubes = cube::pyramid(finest);
+        let mut image = Equirectangular { width, height, pixels };
+        let (suns, originals) = suns::take(&mut image);
+        let cubes = cube::pyramid(cube::resampled(&image));
+        for (index, texel) in originals {
+            image.pixels[index] = texel;
+        }
         Ok(Self {
             image: Some(image),
             irradiance: harmonics::irradiance(&cubes, &suns),
@@ -92,7 +94,7 @@ impl Environment {
         let cube = |(side, texels)| Cube { side, texels };
         Self {
             image: None,
-            suns: Vec::new(),
+            suns: Suns::default(),
             cubes: levels.into_iter().map(cube).collect(),
             irradiance,
             rotation: DMat3::from_quat(rotation.inverse()),
@@ -123,7 +125,7 @@ impl Environment {
     }
 
     /// Small bright parts that the cubes lack.
-    pub(crate) fn suns(&self) -> &[Sun] {
+    pub(crate) fn suns(&self) -> &Suns {
         &self.suns
     }
 
