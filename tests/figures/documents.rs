@@ -1,13 +1,13 @@
 //! Documents and their generated parts.
 
 use crate::data::root;
-use crate::{choices, gpu, help, hosts, passes, pipeline, plot, room, sets, table};
+use crate::{choices, gpu, help, hosts, passes, pipeline, plot, rivals, room, sets, table};
 use std::path::PathBuf;
 
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 19] = [
+const PARTS: [(&str, Make); 21] = [
     ("picture", table::picture),
     ("readme", table::readme),
     ("choosing", table::choosing),
@@ -18,6 +18,8 @@ const PARTS: [(&str, Make); 19] = [
     ("motion", table::motion),
     ("variants", table::variants),
     ("hosts", hosts::table),
+    ("alpha", rivals::alpha),
+    ("python", rivals::python),
     ("room", room::table),
     ("contrast", choices::contrast),
     ("shading", choices::shading),

@@ -13,6 +13,7 @@ mod hosts;
 mod passes;
 mod pipeline;
 mod plot;
+mod rivals;
 mod room;
 mod sets;
 mod snippets;
