@@ -11,7 +11,7 @@
 
 #[path = "../common/arguments.rs"]
 mod arguments;
-#[path = "../visibility/device.rs"]
+#[path = "../common/device.rs"]
 mod device;
 mod host;
 mod scene;

@@ -12,6 +12,7 @@
 
 #[path = "../common/arguments.rs"]
 mod arguments;
+#[path = "../common/device.rs"]
 mod device;
 mod lens;
 mod meshes;

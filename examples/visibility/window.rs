@@ -7,6 +7,7 @@
 //! The program ends when the window is closed, or with the key Escape.
 
 #[allow(dead_code, reason = "pictures in files are of the other example")]
+#[path = "../common/device.rs"]
 mod device;
 mod meshes;
 #[allow(unused_imports, reason = "another shader is loaded by the other example")]

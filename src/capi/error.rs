@@ -1,6 +1,6 @@
 //! Results of functions, and error messages.
 
-use super::names::in_c;
+use super::dialect::C;
 use super::version::GPC_ABI_VERSION;
 use crate::engine::sampler::EngineError;
 use crate::host::{HostError, ShaderError};
@@ -77,7 +77,7 @@ pub(super) enum Error {
     Shader(#[from] ShaderError),
     #[error("the size of a shader is {0} bytes; it can be a multiple of 4")]
     ShaderSize(usize),
-    #[error("{}", in_c(.0))]
+    #[error("{}", .0.message(C::GEOMETRY))]
     Host(#[from] HostError),
     #[error("a defect of the library: {0}")]
     Panic(String),
@@ -146,8 +146,8 @@ impl Error {
 
     fn of_host(error: &HostError) -> GpcResult {
         match error {
-            HostError::Mesh { error, .. } | HostError::IndirectList { error, .. } => Self::of_host(error),
-            HostError::NullHandle(_) | HostError::NoCoordinates => GpcResult::Null,
+            HostError::At { error, .. } => Self::of_host(error),
+            HostError::Null(_) | HostError::NullImage { .. } | HostError::NoCoordinates => GpcResult::Null,
             HostError::Capacity { .. }
             | HostError::Indices { .. }
             | HostError::Corners { .. }

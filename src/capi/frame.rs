@@ -279,8 +279,10 @@ pub unsafe extern "C" fn gpc_frame_record(
         let draws = unsafe {
             GpcDraw::all(
                 scenery.draws,
-                (scenery.draw_count, scenery.draw_stride),
-                ("GpcScenery.draws", "GpcScenery.draw_stride"),
+                scenery.draw_count,
+                scenery.draw_stride,
+                "GpcScenery.draws",
+                "GpcScenery.draw_stride",
             )
         }?;
         let [x, y, width, height] = scenery.viewport;

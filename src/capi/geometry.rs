@@ -3,11 +3,12 @@
 use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes, unused};
 use crate::host::{
-    AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, IndirectDraws, Mesh, PositionSpace, Topology,
+    AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, IndirectDraws, Instance, Mesh, PositionSpace, Topology,
     VertexFormat,
 };
 use ash::vk;
 use std::ffi::c_void;
+use std::mem::offset_of;
 
 /// Space and format of vertex positions.
 #[derive(Clone, Copy)]
@@ -313,8 +314,10 @@ impl GpcGeometry {
         let maps = unsafe {
             elements(
                 self.alpha_maps,
-                (self.alpha_map_count, self.alpha_map_stride),
-                ("GpcGeometry.alpha_maps", "GpcGeometry.alpha_map_stride"),
+                self.alpha_map_count,
+                self.alpha_map_stride,
+                "GpcGeometry.alpha_maps",
+                "GpcGeometry.alpha_map_stride",
             )
         }?;
         let spaces = [
@@ -329,16 +332,20 @@ impl GpcGeometry {
         let more_meshes = unsafe {
             elements(
                 self.more_meshes,
-                (self.more_mesh_count, self.more_mesh_stride),
-                ("GpcGeometry.more_meshes", "GpcGeometry.more_mesh_stride"),
+                self.more_mesh_count,
+                self.more_mesh_stride,
+                "GpcGeometry.more_meshes",
+                "GpcGeometry.more_mesh_stride",
             )
         }?;
         // SAFETY: passed on to the caller.
         let indirect = unsafe {
             elements(
                 self.indirect_draws,
-                (self.indirect_draws_count, self.indirect_draws_stride),
-                ("GpcGeometry.indirect_draws", "GpcGeometry.indirect_draws_stride"),
+                self.indirect_draws_count,
+                self.indirect_draws_stride,
+                "GpcGeometry.indirect_draws",
+                "GpcGeometry.indirect_draws_stride",
             )
         }?;
         Ok(Geometry {
@@ -461,7 +468,17 @@ pub struct GpcInstance {
     pub reserved: [u32; 3],
 }
 
-const _: () = assert!(size_of::<GpcInstance>() == size_of::<crate::host::Instance>());
+// Buffers of both hold the same.
+const _: () = {
+    assert!(size_of::<GpcInstance>() == size_of::<Instance>());
+    assert!(offset_of!(GpcInstance, to_clip) == offset_of!(Instance, to_clip));
+    assert!(offset_of!(GpcInstance, vertex_count) == offset_of!(Instance, vertex_count));
+    assert!(offset_of!(GpcInstance, key) == offset_of!(Instance, key));
+    assert!(offset_of!(GpcInstance, material) == offset_of!(Instance, material));
+    assert!(offset_of!(GpcInstance, alpha_map) == offset_of!(Instance, alpha_map));
+    assert!(offset_of!(GpcInstance, detailed) == offset_of!(Instance, detailed));
+    assert!(offset_of!(GpcInstance, reserved) == offset_of!(Instance, reserved));
+};
 
 impl GpcIndirectDraws {
     fn list(&self) -> Result<IndirectDraws, Error> {
@@ -537,17 +554,19 @@ unsafe impl Element for GpcDraw {
 }
 
 impl GpcDraw {
-    /// Draws of an array; `names` are the member with the pointer, and the member with the stride.
+    /// Draws of an array; see [`elements`].
     ///
     /// # Safety
-    /// The pointer is null, or points to as many elements, of `stride` bytes each, as `counts` say.
+    /// As [`elements`].
     pub(super) unsafe fn all(
         draws: *const Self,
-        counts: (u32, u32),
-        names: (&'static str, &'static str),
+        count: u32,
+        stride: u32,
+        array: &'static str,
+        stride_name: &'static str,
     ) -> Result<Vec<Draw>, Error> {
         // SAFETY: passed on to the caller.
-        let draws = unsafe { elements(draws, counts, names) }?;
+        let draws = unsafe { elements(draws, count, stride, array, stride_name) }?;
         draws.iter().map(Self::draw).collect()
     }
 

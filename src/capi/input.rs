@@ -204,8 +204,10 @@ pub(super) fn shown<T: Struct>(mut value: T) -> T {
 /// The pointer is null, or points to as many elements of `stride` bytes as the number says.
 pub(super) unsafe fn elements<T: Element>(
     pointer: *const T,
-    (count, stride): (u32, u32),
-    (array, stride_name): (&'static str, &'static str),
+    count: u32,
+    stride: u32,
+    array: &'static str,
+    stride_name: &'static str,
 ) -> Result<Vec<T>, Error> {
     if count == 0 {
         return Ok(Vec::new());

@@ -261,8 +261,10 @@ pub unsafe extern "C" fn gpc_list_record(
         let draws = unsafe {
             GpcDraw::all(
                 scenery.draws,
-                (scenery.draw_count, scenery.draw_stride),
-                ("GpcListScenery.draws", "GpcListScenery.draw_stride"),
+                scenery.draw_count,
+                scenery.draw_stride,
+                "GpcListScenery.draws",
+                "GpcListScenery.draw_stride",
             )
         }?;
         let shading = Callback { shade, user };

@@ -7,6 +7,7 @@
 //! documentation and the header's introduction, in `cbindgen.toml`. Panics end at the boundary, as `GPC_RESULT_PANIC`.
 
 mod device;
+mod dialect;
 mod error;
 mod frame;
 mod geometry;
@@ -14,7 +15,6 @@ mod images;
 mod input;
 mod list;
 mod memory;
-mod names;
 mod options;
 mod shader;
 mod version;

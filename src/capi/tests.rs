@@ -1,10 +1,11 @@
 //! Tests of cases that programs in C can't provoke.
 
+use super::dialect::C;
 use super::error::{Error, GpcResult, answer, gpc_last_error, last_error};
 use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
 use super::options::GpcOptions;
 use super::version::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
-use crate::host::{Antialiaser, Frame, List, ListOptions};
+use crate::host::{Antialiaser, Frame, List, ListOptions, Member};
 use crate::vulkan::VulkanError;
 use ash::vk;
 use std::ffi::c_void;
@@ -162,12 +163,29 @@ fn a_struct_of_a_later_header_and_one_of_another_size_are_refused() {
 fn elements_of_an_earlier_header_are_read_by_their_stride() {
     let bytes: Vec<u64> = (0..8).collect();
     let pointer = bytes.as_ptr().cast::<Grown>();
-    let names = ("array", "array_stride");
     // SAFETY: there are two elements of 32 bytes.
-    let found = unsafe { elements(pointer, (2, 32), names) }.unwrap();
+    let found = unsafe { elements(pointer, 2, 32, "array", "array_stride") }.unwrap();
     let members: Vec<_> = found.iter().map(|g| (g.first, g.second, g.third)).collect();
     assert_eq!(members, [(2, 3, 3), (6, 7, 3)]);
     // SAFETY: the stride is refused before anything is read.
-    let error = unsafe { elements(pointer, (2, 33), names) }.unwrap_err();
+    let error = unsafe { elements(pointer, 2, 33, "array", "array_stride") }.unwrap_err();
     assert!(error.to_string().starts_with("array_stride is 33; it can"));
+}
+
+/// Each member that an error is about has the name of a member in the header.
+#[test]
+fn the_names_in_errors_are_those_of_the_header() {
+    let header = include_str!("../../include/gpc.h");
+    for member in Member::ALL {
+        let (name, members) = C::GEOMETRY.parts(*member);
+        let start = header.find(&format!("typedef struct {name} {{")).unwrap_or_else(|| panic!("no struct {name}"));
+        let length = header[start..].find(&format!("}} {name};")).unwrap();
+        let declared: Vec<_> = header[start..start + length]
+            .lines()
+            .filter_map(|line| line.trim().strip_suffix(';')?.split('[').next()?.split(' ').next_back())
+            .collect();
+        for each in members.split(" and ").flat_map(|names| names.split(" or ")).flat_map(|names| names.split(" x ")) {
+            assert!(declared.contains(&each), "{member:?}: {name} has no {each}");
+        }
+    }
 }

@@ -166,19 +166,20 @@ impl Renderer {
         if motion.is_some_and(|motion| !motion.is_of(pose)) {
             return Err(RenderError::OtherMotion);
         }
-        self.prepare_moving(scene, (pose, motion), AlphaUse::Tests, max_memory)
+        self.prepare_moving(scene, pose, motion, AlphaUse::Tests, max_memory)
     }
 
     pub(super) fn prepare_moving(
         &self,
         scene: &Scene,
-        (pose, motion): (&Pose, Option<&Motion>),
+        pose: &Pose,
+        motion: Option<&Motion>,
         alphas: AlphaUse,
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
         pose.geometry.check(scene.materials.len())?;
-        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, (pose, motion), alphas)?;
+        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, pose, motion, alphas)?;
         Ok(PreparedScene {
             gpu_scene: Arc::new(gpu_scene),
             uploads,

@@ -35,7 +35,8 @@ impl Resources {
     /// Positions and locations that belong to the host outlive the use of the set.
     pub(crate) unsafe fn visibility_set(
         &self,
-        (gpu, layout): (&Arc<Gpu>, &Arc<SetLayout>),
+        gpu: &Arc<Gpu>,
+        layout: &Arc<SetLayout>,
         uniform: &Buffer,
         geometry: &VisibleGeometry<'_>,
     ) -> Result<DescriptorSets, VulkanError> {

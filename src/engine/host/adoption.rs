@@ -64,7 +64,8 @@ impl MeshSets {
     unsafe fn new(
         shared: &Shared,
         draws: &Draws,
-        (geometry, mesh): (&Geometry, &Mesh),
+        geometry: &Geometry,
+        mesh: &Mesh,
         content: &HostContent,
     ) -> Result<Self, HostError> {
         let (limits, layout) = (shared.gpu.limits(), &*shared.frame);
@@ -107,7 +108,7 @@ impl Adoption {
         let indirect = unsafe { IndirectPlacing::new(layout, memory, geometry, &draws) }?;
         let sets = geometry.meshes.iter().map(|mesh| {
             // SAFETY: passed on to the caller.
-            unsafe { MeshSets::new(shared, &draws, (geometry, mesh), content) }
+            unsafe { MeshSets::new(shared, &draws, geometry, mesh, content) }
         });
         let sets = sets.collect::<Result<Vec<_>, _>>()?;
         let mut adopt = [None, None, None];

@@ -1,7 +1,7 @@
 //! Ranges of lent buffers, aligned as descriptors require.
 
-use super::HostError;
-use crate::vulkan::{Limits, VulkanError};
+use super::{HostError, Member};
+use crate::vulkan::Limits;
 use ash::vk;
 
 /// Range of a lent buffer for a descriptor. The range starts at the alignment that the device requires, so it may
@@ -26,6 +26,12 @@ impl LentBytes {
         Self { buffer, offset: offset - before, before: before as u32, bytes: before + bytes }
     }
 
+    /// Checks that the device addresses so many bytes in one buffer.
+    pub fn check(&self, member: Member, limits: &Limits) -> Result<(), HostError> {
+        let (needed, limit) = (self.bytes, limits.max_storage_bytes);
+        if needed > limit { Err(HostError::Length { member, needed, limit }) } else { Ok(()) }
+    }
+
     /// The same range, extended to whole words of 4 bytes.
     pub fn in_words(self) -> Self {
         Self { bytes: self.bytes.next_multiple_of(4), ..self }
@@ -39,26 +45,6 @@ impl LentBytes {
 /// Alignment in bytes of buffer offsets in descriptors: at least 16, the size of a position in clip space.
 pub(super) fn descriptor_alignment(limits: &Limits) -> u64 {
     limits.buffer_alignment.max(16)
-}
-
-/// Checks the layout of a lent buffer: `offset` is a multiple of `alignment`, `stride` a multiple of its unit and not below
-/// its minimum, and the range `lent` within the device's limits. A stride comes with its name, minimum and unit.
-pub(super) fn check_layout(
-    limits: &Limits,
-    (offset_name, offset, alignment): (&'static str, u64, u64),
-    stride: Option<(&'static str, u32, u32, u32)>,
-    (buffer_name, lent): (&'static str, LentBytes),
-) -> Result<(), HostError> {
-    if let Some((what, found, least, unit)) = stride
-        && (found % unit != 0 || found < least)
-    {
-        return Err(HostError::Stride { what, found, least, unit });
-    }
-    if offset % alignment != 0 {
-        return Err(HostError::Alignment { what: offset_name, offset, alignment });
-    }
-    VulkanError::check_limit(buffer_name, lent.bytes, "bytes", limits.max_storage_bytes)?;
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Alpha maps that a host lends.
 
-use super::HostError;
 use super::content::HostContent;
 use super::geometry::Geometry;
+use super::{HostError, Member};
 use crate::engine::data::alpha_flags::{
     CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT, TEXTURED, beyond,
 };
@@ -49,38 +49,31 @@ pub(super) const MOST_MAPS: u32 = 1 << 16;
 const LONGEST: u32 = u16::MAX as u32;
 
 impl AlphaMap {
-    pub(super) fn check(&self, map: usize) -> Result<(), HostError> {
+    pub(super) fn check(&self) -> Result<(), HostError> {
         if self.view == vk::ImageView::null() {
-            return Err(HostError::NullHandle("the view of an alpha map"));
+            return Err(HostError::Null(Member::AlphaView));
         }
         let [width, height] = self.size;
         let most_levels = width.max(height).max(1).ilog2() + 1;
-        for (what, found, most) in [
-            ("the width of an alpha map", width, LONGEST),
-            ("the height of an alpha map", height, LONGEST),
-            ("levels of an alpha map", self.levels, most_levels),
-        ] {
-            if !(1..=most).contains(&found) {
-                return Err(HostError::Count { what, found, most });
-            }
-        }
+        HostError::check_count(Member::AlphaWidth, width, LONGEST)?;
+        HostError::check_count(Member::AlphaHeight, height, LONGEST)?;
+        HostError::check_count(Member::AlphaLevels, self.levels, most_levels)?;
         let unknown = self.address.into_iter().find(|mode| wrap(*mode).is_none());
         if let Some(found) = unknown {
-            return Err(HostError::Address { map, found });
+            let possible = "REPEAT (0), MIRRORED_REPEAT (1) or CLAMP_TO_EDGE (2)";
+            return Err(HostError::Choice { member: Member::Address, found: found.as_raw(), possible });
         }
-        for (name, filter) in [
-            ("mag_filter", self.mag_filter),
-            ("min_filter", self.min_filter),
-            ("mipmap_mode", vk::Filter::from_raw(self.mipmap_mode.as_raw())),
+        for (member, filter) in [
+            (Member::MagFilter, self.mag_filter),
+            (Member::MinFilter, self.min_filter),
+            (Member::MipmapMode, vk::Filter::from_raw(self.mipmap_mode.as_raw())),
         ] {
             if !matches!(filter, vk::Filter::LINEAR | vk::Filter::NEAREST) {
-                return Err(HostError::Filter { map, name, found: filter.as_raw() });
+                let possible = "NEAREST (0) or LINEAR (1)";
+                return Err(HostError::Choice { member, found: filter.as_raw(), possible });
             }
         }
-        if !self.cutoff.is_finite() {
-            return Err(HostError::Cutoff { map });
-        }
-        Ok(())
+        if self.cutoff.is_finite() { Ok(()) } else { Err(HostError::NotFinite(Member::Cutoff)) }
     }
 
     fn modes(&self) -> [u32; 2] {
@@ -266,15 +259,15 @@ mod tests {
 
     #[test]
     fn maps_that_can_not_be_read_are_named() {
-        let refused = |map: AlphaMap| map.check(3).unwrap_err().to_string();
-        assert!(map([4, 4], 3).check(0).is_ok());
-        assert_eq!(refused(map([0, 4], 1)), "the width of an alpha map is 0; it can be 1 to 65535");
-        assert_eq!(refused(map([4, 4], 4)), "levels of an alpha map is 4; it can be 1 to 3");
+        let refused = |map: AlphaMap| map.check().unwrap_err().to_string();
+        assert!(map([4, 4], 3).check().is_ok());
+        assert_eq!(refused(map([0, 4], 1)), "AlphaMap::size[0] is 0; it can be 1 to 65535");
+        assert_eq!(refused(map([4, 4], 4)), "AlphaMap::levels is 4; it can be 1 to 3");
         let border = AlphaMap { address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2], ..map([4, 4], 1) };
-        assert!(refused(border).starts_with("alpha map 3 has the address mode CLAMP_TO_BORDER"));
+        assert!(refused(border).starts_with("AlphaMap::address is 3; it can be REPEAT (0)"));
         let cubic = AlphaMap { min_filter: vk::Filter::CUBIC_EXT, ..map([4, 4], 1) };
-        assert_eq!(refused(cubic), "alpha map 3 has the min_filter 1000015000; it can be NEAREST (0) or LINEAR (1)");
+        assert_eq!(refused(cubic), "AlphaMap::min_filter is 1000015000; it can be NEAREST (0) or LINEAR (1)");
         let broken = AlphaMap { cutoff: f32::NAN, ..map([4, 4], 1) };
-        assert_eq!(refused(broken), "the cutoff of alpha map 3 is not finite");
+        assert_eq!(refused(broken), "AlphaMap::cutoff has a number that is not finite");
     }
 }

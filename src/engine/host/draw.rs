@@ -1,7 +1,7 @@
 //! Draws of a host.
 
 use super::indirect::IndirectPart;
-use super::{Geometry, HostError, IndirectDraws, Mesh, PositionSpace, Topology};
+use super::{Geometry, HostError, IndirectDraws, Member, Mesh, Place, PositionSpace, Topology};
 use crate::engine::data::{HostDraw, TriangleWord};
 use ash::vk;
 
@@ -123,10 +123,10 @@ impl PlacedDraws {
     /// # Errors
     /// If a draw is invalid, or the draws exceed a capacity; the error names the first such draw.
     pub fn new(geometry: &Geometry, draws: &[Draw]) -> Result<Self, HostError> {
-        let capacity = |what, found, capacity| HostError::Capacity { what, found, capacity };
+        let capacity = |counted, found, member, capacity| HostError::Capacity { counted, found, member, capacity };
         if draws.len() > geometry.draw_capacity as usize {
             let found = draws.len() as u64;
-            return Err(capacity("draws", found, geometry.draw_capacity));
+            return Err(capacity("draws", found, Member::DrawCapacity, geometry.draw_capacity));
         }
         let in_clip = geometry.position_space == PositionSpace::Clip;
         let mut placed = Self { draws: Vec::with_capacity(draws.len()), ..Self::default() };
@@ -135,16 +135,17 @@ impl PlacedDraws {
         let firsts: Vec<u32> = geometry.first_positions().collect();
         let mut made = 0;
         for (number, draw) in draws.iter().enumerate() {
-            let mesh = draw.check(geometry, number)?;
+            let in_draw = |error: HostError| error.at(Place::Draw(number));
+            let mesh = draw.check(geometry).map_err(in_draw)?;
             let vertices = if in_clip || draw.triangle_count == 0 { 0 } else { draw.vertex_count };
             let drawn = u64::from(placed.drawn_triangles) + u64::from(draw.triangle_count);
             let positions = u64::from(made) + u64::from(vertices);
             if drawn > u64::from(geometry.triangle_capacity) {
-                return Err(capacity("triangles", drawn, geometry.triangle_capacity));
+                return Err(capacity("triangles", drawn, Member::TriangleCapacity, geometry.triangle_capacity));
             }
             if !in_clip && positions > u64::from(geometry.position_capacity()) {
                 let most = geometry.position_capacity();
-                return Err(capacity("vertices", positions, most));
+                return Err(capacity("vertices", positions, Member::PositionCapacity, most));
             }
             if draw.triangle_count > 0 {
                 lists.place(&mut placed, |class| class < draw.class());
@@ -180,13 +181,13 @@ impl PlacedDraws {
             let comes_late = |before: u32| before < placed.triangles;
             if !draw.blended {
                 if comes_late(placed.solid) {
-                    return Err(HostError::BlendedOrder { draw: number });
+                    return Err(in_draw(HostError::BlendedOrder));
                 }
                 placed.solid = triangles;
             }
             if !draw.blended && draw.alpha_map.is_none() {
                 if comes_late(placed.opaque) {
-                    return Err(HostError::Order { draw: number });
+                    return Err(in_draw(HostError::Order));
                 }
                 placed.opaque = triangles;
             }
@@ -285,36 +286,40 @@ impl IndirectDraws {
     }
 }
 
+/// Checks that an orientation of front faces is one of Vulkan 1.3.
+pub(super) fn check_front_face(member: Member, found: vk::FrontFace) -> Result<(), HostError> {
+    let possible = "VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)";
+    match found {
+        vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE => Ok(()),
+        _ => Err(HostError::Choice { member, found: found.as_raw(), possible }),
+    }
+}
+
 impl Draw {
     /// Checks the draw against the geometry, and returns its mesh.
-    fn check<'a>(&self, geometry: &'a Geometry, draw: usize) -> Result<&'a Mesh, HostError> {
-        let meshes = geometry.meshes.len();
-        let found = geometry.meshes.get(self.mesh as usize);
-        let mesh = found.ok_or(HostError::NoMesh { draw, mesh: self.mesh, meshes })?;
+    fn check<'a>(&self, geometry: &'a Geometry) -> Result<&'a Mesh, HostError> {
+        let mesh = geometry.mesh(Member::DrawMesh, self.mesh)?;
         let end = u64::from(self.first_index) + self.topology.corners(self.triangle_count);
         if let Some(indices) = mesh.indices.filter(|lent| end > u64::from(lent.capacity)) {
-            return Err(HostError::Indices { draw, end, indices: indices.capacity });
+            return Err(HostError::Indices { end, indices: indices.capacity });
         }
         if self.key >= geometry.keys {
-            return Err(HostError::Key { draw, key: self.key, keys: geometry.keys });
+            let (member, by) = (Member::DrawKey, Member::Keys);
+            return Err(HostError::Index { member, found: self.key, count: geometry.keys, by });
         }
-        if !matches!(self.front_face, vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE) {
-            let found = self.front_face;
-            return Err(HostError::FrontFace { draw, found });
-        }
+        check_front_face(Member::DrawFrontFace, self.front_face)?;
         if self.blended && !geometry.blended {
-            return Err(HostError::NotBlended { draw });
+            return Err(HostError::NotBlended);
         }
         if self.blended && self.alpha_map.is_some() {
-            return Err(HostError::BlendedMap { draw });
+            return Err(HostError::BlendedMap);
         }
         let maps = geometry.alpha_maps.len();
         if let Some(map) = self.alpha_map.filter(|map| usize::from(*map) >= maps) {
-            return Err(HostError::AlphaMap { draw, map, maps });
+            return Err(HostError::AlphaMap { map, maps });
         }
         if self.alpha_map.is_some() && mesh.coordinates.is_none() {
-            let mesh = self.mesh;
-            return Err(HostError::DrawCoordinates { draw, mesh });
+            return Err(HostError::DrawCoordinates { mesh: self.mesh });
         }
         if self.triangle_count == 0 {
             return Ok(mesh);
@@ -329,13 +334,7 @@ impl Draw {
             };
             let takes = [i64::from(self.first_index), end.cast_signed()].map(|at| first + at);
             if takes[0] < has[0] || takes[1] > has[1] {
-                return Err(HostError::Corners {
-                    draw,
-                    first: takes[0],
-                    end: takes[1],
-                    from: has[0],
-                    vertices: has[1],
-                });
+                return Err(HostError::Corners { read: takes, held: has });
             }
         }
         if in_clip {
@@ -344,10 +343,10 @@ impl Draw {
         let end = first + i64::from(self.vertex_count);
         let exist = first >= 0 && end <= i64::from(mesh.vertex_capacity);
         if !exist || self.vertex_count == 0 {
-            return Err(HostError::Vertices { draw, first, end, vertices: mesh.vertex_capacity });
+            return Err(HostError::Vertices { held: [first, end], vertices: mesh.vertex_capacity });
         }
         if !self.to_clip.as_flattened().iter().all(|n| n.is_finite()) {
-            return Err(HostError::Matrix { draw });
+            return Err(HostError::NotFinite(Member::ToClip));
         }
         Ok(mesh)
     }
@@ -473,11 +472,11 @@ mod tests {
             let placed = PlacedDraws::new(&geometry(), draws);
             placed.err().unwrap().to_string()
         };
-        assert_eq!(refused(&[draw(0, 1, 0), draw(30, 11, 0)]), "draw 1 reads indices up to 63, and there are 60");
-        assert_eq!(refused(&[draw(u32::MAX, 1, 0)]), "draw 0 reads indices up to 4294967298, and there are 60");
-        assert_eq!(refused(&[draw(0, 1, 2)]), "draw 0 has shading key 2, and there are 2");
-        assert_eq!(refused(&[draw(0, 10, 0), draw(0, 3, 0)]), "13 triangles; the frame was prepared for 12");
-        assert_eq!(refused(&[draw(0, 1, 0); 4]), "4 draws; the frame was prepared for 3");
+        assert_eq!(refused(&[draw(0, 1, 0), draw(30, 11, 0)]), "draw 1: it reads indices up to 63, and there are 60");
+        assert_eq!(refused(&[draw(u32::MAX, 1, 0)]), "draw 0: it reads indices up to 4294967298, and there are 60");
+        assert_eq!(refused(&[draw(0, 1, 2)]), "draw 0: Draw::key is 2; it can be 0 to 1, by Geometry::keys");
+        assert_eq!(refused(&[draw(0, 10, 0), draw(0, 3, 0)]), "13 triangles; Geometry::triangle_capacity is 12");
+        assert_eq!(refused(&[draw(0, 1, 0); 4]), "4 draws; Geometry::draw_capacity is 3");
     }
 
     #[test]
@@ -513,12 +512,12 @@ mod tests {
         };
         assert_eq!(
             refused(&[masked(0), draw(0, 1, 0)]),
-            "draw 1 has no alpha map and comes after one that has: draws without come first"
+            "draw 1: it has no alpha map and comes after one that has: draws without come first"
         );
-        assert_eq!(refused(&[masked(2)]), "draw 0 has alpha map 2, and there are 2");
+        assert_eq!(refused(&[masked(2)]), "draw 0: Draw::alpha_map is 2, and there are 2, from 0");
         assert_eq!(
             refused(&[Draw { mesh: 1, ..masked(0) }]),
-            "draw 0 has an alpha map, and its mesh 1 has no texture coordinates: lend Mesh::coordinates"
+            "draw 0: it has an alpha map, and its mesh 1 has no texture coordinates: lend Mesh::coordinates"
         );
     }
 
@@ -534,16 +533,16 @@ mod tests {
         };
         assert_eq!(
             refused(&geometry, &[blended, draw(0, 1, 0)]),
-            "draw 1 is not blended and comes after one that is: these are the last ones"
+            "draw 1: it is not blended and comes after one that is: these are the last ones"
         );
         assert_eq!(
             refused(&self::geometry(), &[blended]),
-            "draw 0 is blended; prepare the frame with Geometry::blended"
+            "draw 0: it is blended; make the frame with Geometry::blended"
         );
         let tested = Draw { alpha_map: Some(0), ..blended };
         assert_eq!(
             refused(&geometry, &[tested]),
-            "draw 0 is blended and has an alpha map: let its shader store an opacity of 0 instead"
+            "draw 0: it is blended and has an alpha map: let its shader store an opacity of 0 instead"
         );
     }
 
@@ -558,19 +557,25 @@ mod tests {
         for (draws, message) in [
             (
                 vec![with_vertices(0, 1), with_vertices(95, 6)],
-                "draw 1 has the vertices from 95 to before 101; it needs at least one, of those from 0 to before 100",
+                "draw 1: it has the vertices from 95 to before 101; it needs at least one, of those from 0 to before 100",
             ),
             (
                 vec![with_vertices(-1, 6)],
-                "draw 0 has the vertices from -1 to before 5; it needs at least one, of those from 0 to before 100",
+                "draw 0: it has the vertices from -1 to before 5; it needs at least one, of those from 0 to before 100",
             ),
             (
                 vec![with_vertices(7, 0)],
-                "draw 0 has the vertices from 7 to before 7; it needs at least one, of those from 0 to before 100",
+                "draw 0: it has the vertices from 7 to before 7; it needs at least one, of those from 0 to before 100",
             ),
-            (vec![with_vertices(0, 30), with_vertices(0, 11)], "41 vertices; the frame was prepared for 40"),
-            (vec![with_vertices(0, 1), unknown], "front_face of draw 1 is 2; it can be COUNTER_CLOCKWISE or CLOCKWISE"),
-            (vec![broken], "the matrix of draw 0 has a number that is not finite"),
+            (
+                vec![with_vertices(0, 30), with_vertices(0, 11)],
+                "41 vertices; the capacity of PositionSpace::Object is 40",
+            ),
+            (
+                vec![with_vertices(0, 1), unknown],
+                "draw 1: Draw::front_face is 2; it can be VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)",
+            ),
+            (vec![broken], "draw 0: Draw::to_clip has a number that is not finite"),
         ] {
             assert_eq!(refused(&draws), message);
         }
@@ -613,12 +618,15 @@ mod tests {
         let vertex = last.first_position.wrapping_add(last.shift);
         assert_eq!((last.first_position, last.last_position, vertex), (100, 49, 0));
         let refused = |draw| PlacedDraws::new(&geometry, &[draw]).err().unwrap().to_string();
-        assert_eq!(refused(of(0, Topology::Fan, 56, 3)), "draw 0 reads indices up to 61, and there are 60");
+        assert_eq!(refused(of(0, Topology::Fan, 56, 3)), "draw 0: it reads indices up to 61, and there are 60");
         assert_eq!(
             refused(of(1, Topology::Strip, 45, 4)),
-            "draw 0 takes the vertices from 45 to before 51 without indices, by its topology and triangle_count, and has those from 0 to before 50"
+            "draw 0: it takes the vertices from 45 to before 51 without indices, by its topology and triangle_count, and has those from 0 to before 50"
         );
-        assert_eq!(refused(of(2, Topology::List, 0, 1)), "draw 0 has mesh 2, and there are 2, from 0");
+        assert_eq!(
+            refused(of(2, Topology::List, 0, 1)),
+            "draw 0: Draw::mesh is 2; it can be 0 to 1, by Geometry::meshes"
+        );
     }
 
     #[test]
@@ -633,7 +641,7 @@ mod tests {
         let refused = |draw| PlacedDraws::new(&geometry, &[draw]).err().unwrap().to_string();
         assert_eq!(
             refused(of(6, 90, 8)),
-            "draw 0 takes the vertices from 96 to before 99 without indices, by its topology and triangle_count, and has those from 90 to before 98"
+            "draw 0: it takes the vertices from 96 to before 99 without indices, by its topology and triangle_count, and has those from 90 to before 98"
         );
     }
 }

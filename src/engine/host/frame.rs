@@ -9,7 +9,7 @@ use super::scratch::{FrameScratch, ScratchRequest};
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
-use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Options, Shared};
+use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Member, Options, Shared};
 use crate::engine::data::{FrameUniform, HostImage, IdViews, Offsets, ResourceRequest, ShownIds};
 use crate::engine::passes::{Patch, Patched, RasterTargets};
 use crate::engine::sampler::Capacity;
@@ -150,7 +150,7 @@ impl Work {
         };
         Ok(Self {
             base: Base::new(shared, content, drawn.as_ref(), (!kinds.ids).then_some(filters), &context.output)?,
-            patch: Patch::new(layout, (kinds.color_format, kinds.color_encoded), options.keep_alpha, patched)?,
+            patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, options.keep_alpha, patched)?,
             sampling: Sampling { job, sampler },
             image: drawn,
             visibility_set,
@@ -345,7 +345,7 @@ impl Frame {
     ) -> Result<(), HostError> {
         let placed = PlacedDraws::new(&self.lending.geometry, scenery.draws)?;
         if !scenery.projection.as_flattened().iter().all(|n| n.is_finite()) {
-            return Err(HostError::Projection);
+            return Err(HostError::NotFinite(Member::Projection));
         }
         if scenery.projection[1][1] == 0.0 {
             return Err(HostError::FlatProjection);

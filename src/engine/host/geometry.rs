@@ -1,7 +1,7 @@
 //! Geometry of a host: buffers and capacities for the draws of all frames.
 
 use super::alpha::{AlphaMap, MOST_MAPS};
-use super::{HostError, IndirectDraws, Mesh};
+use super::{HostError, IndirectDraws, Member, Mesh, Place};
 use crate::vulkan::{Gpu, Limits, VulkanError};
 
 /// Conventions of the host's clip space.
@@ -83,7 +83,7 @@ impl Geometry {
     pub(super) fn check(&self, gpu: &Gpu) -> Result<(), HostError> {
         let limits = gpu.limits();
         let meshes = u32::try_from(self.meshes.len()).unwrap_or(u32::MAX);
-        HostError::check_count("the number of meshes", meshes, MOST_MESHES)?;
+        HostError::check_count(Member::MeshCount, meshes, MOST_MESHES)?;
         let texels = limits.max_texel_elements.min(u64::from(u32::MAX)) as u32;
         let most_vertices = match self.position_space {
             PositionSpace::Clip => texels,
@@ -94,23 +94,23 @@ impl Geometry {
             checked.map_err(|error| self.in_mesh(number, error))?;
         }
         let positions = match self.position_space {
-            PositionSpace::Clip => "vertices of all meshes",
-            PositionSpace::Object { .. } => "the capacity of positions in object space",
+            PositionSpace::Clip => Member::AllVertices,
+            PositionSpace::Object { .. } => Member::PositionCapacity,
         };
         // Without draws of the CPU there may be draws of the device.
         let may_lack = !self.indirect.is_empty();
-        for (what, found, most, may_be_0) in [
+        for (member, found, most, may_be_0) in [
             (positions, self.position_capacity(), texels, may_lack),
-            ("triangle_capacity", self.triangle_capacity, texels.min(MOST_TRIANGLES), may_lack),
-            ("draw_capacity", self.draw_capacity, 1 << 24, may_lack),
-            ("keys", self.keys, MOST_KEYS, false),
+            (Member::TriangleCapacity, self.triangle_capacity, texels.min(MOST_TRIANGLES), may_lack),
+            (Member::DrawCapacity, self.draw_capacity, 1 << 24, may_lack),
+            (Member::Keys, self.keys, MOST_KEYS, false),
         ] {
             if !(may_be_0 && found == 0) {
-                HostError::check_count(what, found, most)?;
+                HostError::check_count(member, found, most)?;
             }
         }
         for (number, list) in self.indirect.iter().enumerate() {
-            list.check(self, number, limits)?;
+            list.check(self, limits).map_err(|error| error.at(Place::Indirect(number)))?;
         }
         for (what, needed, limit) in [
             ("triangles of all draws", self.all_triangles(), texels.min(MOST_TRIANGLES)),
@@ -131,9 +131,9 @@ impl Geometry {
             return Ok(());
         }
         let maps = u32::try_from(self.alpha_maps.len()).unwrap_or(u32::MAX);
-        HostError::check_count("the number of alpha maps", maps, MOST_MAPS)?;
+        HostError::check_count(Member::AlphaMapCount, maps, MOST_MAPS)?;
         for (number, map) in self.alpha_maps.iter().enumerate() {
-            map.check(number)?;
+            map.check().map_err(|error| error.at(Place::AlphaMap(number)))?;
         }
         if self.meshes.iter().all(|mesh| mesh.coordinates.is_none()) {
             return Err(HostError::NoCoordinates);
@@ -145,11 +145,18 @@ impl Geometry {
         Ok(())
     }
 
+    /// The mesh that a member names by its index.
+    pub(super) fn mesh(&self, member: Member, index: u32) -> Result<&Mesh, HostError> {
+        let count = self.meshes.len() as u32;
+        let found = self.meshes.get(index as usize);
+        found.ok_or(HostError::Index { member, found: index, count, by: Member::Meshes })
+    }
+
     /// Adds the index of the mesh to an error, if there are several meshes.
     fn in_mesh(&self, mesh: usize, error: HostError) -> HostError {
         match self.meshes.len() {
             1 => error,
-            _ => HostError::Mesh { mesh, error: Box::new(error) },
+            _ => error.at(Place::Mesh(mesh)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Images that a host lends.
 
-use super::{HostError, Options};
+use super::{HostError, Member, Options};
 use crate::engine::sampler::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
@@ -87,24 +87,24 @@ impl LentImage {
     /// the recording if `is_read`, and afterwards.
     fn check(
         &self,
-        (image, view): (&'static str, &'static str),
+        image: Member,
         is_read: bool,
         possible: &[(vk::ImageAspectFlags, &'static str)],
     ) -> Result<(), HostError> {
         if self.image == vk::Image::null() {
-            return Err(HostError::NullHandle(image));
+            return Err(HostError::NullImage { image, handle: "image" });
         }
         if self.view == vk::ImageView::null() {
-            return Err(HostError::NullHandle(view));
+            return Err(HostError::NullImage { image, handle: "view" });
         }
         if !possible.iter().any(|(aspects, _)| *aspects == self.aspects) {
             return Err(HostError::Aspects {
-                what: image,
+                image,
                 found: self.aspects,
                 possible: possible.last().map_or("", |(_, names)| names),
             });
         }
-        let layout = |when, found| Err(HostError::Layout { what: image, when, found });
+        let layout = |when, found| Err(HostError::Layout { image, when, found });
         let undefined = vk::ImageLayout::UNDEFINED;
         match (self.before.layout, self.after.layout) {
             (found, _) if is_read && found == undefined => layout("before", found),
@@ -114,7 +114,7 @@ impl LentImage {
     }
 
     fn record(&self, recorder: &Recorder<'_>, layer: u32, from: ImageState, to: ImageState) {
-        from.change(recorder, self.image, (self.aspects, layer), to);
+        from.change(recorder, self.image, self.aspects, layer, to);
     }
 }
 
@@ -144,23 +144,22 @@ impl Images {
             return Err(HostError::Part { end, most });
         }
         if let Some(ids) = &self.ids {
-            ids.check(("the image of IDs", "the view of IDs"), true, &COLOR)?;
+            ids.check(Member::Ids, true, &COLOR)?;
         }
         if let Some(depth) = &self.depth {
-            let names = ("the image of depth", "the view of depth");
-            depth.check(names, true, &DEPTH)?;
+            depth.check(Member::Depth, true, &DEPTH)?;
         }
-        for (what, lent, expected) in
-            [("IDs", self.ids.is_some(), kinds.ids), ("depth", self.depth.is_some(), kinds.depth)]
-        {
+        for (image, kind, lent, expected) in [
+            (Member::Ids, Member::KindIds, self.ids.is_some(), kinds.ids),
+            (Member::Depth, Member::KindDepth, self.depth.is_some(), kinds.depth),
+        ] {
             match (lent, expected) {
-                (true, false) => return Err(HostError::UnexpectedImage { what }),
-                (false, true) => return Err(HostError::MissingImage { what }),
+                (true, false) => return Err(HostError::UnexpectedImage { image, kind }),
+                (false, true) => return Err(HostError::MissingImage { image, kind }),
                 _ => {}
             }
         }
-        let names = ("the image of colours", "the view of colours");
-        self.color.check(names, !options.shade_all || options.keep_alpha, &COLOR)
+        self.color.check(Member::Color, !options.shade_all || options.keep_alpha, &COLOR)
     }
 
     fn read(&self) -> impl Iterator<Item = &LentImage> {
@@ -233,38 +232,38 @@ mod tests {
             let ids = images.ids.as_mut();
             ids.unwrap().image = vk::Image::null();
         });
-        assert_eq!(ids, "the image of IDs is VK_NULL_HANDLE");
+        assert_eq!(ids, "Images::ids.image is VK_NULL_HANDLE");
         let view = refused(&|images| images.color.view = vk::ImageView::null());
-        assert_eq!(view, "the view of colours is VK_NULL_HANDLE");
+        assert_eq!(view, "Images::color.view is VK_NULL_HANDLE");
         let depth = refused(&|images| images.depth = None);
-        assert!(depth.starts_with("there is no image of depth"));
+        assert!(depth.starts_with("Images::depth is missing"));
         let alone = refused(&|images| images.ids = None);
-        assert!(alone.starts_with("there is no image of IDs"));
+        assert!(alone.starts_with("Images::ids is missing"));
         let bare = ImageKinds { ids: false, depth: false, ..KINDS };
         let more = images().check(&bare, &Options::new(64, 32), 1024);
         let more = more.unwrap_err().to_string();
-        assert!(more.starts_with("an image of IDs is lent"));
+        assert!(more.starts_with("Images::ids is lent"));
         let beyond = refused(&|images| images.corner = [961, 0]);
         assert!(beyond.starts_with("the frame's part of the images ends at 1025 x 32 pixels"));
         let lost = refused(&|images| images.color.after.layout = vk::ImageLayout::UNDEFINED);
         assert_eq!(
             lost,
-            "the image of colours is in the layout UNDEFINED after the recording; it can be any that keeps what the image holds"
+            "Images::color.after.layout is VK_IMAGE_LAYOUT_UNDEFINED; it can be any that keeps what the image holds"
         );
         let empty = refused(&|images| images.color.before.layout = vk::ImageLayout::UNDEFINED);
-        assert!(empty.starts_with("the image of colours is in the layout UNDEFINED before"));
+        assert!(empty.starts_with("Images::color.before.layout is VK_IMAGE_LAYOUT_UNDEFINED"));
         let mut shaded = images();
         shaded.color.before.layout = vk::ImageLayout::UNDEFINED;
         let options = Options { shade_all: true, ..Options::new(64, 32) };
         assert!(shaded.check(&KINDS, &options, 1024).is_ok());
         assert!(shaded.check(&KINDS, &options.keep_alpha(true), 1024).is_err(), "there is no alpha to keep");
         let aspects = refused(&|images| images.color.aspects = vk::ImageAspectFlags::DEPTH);
-        assert_eq!(aspects, "the image of colours has the aspects DEPTH; it can have COLOR");
+        assert_eq!(aspects, "Images::color.aspects is 0x2; it can have COLOR");
         let none = refused(&|images| {
             let depth = images.depth.as_mut();
             depth.unwrap().aspects = vk::ImageAspectFlags::empty();
         });
-        assert!(none.starts_with("the image of depth has the aspects"));
+        assert!(none.starts_with("Images::depth.aspects is 0x0"));
     }
 
     #[test]
@@ -277,11 +276,11 @@ mod tests {
         let shallow = ImageKinds { depth: false, ..KINDS };
         assert!(refused(shallow).starts_with("thin triangles are found by depth"));
         let alone = ImageKinds { ids: false, ..KINDS };
-        assert!(refused(alone).starts_with("depth is lent without IDs"));
+        assert!(refused(alone).starts_with("ImageKinds::depth is true without ImageKinds::ids"));
         let of = |color_format| ImageKinds { color_format, ..KINDS };
         let integers = refused(of(vk::Format::R8G8B8A8_UINT));
-        assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
+        assert!(integers.starts_with("ImageKinds::color_format is VK_FORMAT_R8G8B8A8_UINT"));
         let twice = refused(of(vk::Format::B8G8R8A8_SRGB));
-        assert!(twice.ends_with("it can't be encoded as well"));
+        assert!(twice.ends_with("set ImageKinds::color_encoded to false"));
     }
 }

@@ -1,9 +1,10 @@
 //! Draws that the host's device wrote.
 
-use super::alignment::{LentBytes, check_layout};
-use super::{Geometry, HostError, PositionSpace, Topology};
+use super::alignment::LentBytes;
+use super::draw::check_front_face;
+use super::{Geometry, HostError, Member, PositionSpace, Topology};
 use crate::engine::data::Draws;
-use crate::engine::passes::indirect::{BoundDraws, Indirect, IndirectSizes};
+use crate::engine::passes::indirect::{BoundDraws, DrawBuffers, Indirect, IndirectSizes};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv;
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, VulkanError};
@@ -149,68 +150,46 @@ impl IndirectDraws {
         u64::from(self.draw_capacity) + 1
     }
 
-    /// Checks list number `list`.
-    pub(super) fn check(&self, geometry: &Geometry, list: usize, limits: &Limits) -> Result<(), HostError> {
-        let in_list = |error| HostError::IndirectList { list, error: Box::new(error) };
-        self.check_alone(geometry, limits).map_err(in_list)
-    }
-
-    fn check_alone(&self, geometry: &Geometry, limits: &Limits) -> Result<(), HostError> {
-        for (what, buffer) in [("commands", self.commands), ("instances", self.instances)] {
+    /// Checks that the pass can read the buffers, and that the rest of the geometry has what the draws need.
+    pub(super) fn check(&self, geometry: &Geometry, limits: &Limits) -> Result<(), HostError> {
+        let count = self.count.map(|(buffer, _)| (Member::Count, buffer));
+        let buffers = [(Member::Commands, self.commands), (Member::Instances, self.instances)];
+        for (member, buffer) in buffers.into_iter().chain(count) {
             if buffer == vk::Buffer::null() {
-                return Err(HostError::NullHandle(what));
+                return Err(HostError::Null(member));
             }
         }
-        if self.count.is_some_and(|(buffer, _)| buffer == vk::Buffer::null()) {
-            return Err(HostError::NullHandle("count"));
-        }
-        let meshes = geometry.meshes.len();
-        let mesh =
-            geometry.meshes.get(self.mesh as usize).ok_or(HostError::IndirectMesh { mesh: self.mesh, meshes })?;
+        let mesh = geometry.mesh(Member::IndirectMesh, self.mesh)?;
         let most_instances = (limits.max_storage_bytes / size_of::<Instance>() as u64).min(u64::from(u32::MAX));
-        for (what, found, most) in [
-            ("command_capacity", self.command_capacity, MOST_COMMANDS),
-            ("instance_capacity", self.instance_capacity, most_instances as u32),
-            ("draw_capacity", self.draw_capacity, 1 << 24),
-            ("triangle_capacity", self.triangle_capacity, u32::MAX / 3),
+        for (member, found, most) in [
+            (Member::CommandCapacity, self.command_capacity, MOST_COMMANDS),
+            (Member::InstanceCapacity, self.instance_capacity, most_instances as u32),
+            (Member::IndirectDrawCapacity, self.draw_capacity, 1 << 24),
+            (Member::IndirectTriangleCapacity, self.triangle_capacity, u32::MAX / 3),
         ] {
-            HostError::check_count(what, found, most)?;
+            HostError::check_count(member, found, most)?;
         }
         if geometry.position_space != PositionSpace::Clip {
-            HostError::check_count("position_capacity", self.position_capacity, u32::MAX - 1)?;
+            HostError::check_count(Member::IndirectPositionCapacity, self.position_capacity, u32::MAX - 1)?;
         }
-        if !matches!(self.front_face, vk::FrontFace::COUNTER_CLOCKWISE | vk::FrontFace::CLOCKWISE) {
-            return Err(HostError::IndirectFrontFace { found: self.front_face });
-        }
+        check_front_face(Member::IndirectFrontFace, self.front_face)?;
         if self.alpha_tested && self.blended {
-            return Err(HostError::IndirectState {
-                what: "alpha_tested and blended",
-                remedy: "let the shader of blended draws store an opacity of 0 instead",
-            });
+            return Err(HostError::BlendedMap);
         }
         if self.blended && !geometry.blended {
-            return Err(HostError::IndirectState { what: "blended", remedy: "prepare for blended draws" });
+            return Err(HostError::NotBlended);
         }
-        if self.alpha_tested && (geometry.alpha_maps.is_empty() || mesh.coordinates.is_none()) {
-            return Err(HostError::IndirectState {
-                what: "alpha_tested",
-                remedy: "lend alpha maps, and texture coordinates of the mesh",
-            });
+        if self.alpha_tested && geometry.alpha_maps.is_empty() {
+            return Err(HostError::NoAlphaMaps);
         }
-        check_layout(
-            limits,
-            ("commands_offset", self.commands_offset, 4),
-            Some(("command_stride", self.command_stride, self.command_bytes(geometry), 4)),
-            ("the buffer of commands", self.lent_commands(geometry, limits)),
-        )?;
-        if let Some((_, offset)) = self.count.filter(|(_, offset)| offset % 4 != 0) {
-            return Err(HostError::Alignment { what: "count_offset", offset, alignment: 4 });
+        if self.alpha_tested && mesh.coordinates.is_none() {
+            return Err(HostError::DrawCoordinates { mesh: self.mesh });
         }
-        let alignment = limits.buffer_alignment.max(16);
-        if !self.instances_offset.is_multiple_of(alignment) {
-            return Err(HostError::Alignment { what: "instances_offset", offset: self.instances_offset, alignment });
-        }
-        Ok(())
+        HostError::check_stride(Member::CommandStride, self.command_stride, self.command_bytes(geometry), 4)?;
+        HostError::check_offset(Member::CommandsOffset, self.commands_offset, 4)?;
+        self.lent_commands(geometry, limits).check(Member::Commands, limits)?;
+        HostError::check_offset(Member::CountOffset, self.count.map_or(0, |(_, offset)| offset), 4)?;
+        HostError::check_offset(Member::InstancesOffset, self.instances_offset, limits.buffer_alignment.max(16))
     }
 }
 
@@ -262,10 +241,9 @@ impl IndirectPlacing {
             let sizes = IndirectSizes { commands: list.command_capacity, draws: list.draw_capacity };
             let commands = list.lent_commands(geometry, limits).info();
             let count = list.lent_count(limits).map(|count| count.info());
+            let lent = DrawBuffers { commands, count, instances: list.lent_instances() };
             // SAFETY: passed on to the caller.
-            let bound = unsafe {
-                BoundDraws::new(layout, memory, sizes, (commands, count, list.lent_instances()), (draws, &totals))
-            }?;
+            let bound = unsafe { BoundDraws::new(layout, memory, sizes, lent, draws, &totals) }?;
             Ok::<_, VulkanError>(PlacedList { bound, totals })
         };
         let lists = geometry.indirect.iter().map(list).collect::<Result<Vec<_>, _>>()?;

@@ -62,9 +62,8 @@ impl Lending {
             draw_of: self.content.draw_of(),
             locations,
         };
-        let layout = (&shared.gpu, &shared.visibility);
         // SAFETY: the caller guarantees the buffer of locations; the others live as long as this value.
-        Ok(unsafe { resources.visibility_set(layout, &self.visibility, &visible) }?)
+        Ok(unsafe { resources.visibility_set(&shared.gpu, &shared.visibility, &self.visibility, &visible) }?)
     }
 
     /// Records that the commands of `job` up to now are done, or will never be executed.

@@ -7,7 +7,7 @@ use super::sampling::Sampling;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::ClipPlane;
-use super::{Draw, Geometry, HostError, IndirectCounts, ListOptions, Outcome, Shared};
+use super::{Draw, Geometry, HostError, IndirectCounts, ListOptions, Member, Outcome, Shared};
 use crate::engine::data::{Cells, FrameUniform, Offsets, ResourceRequest, ShownIds, VisibilityUniform};
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
@@ -91,22 +91,14 @@ impl LocationList {
 
     fn check(&self, alignment: u64, most: u32) -> Result<(), HostError> {
         if self.locations == vk::Buffer::null() {
-            return Err(HostError::NullHandle("the buffer of locations"));
+            return Err(HostError::Null(Member::Locations));
         }
         if self.colors == vk::Buffer::null() {
-            return Err(HostError::NullHandle("the buffer of colours"));
+            return Err(HostError::Null(Member::Colors));
         }
-        if !(1..=most).contains(&self.capacity) {
-            return Err(HostError::Count { what: "the capacity of locations", found: self.capacity, most });
-        }
-        let offsets =
-            [("the offset of locations", self.offset, alignment), ("the offset of colours", self.colors_offset, 4)];
-        for (what, offset, alignment) in offsets {
-            if offset % alignment != 0 {
-                return Err(HostError::Alignment { what, offset, alignment });
-            }
-        }
-        Ok(())
+        HostError::check_count(Member::LocationCapacity, self.capacity, most)?;
+        HostError::check_offset(Member::LocationsOffset, self.offset, alignment)?;
+        HostError::check_offset(Member::ColorsOffset, self.colors_offset, 4)
     }
 
     fn bytes(&self) -> u64 {
@@ -301,8 +293,9 @@ impl List {
         let placed = PlacedDraws::new(&self.lending.geometry, draws)?;
         if count > self.list.capacity {
             return Err(HostError::Capacity {
-                what: "locations",
+                counted: "locations",
                 found: u64::from(count),
+                member: Member::LocationCapacity,
                 capacity: self.list.capacity,
             });
         }

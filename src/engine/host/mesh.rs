@@ -1,7 +1,7 @@
 //! Buffers of a mesh, which a host's draws read.
 
-use super::alignment::{LentBytes, check_layout, descriptor_alignment};
-use super::{HostError, PositionSpace, VertexFormat};
+use super::alignment::{LentBytes, descriptor_alignment};
+use super::{HostError, Member, PositionSpace, VertexFormat};
 use crate::vulkan::Limits;
 use ash::vk;
 
@@ -95,11 +95,12 @@ impl Indices {
 
     fn check(&self, limits: &Limits) -> Result<(), HostError> {
         if self.buffer == vk::Buffer::null() {
-            return Err(HostError::NullHandle("the buffer of indices"));
+            return Err(HostError::Null(Member::Indices));
         }
-        let size = self.bytes().ok_or(HostError::IndexType { found: self.index_type })?;
-        HostError::check_count("index_capacity", self.capacity, u32::MAX)?;
-        check_layout(limits, ("indices_offset", self.offset, size), None, ("the buffer of indices", self.lent(limits)))
+        let size = self.bytes().ok_or(HostError::IndexType(self.index_type))?;
+        HostError::check_count(Member::IndexCapacity, self.capacity, u32::MAX)?;
+        HostError::check_offset(Member::IndicesOffset, self.offset, size)?;
+        self.lent(limits).check(Member::Indices, limits)
     }
 }
 
@@ -112,16 +113,13 @@ impl Coordinates {
 
     fn check(&self, vertex_steps: u64, limits: &Limits) -> Result<(), HostError> {
         if self.buffer == vk::Buffer::null() {
-            return Err(HostError::NullHandle("the buffer of coordinates"));
+            return Err(HostError::Null(Member::Coordinates));
         }
-        self.format.check("Coordinates::format", 2)?;
+        self.format.check(Member::CoordinatesFormat, 2)?;
         let unit = self.format.component_bytes();
-        check_layout(
-            limits,
-            ("coordinates_offset", self.offset, u64::from(unit)),
-            Some(("coordinates_stride", self.stride, 2 * unit, unit)),
-            ("the buffer of coordinates", self.lent(vertex_steps, limits)),
-        )
+        HostError::check_stride(Member::CoordinatesStride, self.stride, 2 * unit, unit)?;
+        HostError::check_offset(Member::CoordinatesOffset, self.offset, u64::from(unit))?;
+        self.lent(vertex_steps, limits).check(Member::Coordinates, limits)
     }
 }
 
@@ -129,21 +127,18 @@ impl Mesh {
     /// Checks that passes can read the buffers. `most_vertices` is the largest possible number of vertices.
     pub(super) fn check(&self, space: PositionSpace, most_vertices: u32, limits: &Limits) -> Result<(), HostError> {
         if self.positions == vk::Buffer::null() {
-            return Err(HostError::NullHandle("the buffer of positions"));
+            return Err(HostError::Null(Member::Positions));
         }
-        HostError::check_count("vertex_capacity", self.vertex_capacity, most_vertices)?;
+        HostError::check_count(Member::VertexCapacity, self.vertex_capacity, most_vertices)?;
         let format = self.position_format;
-        format.check("Mesh::position_format", 3)?;
+        format.check(Member::PositionFormat, 3)?;
         if space == PositionSpace::Clip && format != VertexFormat::FLOAT {
-            return Err(HostError::ClipFormat { found: format.format });
+            return Err(HostError::ClipFormat(format.format));
         }
         let unit = format.component_bytes();
-        check_layout(
-            limits,
-            ("positions_offset", self.positions_offset, u64::from(unit)),
-            Some(("position_stride", self.position_stride, space.bytes(format) as u32, unit)),
-            ("the buffer of positions", self.lent_positions(space, limits)),
-        )?;
+        HostError::check_stride(Member::PositionStride, self.position_stride, space.bytes(format) as u32, unit)?;
+        HostError::check_offset(Member::PositionsOffset, self.positions_offset, u64::from(unit))?;
+        self.lent_positions(space, limits).check(Member::Positions, limits)?;
         self.indices.map_or(Ok(()), |indices| indices.check(limits))
     }
 

@@ -13,14 +13,8 @@ const TRIPS: u64 = 60_000;
 /// Checks that an image does not have more tiles than devices can process.
 pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), HostError> {
     let most = TRIPS * 64 * 32;
-    if u64::from(width) * u64::from(height) > most {
-        return Err(HostError::Count {
-            what: "the number of pixels",
-            found: width.saturating_mul(height),
-            most: most as u32,
-        });
-    }
-    Ok(())
+    let found = u64::from(width) * u64::from(height);
+    if found > most { Err(HostError::Pixels { found, most }) } else { Ok(()) }
 }
 
 /// Scene block of a host's triangles for a recording.

@@ -1,6 +1,6 @@
 //! Formats of a host's vertex attributes.
 
-use super::HostError;
+use super::{HostError, Member};
 use crate::engine::spirv;
 use ash::vk;
 
@@ -71,12 +71,12 @@ impl VertexFormat {
     }
 
     /// Checks that the format has `least` components, of a type that shaders can read.
-    pub(super) fn check(self, what: &'static str, least: u32) -> Result<(), HostError> {
+    pub(super) fn check(self, member: Member, least: u32) -> Result<(), HostError> {
         if self.components().is_none_or(|(components, _)| components < least) {
-            return Err(HostError::VertexFormat { what, found: self.format, least });
+            return Err(HostError::VertexFormat { member, found: self.format, least });
         }
         if !self.scale.iter().chain(&self.bias).all(|n| n.is_finite()) {
-            return Err(HostError::VertexScale { what });
+            return Err(HostError::VertexScale(member));
         }
         Ok(())
     }
@@ -94,17 +94,17 @@ mod tests {
 
     #[test]
     fn formats_that_can_not_be_read_are_named() {
-        let check = |format, least| VertexFormat::of(format).check("Mesh::position_format", least);
+        let check = |format, least| VertexFormat::of(format).check(Member::PositionFormat, least);
         assert!(check(vk::Format::R16G16B16A16_SNORM, 3).is_ok());
         for (format, least) in
             [(vk::Format::R16G16_UNORM, 3), (vk::Format::R8G8B8A8_SNORM, 3), (vk::Format::UNDEFINED, 2)]
         {
             let message = check(format, least).unwrap_err().to_string();
-            let start = format!("Mesh::position_format is {format:?}; it can have 32-bit SFLOAT");
+            let start = format!("Mesh::position_format is VK_FORMAT_{format:?}; it can have 32-bit SFLOAT");
             assert!(message.starts_with(&start), "{message}");
         }
         let broken = VertexFormat { scale: [1.0, f32::NAN, 1.0], ..VertexFormat::FLOAT };
-        let message = broken.check("Mesh::position_format", 3).unwrap_err().to_string();
+        let message = broken.check(Member::PositionFormat, 3).unwrap_err().to_string();
         assert_eq!(message, "Mesh::position_format has a scale or a bias that is not finite");
     }
 

@@ -45,14 +45,7 @@ impl ClipPlane {
         let is_finite = [x, y, width, height].iter().all(|n| n.is_finite());
         let height_fits = if clip.y_up { height < 0.0 } else { height > 0.0 };
         if !(is_finite && width > 0.0 && height_fits) {
-            return Err(HostError::Viewport {
-                x,
-                y,
-                width,
-                height,
-                height_sign: if clip.y_up { "negative" } else { "positive" },
-                y_up: clip.y_up,
-            });
+            return Err(HostError::Viewport { x, y, width, height, y_up: clip.y_up });
         }
         let half = [width, height].map(|side| 0.5 * f64::from(side));
         let middle = [f64::from(x) + half[0], f64::from(y) + half[1]];
@@ -117,13 +110,13 @@ mod tests {
         };
         assert_eq!(
             refused(ClipSpace::default(), viewport(2.5, 0.0, 40.0, 40.0)),
-            "the viewport holds the pixels from (2.5, 0) to (42.5, 40), and the frame is of those from (2, 0) to (22, 20): a frame's part of the images has to lie in the viewport; make Options::size smaller, or begin it elsewhere by Images::corner"
+            "Scenery::viewport holds the pixels from (2.5, 0) to (42.5, 40), and the frame is of those from (2, 0) to (22, 20): a frame's part of the images has to lie in the viewport; make Options::size smaller, or begin it elsewhere by Images::corner"
         );
         assert_eq!(
             refused(UP, viewport(0.0, 0.0, 40.0, 40.0)),
-            "the viewport is 40 x 40 pixels at (0, 0); it needs finite numbers, a positive width, and a height that is negative as ClipSpace::y_up is true"
+            "Scenery::viewport is 40 x 40 pixels at (0, 0); it needs finite numbers, a positive width, and a height that is negative as ClipSpace::y_up is true"
         );
         let broken = viewport(f32::NAN, 0.0, 40.0, 40.0);
-        assert!(refused(ClipSpace::default(), broken).starts_with("the viewport is 40 x 40 pixels"));
+        assert!(refused(ClipSpace::default(), broken).starts_with("Scenery::viewport is 40 x 40 pixels"));
     }
 }

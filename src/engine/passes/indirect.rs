@@ -22,6 +22,13 @@ pub(crate) struct IndirectSizes {
     pub draws: u32,
 }
 
+/// A host's buffers of a list: the commands, their number if the device knows it, and the instances.
+pub(crate) struct DrawBuffers {
+    pub commands: vk::DescriptorBufferInfo,
+    pub count: Option<vk::DescriptorBufferInfo>,
+    pub instances: vk::DescriptorBufferInfo,
+}
+
 /// A list with the memory that placing its draws takes.
 pub(crate) struct BoundDraws {
     set: DescriptorSets,
@@ -31,8 +38,7 @@ pub(crate) struct BoundDraws {
 }
 
 impl BoundDraws {
-    /// Makes a set with the list's commands, their number if the device knows it, and its instances; with `draws` and
-    /// `totals`, which are written.
+    /// Makes a set with the list's buffers, and with `draws` and `totals`, which are written.
     ///
     /// # Errors
     /// If memory runs out, or the driver refuses the set.
@@ -43,12 +49,9 @@ impl BoundDraws {
         layout: &FrameLayout,
         memory: &Memory,
         sizes: IndirectSizes,
-        (commands, count, instances): (
-            vk::DescriptorBufferInfo,
-            Option<vk::DescriptorBufferInfo>,
-            vk::DescriptorBufferInfo,
-        ),
-        (draws, totals): (&Draws, &Buffer),
+        lent: DrawBuffers,
+        draws: &Draws,
+        totals: &Buffer,
     ) -> Result<Self, VulkanError> {
         let scratch =
             |name, bytes| memory.storage_buffer(name, bytes, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryUse::Device);
@@ -56,9 +59,9 @@ impl BoundDraws {
         let blocks = u64::from(sizes.draws / spirv::INDIRECT_BLOCK) + 1;
         let blocks = scratch("blocks of indirect draws", 8 * blocks)?;
         let buffers: [(_, Descriptor); 8] = [
-            (indirect_set::COMMANDS, commands.into()),
-            (indirect_set::COUNT, count.unwrap_or(commands).into()),
-            (indirect_set::INSTANCES, instances.into()),
+            (indirect_set::COMMANDS, lent.commands.into()),
+            (indirect_set::COUNT, lent.count.unwrap_or(lent.commands).into()),
+            (indirect_set::INSTANCES, lent.instances.into()),
             (indirect_set::DRAWS_OUT, (&draws.table).into()),
             // Without matrices, the shader does not write this binding.
             (indirect_set::MATRICES_OUT, draws.matrices.as_ref().unwrap_or(&draws.table).into()),

@@ -31,7 +31,8 @@ impl Patch {
     /// If the driver refuses it.
     pub fn new(
         layout: &FrameLayout,
-        (format, encoded): (vk::Format, bool),
+        format: vk::Format,
+        encoded: bool,
         keep_alpha: bool,
         patched: Patched,
     ) -> Result<Self, VulkanError> {

@@ -76,12 +76,7 @@ impl<S: Specialized> Kernel<S> {
 
     /// Records a dispatch whose push constants are known only now. The device reads its size from another frame's indirect
     /// dispatches.
-    pub fn record_counted(
-        &self,
-        recorder: &Recorder<'_>,
-        pushed: &S::Push,
-        (arguments, argument): (&Buffer, Argument),
-    ) {
+    pub fn record_counted(&self, recorder: &Recorder<'_>, pushed: &S::Push, arguments: &Buffer, argument: Argument) {
         recorder.push(&self.pipeline, bytemuck::bytes_of(pushed));
         recorder.dispatch_indirect(&self.pipeline, arguments.handle(), argument as u32);
     }

@@ -113,10 +113,7 @@ impl FrameLayout {
         let by_teams = S::INTERFACE.by_teams;
         let teams = self.gpu.limits().teams;
         let subgroup = teams.preferred_subgroup.filter(|_| by_teams);
-        let made = || {
-            let (layout, shader) = (self.of(S::INTERFACE), (code, S::INTERFACE));
-            compute_pipeline(layout, shader, constants, subgroup)
-        };
+        let made = || compute_pipeline(self.of(S::INTERFACE), code, S::INTERFACE, constants, subgroup);
         Ok(Kernel::new(self.cached(code, constants, subgroup.unwrap_or(0), made)?))
     }
 

@@ -35,7 +35,8 @@ impl ImageState {
         self,
         recorder: &Recorder<'_>,
         image: vk::Image,
-        (aspect_mask, layer): (vk::ImageAspectFlags, u32),
+        aspect_mask: vk::ImageAspectFlags,
+        layer: u32,
         to: Self,
     ) {
         let range = vk::ImageSubresourceRange {

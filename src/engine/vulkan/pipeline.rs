@@ -123,7 +123,8 @@ impl Drop for Pipeline {
 /// [`VulkanError::Pipeline`] if the driver refuses it.
 pub(crate) fn compute_pipeline(
     layout: &Arc<PassLayout>,
-    (spirv, interface): (&[u8], &'static Interface),
+    spirv: &[u8],
+    interface: &'static Interface,
     constants: &Constants,
     subgroup: Option<u32>,
 ) -> Result<Pipeline, VulkanError> {

@@ -335,7 +335,7 @@ fn read_by_shader(headless: &mut Headless, scene: &Scene, pose: &Pose, instanced
     // The shader's only constant is one of `bin`, too.
     let constants = spirv::Bin { instanced }.constants();
     let code = include_bytes!("../../../tests/rows/shaders/spirv/rows.spv");
-    let pipeline = compute_pipeline(&layout, (code, &INTERFACE), &constants, None).unwrap();
+    let pipeline = compute_pipeline(&layout, code, &INTERFACE, &constants, None).unwrap();
     let triangle = if instanced { MeshInstance::ALIGNMENT } else { 1 };
     headless
         .submit(|commands| {

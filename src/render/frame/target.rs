@@ -35,14 +35,14 @@ impl Target {
     /// Prepares a host's image for copies.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, before, .. } = self {
-            before.change(recorder, *image, (COLOR, 0), COPIED_TO);
+            before.change(recorder, *image, COLOR, 0, COPIED_TO);
         }
     }
 
     /// Puts a host's image into its state after the frame.
     pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, after, .. } = self {
-            COPIED_TO.change(recorder, *image, (COLOR, 0), *after);
+            COPIED_TO.change(recorder, *image, COLOR, 0, *after);
         }
     }
 }

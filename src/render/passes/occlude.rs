@@ -109,8 +109,7 @@ impl Occlude {
                 self.kernel.record_teams(recorder, &push, groups[0] * groups[1]);
             }
             Receiving::Fragments => {
-                let size = (resources.buffer(Data::Arguments), Argument::Sort);
-                self.kernel.record_counted(recorder, &push, size);
+                self.kernel.record_counted(recorder, &push, resources.buffer(Data::Arguments), Argument::Sort);
             }
         }
     }

@@ -55,7 +55,7 @@ impl Renderer {
         let used = prepared.memory_bytes();
         let left = request.max_memory.map(|most| most.saturating_sub(used));
         let (scene, caster_pose) = caster_scene(request.scene, pose);
-        let made = self.prepare_moving(&scene, (&caster_pose, motion), AlphaUse::Opacities, left)?;
+        let made = self.prepare_moving(&scene, &caster_pose, motion, AlphaUse::Opacities, left)?;
         let casters = Casters::new(made.gpu_scene, &caster_pose, motion);
         prepared.casters = Some(Arc::new(casters));
         prepared.caster_uploads = made.uploads;

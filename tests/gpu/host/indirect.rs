@@ -326,34 +326,40 @@ fn lists_that_do_not_fit_are_named() {
             let lent = listed(&OBJECT, world.lent(&OBJECT), 3);
             machine.refused(&OBJECT, &lent, |geometry| spoil(&mut geometry.indirect[0]))
         };
-        let at = "list 0 of indirect draws: ";
+        let at = "Geometry::indirect[0]: ";
         type Spoil = dyn Fn(&mut IndirectDraws);
         let cases: [(&Spoil, &str); 12] = [
-            (&|list| list.commands = vk::Buffer::null(), "commands is VK_NULL_HANDLE"),
-            (&|list| list.instances = vk::Buffer::from_raw(0), "instances is VK_NULL_HANDLE"),
-            (&|list| list.count = Some((vk::Buffer::null(), 0)), "count is VK_NULL_HANDLE"),
-            (&|list| list.mesh = 1, "mesh is 1, and there are 1, from 0"),
-            (&|list| list.command_stride = 16, "command_stride is 16 bytes; it can be any multiple of 4 from 20 on"),
-            (&|list| list.commands_offset = 2, "commands_offset is 2 bytes; it can be a multiple of 4"),
-            (&|list| list.command_capacity = 1 << 21, "command_capacity is 2097152; it can be 1 to 1048576"),
-            (&|list| list.draw_capacity = 0, "draw_capacity is 0; it can be 1 to 16777216"),
-            (&|list| list.position_capacity = 0, "position_capacity is 0; it can be 1 to 4294967294"),
+            (&|list| list.commands = vk::Buffer::null(), "IndirectDraws::commands is VK_NULL_HANDLE"),
+            (&|list| list.instances = vk::Buffer::from_raw(0), "IndirectDraws::instances is VK_NULL_HANDLE"),
+            (
+                &|list| list.count = Some((vk::Buffer::null(), 0)),
+                "the buffer of IndirectDraws::count is VK_NULL_HANDLE",
+            ),
+            (&|list| list.mesh = 1, "IndirectDraws::mesh is 1; it can be 0 to 0, by Geometry::meshes"),
+            (
+                &|list| list.command_stride = 16,
+                "IndirectDraws::command_stride is 16 bytes; it can be any multiple of 4 from 20 on",
+            ),
+            (&|list| list.commands_offset = 2, "IndirectDraws::commands_offset is 2 bytes; it can be a multiple of 4"),
+            (
+                &|list| list.command_capacity = 1 << 21,
+                "IndirectDraws::command_capacity is 2097152; it can be 1 to 1048576",
+            ),
+            (&|list| list.draw_capacity = 0, "IndirectDraws::draw_capacity is 0; it can be 1 to 16777216"),
+            (&|list| list.position_capacity = 0, "IndirectDraws::position_capacity is 0; it can be 1 to 4294967294"),
             (
                 &|list| list.front_face = vk::FrontFace::from_raw(2),
-                "front_face is 2; it can be COUNTER_CLOCKWISE or CLOCKWISE",
+                "IndirectDraws::front_face is 2; it can be VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)",
             ),
-            (&|list| list.blended = true, "the draws are blended: prepare for blended draws"),
-            (
-                &|list| list.alpha_tested = true,
-                "the draws are alpha_tested: lend alpha maps, and texture coordinates of the mesh",
-            ),
+            (&|list| list.blended = true, "it is blended; make the frame with Geometry::blended"),
+            (&|list| list.alpha_tested = true, "it is alpha-tested, and there are no Geometry::alpha_maps"),
         ];
         for (spoil, message) in cases {
             assert_eq!(refused(spoil), format!("{at}{message}"));
         }
         let instances = refused(&|list| list.instances_offset = 8);
         assert!(
-            instances.starts_with(&format!("{at}instances_offset is 8 bytes; it can be a multiple of ")),
+            instances.starts_with(&format!("{at}IndirectDraws::instances_offset is 8 bytes; it can be a multiple of ")),
             "{instances}"
         );
         let much = refused(&|list| list.triangle_capacity = u32::MAX / 3);

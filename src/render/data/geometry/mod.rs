@@ -93,7 +93,8 @@ impl GpuGeometry {
     pub(in crate::render) fn new(
         uploader: &mut Uploader<'_>,
         scene: &Scene,
-        (geometry, motion): (&PosedGeometry, Option<&Motion>),
+        geometry: &PosedGeometry,
+        motion: Option<&Motion>,
         words: &[[u32; 4]],
         alphas: AlphaUse,
     ) -> Result<Self, VulkanError> {

@@ -138,7 +138,8 @@ impl Bins {
     /// Sorts the materials of all draws into bins, and creates their textures.
     pub(super) fn new(
         scene: &Scene,
-        (materials, geometry): (&[Material], &PosedGeometry),
+        materials: &[Material],
+        geometry: &PosedGeometry,
         slots: &[Slots],
         textures: &mut TextureSet<'_>,
     ) -> Result<Self, VulkanError> {

@@ -95,14 +95,15 @@ impl GpuScene {
         layout: &FrameLayout,
         memory: &Memory,
         scene: &Scene,
-        (pose, motion): (&Pose, Option<&Motion>),
+        pose: &Pose,
+        motion: Option<&Motion>,
         alphas: AlphaUse,
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
         let looks = pose.materials(scene);
         let slots = looks.iter().map(|material| Slots::of(scene, material)).collect::<Result<Vec<_>, _>>()?;
-        let bins = Bins::new(scene, (&looks, geometry), &slots, &mut textures)?;
+        let bins = Bins::new(scene, &looks, geometry, &slots, &mut textures)?;
         let triangles = Triangles::new(&looks, geometry, &bins);
         let mut atlas = AlphaAtlas::new(alphas);
         let maps: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
@@ -119,7 +120,7 @@ impl GpuScene {
         let bins = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
         let (environment, environment_upload) = GpuEnvironment::new(layout, &mut uploader, surroundings)?;
-        let device_geometry = GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.words, alphas)?;
+        let device_geometry = GpuGeometry::new(&mut uploader, scene, geometry, motion, &triangles.words, alphas)?;
         let TextureSet { textures, texture_uploads, samplers, .. } = textures;
         let scene = Self {
             materials: uploader.texels("materials", uint4, &materials.words)?,

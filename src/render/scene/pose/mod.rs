@@ -103,7 +103,7 @@ pub(super) fn pose_in_motion(scene: &Scene, request: &PoseRequest) -> Result<(Po
     let (pose, placements) = posed(scene, request, &moving)?;
     let mut warnings = Warnings::new(&document.file);
     let shown = show(scene, request, &moving, &mut warnings)?;
-    let motion = Motion::new(request, &pose, &shown, (&moving, &placements));
+    let motion = Motion::new(request, &pose, &shown, &moving, &placements);
     Ok((pose, motion))
 }
 

@@ -103,7 +103,7 @@ impl Drawing {
             let name = shape.name.clone();
             let uses_uvs = self.materials[material].textures().next().is_some();
             let strokes = [(Mode::Lines, shape.lines.as_flattened()), (Mode::Points, shape.points.as_slice())]
-                .map(|(mode, path)| shape.strokes(mode, path, (material, uses_uvs), &place, &mut warnings));
+                .map(|(mode, path)| shape.strokes(mode, path, material, uses_uvs, &place, &mut warnings));
             let surface = shape.into_primitive(material, uses_uvs, &place, &mut warnings);
             let primitives = surface.into_iter().chain(strokes.into_iter().flatten());
             document.meshes.push(primitives.collect());
@@ -203,7 +203,8 @@ impl FileObject {
         &self,
         mode: Mode,
         path: &[u32],
-        (material, uses_uvs): (usize, bool),
+        material: usize,
+        uses_uvs: bool,
         place: &str,
         warnings: &mut Warnings,
     ) -> Option<Primitive> {

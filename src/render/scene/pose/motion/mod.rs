@@ -160,7 +160,8 @@ impl Motion {
         request: &PoseRequest,
         pose: &Pose,
         shown: &PoseContents<'_>,
-        (moving, placed): (&Moving, &[MovingPlacement]),
+        moving: &Moving,
+        placed: &[MovingPlacement],
     ) -> Self {
         let mut motion = Self {
             identity: Arc::new(()),
