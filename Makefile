@@ -23,7 +23,7 @@ SCENE ?= assets/letters.glb
 SCENES ?=
 PACK ?=
 
-.PHONY: help demo view test test-view test-gpu pack-gpu test-drivers test-compilers test-bounds bench measure figures pictures lint shaders check-shaders \
+.PHONY: help demo view test test-view test-gpu pack-gpu test-drivers test-compilers test-slang test-bounds bench measure figures pictures lint shaders check-shaders \
 	header assets install wheel test-wheel dist test-dist
 
 help:
@@ -35,6 +35,7 @@ help:
 	@echo "make pack-gpu       pack what test-gpu runs, for a machine with a GPU and without Rust; SCENES='...' are further scenes"
 	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
 	@echo "make test-compilers compile the kernels for GPUs that are not there, and check what their compilers say"
+	@echo "make test-slang     compile the include in Slang, and compare it with that in GLSL"
 	@echo "make test-bounds    check that no shader reads or writes beyond the end of a buffer"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make measure        write docs/bench/*.csv of this machine's driver again (an hour); KINDS='...' are some of them;"
@@ -91,6 +92,10 @@ test-drivers:
 test-compilers:
 	@tools/setup.sh build lavapipe c
 	@tools/test-compilers.sh $(HARDWARE)
+
+test-slang:
+	@tools/setup.sh build lavapipe c python
+	@VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" tools/test-slang.sh
 
 # Takes half an hour: the validation layer checks and compiles all shaders.
 test-bounds:

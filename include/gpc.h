@@ -698,6 +698,11 @@ typedef struct GpcImageKinds {
     // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the colour
     // image holds linear light, or its format encodes the light.
     VkBool32 color_encoded;
+    // VK_TRUE if the colour image has VK_IMAGE_USAGE_TRANSFER_SRC_BIT in the place of VK_IMAGE_USAGE_SAMPLED_BIT, as the
+    // images of some swapchains. The library then reads a copy of the frame's part, in an image of its own.
+    VkBool32 color_copied;
+    // 0.
+    uint32_t reserved;
 } GpcImageKinds;
 
 // Options of antialiasing a frame; gpc_init_options sets defaults.
@@ -814,8 +819,8 @@ typedef struct GpcImages {
     // Image of the nearest triangle's depth, of any depth format, created with VK_IMAGE_USAGE_SAMPLED_BIT; its view
     // has the depth aspect only. Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
     struct GpcImage depth;
-    // Colour image, created with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, into which
-    // superpixels are drawn.
+    // Colour image, created with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, and with VK_IMAGE_USAGE_SAMPLED_BIT unless
+    // GpcImageKinds.color_copied says otherwise. Superpixels are drawn into it.
     struct GpcImage color;
     // Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
     // reads nor writes pixels outside of it.

@@ -44,6 +44,7 @@ chmod 644 "$root/lib/libgpc.a"
 for name in gpc_visibility gpc_texture gpc_position gpc_instance place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
 done
+install -m 644 shaders/slang/gpc_visibility.slang "$root/share/gpc/shaders/"
 
 # The example that the manual speaks of, with its shaders.
 for folder in . shaders shaders/spirv; do

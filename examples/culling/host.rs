@@ -186,7 +186,8 @@ impl<'a> Host<'a> {
             blended: false,
             clip: ClipSpace { y_up: true, reversed_depth: true, ..ClipSpace::default() },
         };
-        let kinds = ImageKinds { ids: false, depth: false, color_format: COLOR, color_encoded: false };
+        let kinds =
+            ImageKinds { ids: false, depth: false, color_format: COLOR, color_encoded: false, color_copied: false };
         // SAFETY: the buffers have the sizes and usages named, and outlive the frame.
         Ok(unsafe { antialiaser.prepare(&geometry, &kinds, &Options::new(width, height)) }?)
     }

@@ -70,7 +70,8 @@ impl<'a> Targets<'a> {
 }
 
 /// The kinds of images that the library is lent.
-const KINDS: ImageKinds = ImageKinds { ids: true, depth: true, color_format: COLOR, color_encoded: false };
+const KINDS: ImageKinds =
+    ImageKinds { ids: true, depth: true, color_format: COLOR, color_encoded: false, color_copied: false };
 /// Background that the host draws. The lens, which has no image with a background, gets it as an option.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 

@@ -54,12 +54,17 @@ pub struct GpcImageKinds {
     /// VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the colour
     /// image holds linear light, or its format encodes the light.
     pub color_encoded: vk::Bool32,
+    /// VK_TRUE if the colour image has VK_IMAGE_USAGE_TRANSFER_SRC_BIT in the place of VK_IMAGE_USAGE_SAMPLED_BIT, as the
+    /// images of some swapchains. The library then reads a copy of the frame's part, in an image of its own.
+    pub color_copied: vk::Bool32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: `repr(C)`; integers and pointers may have any bytes.
 unsafe impl Element for GpcImageKinds {
     const NAME: &'static str = "GpcImageKinds";
-    const SIZES: &'static [usize] = sizes!(GpcImageKinds, color_encoded);
+    const SIZES: &'static [usize] = sizes!(GpcImageKinds, color_encoded, reserved);
 }
 
 // SAFETY: the struct begins with size, type and next.
@@ -79,11 +84,13 @@ pub unsafe extern "C" fn gpc_init_image_kinds(kinds: *mut GpcImageKinds, size: u
 
 impl GpcImageKinds {
     pub(super) fn kinds(&self) -> Result<ImageKinds, Error> {
+        unused("GpcImageKinds.reserved", self.reserved)?;
         Ok(ImageKinds {
             ids: flag("GpcImageKinds.ids", self.ids)?,
             depth: flag("GpcImageKinds.depth", self.depth)?,
             color_format: self.color_format,
             color_encoded: flag("GpcImageKinds.color_encoded", self.color_encoded)?,
+            color_copied: flag("GpcImageKinds.color_copied", self.color_copied)?,
         })
     }
 }
@@ -106,8 +113,8 @@ pub struct GpcImages {
     /// Image of the nearest triangle's depth, of any depth format, created with VK_IMAGE_USAGE_SAMPLED_BIT; its view
     /// has the depth aspect only. Without GpcImageKinds.depth, image and view are VK_NULL_HANDLE.
     pub depth: GpcImage,
-    /// Colour image, created with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, into which
-    /// superpixels are drawn.
+    /// Colour image, created with VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, and with VK_IMAGE_USAGE_SAMPLED_BIT unless
+    /// GpcImageKinds.color_copied says otherwise. Superpixels are drawn into it.
     pub color: GpcImage,
     /// Upper left pixel of the frame's part of these images. The part has the size in GpcOptions; the library neither
     /// reads nor writes pixels outside of it.

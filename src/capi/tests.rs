@@ -182,7 +182,7 @@ fn the_names_in_errors_are_those_of_the_header() {
         let length = header[start..].find(&format!("}} {name};")).unwrap();
         let declared: Vec<_> = header[start..start + length]
             .lines()
-            .filter_map(|line| line.trim().strip_suffix(';')?.split('[').next()?.split(' ').next_back())
+            .filter_map(|line| line.trim().strip_suffix(';')?.split('[').next()?.rsplit([' ', '*']).next())
             .collect();
         for each in members.split(" and ").flat_map(|names| names.split(" or ")).flat_map(|names| names.split(" x ")) {
             assert!(declared.contains(&each), "{member:?}: {name} has no {each}");

@@ -715,6 +715,9 @@ static void frames(void) {
     kinds.color_encoded = 2;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.color_encoded is 2");
     kinds.color_encoded = VK_FALSE;
+    kinds.color_copied = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.color_copied is 2");
+    kinds.color_copied = VK_FALSE;
     options.pattern = 7;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 7; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
     options.pattern = GPC_PATTERN_LIST;

@@ -76,6 +76,9 @@ pub struct Frame {
     shared: Arc<Shared>,
 }
 
+/// Largest size of a pixel of a colour image, in bytes.
+const MOST_COLOR_BYTES: u64 = 16;
+
 /// What a frame has for images of its size.
 struct Work {
     sampling: Sampling,
@@ -104,7 +107,10 @@ impl Work {
         settings.check()?;
         check_size(options.size)?;
         let content = &lending.content;
-        let mut plan = Plan::whole(&image, content, gpu.limits(), capacity, lending.bytes())?;
+        let copies = kinds.color_copied && !options.shade_all;
+        let pixels = options.size.map(u64::from).iter().product::<u64>();
+        let reserved = lending.bytes() + if copies { MOST_COLOR_BYTES * pixels } else { 0 };
+        let mut plan = Plan::whole(&image, content, gpu.limits(), capacity, reserved)?;
         if kinds.ids {
             plan.sizes.filtered_triangles = 0;
         }
@@ -115,6 +121,7 @@ impl Work {
             &ScratchRequest { sizes: plan.sizes, targets: !kinds.ids, allowed: allowed(lending.bytes()) },
         )?;
         let memory = Memory::new(gpu.clone(), allowed(lending.bytes() + scratch.bytes()));
+        let copy = copies.then(|| HostImage::for_copy(&memory, kinds.color_format, options.size)).transpose()?;
         let offsets = method.offsets()?;
         let count = offsets.len() as u32;
         let request = ResourceRequest {
@@ -127,7 +134,7 @@ impl Work {
         let job = Job::new(layout, memory, &settings, capacity, &request)?;
         let context = job.context(content, 1);
         let drawn =
-            (!options.shade_all).then(|| HostImage::new(layout, kinds.color_encoded)).transpose()?.map(Arc::new);
+            (!options.shade_all).then(|| HostImage::new(layout, kinds.color_encoded, copy)).transpose()?.map(Arc::new);
         let cells = PixelCells {
             behind: drawn.clone().filter(|_| options.shows_drawn()),
             blend_ids: false,
@@ -369,7 +376,10 @@ impl Frame {
         };
         recorder.begin();
         lending.record_alpha(recorder);
-        images.record_begin(recorder);
+        images.record_begin(recorder, &self.kinds);
+        if let Some(image) = &work.image {
+            image.record_copy(recorder, images.color.image, images.corner, images.layer);
+        }
         lending.record_triangles(recorder, &placed);
         let shading = lending.shading(shading, &work.visibility_set, resources);
         let footprints = Footprints::new(settings.filter, settings.cells.samples);
@@ -389,7 +399,7 @@ impl Frame {
         }
         let run = SamplerRun { resources, set, uniform: &uniform, locations: 0, index: 0 };
         sampler.record(recorder, &run, &shading);
-        images.record_draw(recorder);
+        images.record_draw(recorder, &self.kinds);
         let part = images.part(self.options.size);
         work.patch.record(recorder, images.color.view, part);
         images.record_end(recorder);
@@ -426,7 +436,7 @@ impl Frame {
             // Materials that are filtered over their pixel vary within it by more than centres tell.
             alike: threshold.div_ceil(4),
             seen_corner: images.ids.map_or([0, 0], |_| images.corner),
-            color_corner: images.corner,
+            color_corner: if self.kinds.color_copied { [0, 0] } else { images.corner },
             ..plane_block(&geometry.clip, plane, self.options.size)
         };
         let samples = settings.cells.samples;

@@ -33,6 +33,9 @@ pub struct ImageKinds {
     /// Whether the host's shaders write sRGB codes into a format of plain numbers. Otherwise the colour image holds
     /// linear light, or its format encodes the light.
     pub color_encoded: bool,
+    /// Whether the colour image has the usage `TRANSFER_SRC` in the place of `SAMPLED`, as the images of some swapchains. The
+    /// library then reads a copy of the frame's part, in an image of its own.
+    pub color_copied: bool,
 }
 
 /// Images that the host has drawn with one sample a pixel. The result is drawn into `color`. The images are of the
@@ -45,7 +48,8 @@ pub struct Images {
     /// Image of the nearest triangle's depth, of any depth format, created with `SAMPLED`; its view has the depth
     /// aspect only.
     pub depth: Option<LentImage>,
-    /// Colour image, created with `SAMPLED` and `COLOR_ATTACHMENT`, into which superpixels are drawn.
+    /// Colour image, created with `COLOR_ATTACHMENT` and with `SAMPLED`, or `TRANSFER_SRC` if it is
+    /// [copied](ImageKinds::color_copied). Superpixels are drawn into it.
     pub color: LentImage,
     /// Upper left pixel of the frame's part of these images. The part has the size
     /// [`Options::size`](super::Options::size); the library neither reads nor writes pixels outside of it.
@@ -119,6 +123,11 @@ impl LentImage {
 }
 
 impl ImageKinds {
+    /// State in which the library reads the colour image.
+    pub(super) fn read_state(&self) -> ImageState {
+        if self.color_copied { ImageState::COPIED } else { ImageState::READ }
+    }
+
     pub(super) fn check(&self, options: &Options) -> Result<(), HostError> {
         match (self.ids, self.depth) {
             (true, false) if options.thin => return Err(HostError::NoDepth),
@@ -166,11 +175,12 @@ impl Images {
         self.ids.iter().chain(&self.depth)
     }
 
-    /// Records the barriers that ready all images for reading.
-    pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
-        for image in self.read().chain([&self.color]) {
+    /// Records the barriers that ready all images for reading, `color` as its kind says.
+    pub(super) fn record_begin(&self, recorder: &Recorder<'_>, kinds: &ImageKinds) {
+        for image in self.read() {
             image.record(recorder, self.layer, image.before, ImageState::READ);
         }
+        self.color.record(recorder, self.layer, self.color.before, kinds.read_state());
     }
 
     /// Rectangle of the frame's part, `width` x `height` pixels large.
@@ -180,8 +190,8 @@ impl Images {
     }
 
     /// Records the barrier that readies the colour image for drawing.
-    pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
-        self.color.record(recorder, self.layer, ImageState::READ, ImageState::DRAWN);
+    pub(super) fn record_draw(&self, recorder: &Recorder<'_>, kinds: &ImageKinds) {
+        self.color.record(recorder, self.layer, kinds.read_state(), ImageState::DRAWN);
     }
 
     /// Records the barriers that change all images to their final states.
@@ -216,8 +226,13 @@ mod tests {
         }
     }
 
-    const KINDS: ImageKinds =
-        ImageKinds { ids: true, depth: true, color_format: vk::Format::B8G8R8A8_UNORM, color_encoded: true };
+    const KINDS: ImageKinds = ImageKinds {
+        ids: true,
+        depth: true,
+        color_format: vk::Format::B8G8R8A8_UNORM,
+        color_encoded: true,
+        color_copied: false,
+    };
 
     #[test]
     fn what_is_missing_or_does_not_fit_is_named() {

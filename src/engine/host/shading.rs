@@ -5,11 +5,11 @@ use crate::engine::sampler::RecordShading;
 use crate::vulkan::{PassTime, Recorder};
 use ash::vk;
 
-/// Names and texts of the GLSL includes for a host's shaders. `gpc_visibility.glsl` defines visibility samples and the
+/// Names and texts of the includes for a host's shaders. `gpc_visibility.glsl` defines visibility samples and the
 /// functions that read and store them, `gpc_texture.glsl` filters textures over a sample's footprint,
 /// `gpc_position.glsl` transforms vertices as the library does, and `gpc_instance.glsl` defines what a shader writes about
-/// an indirect draw. The other files are included by these.
-pub const SHADER_INCLUDES: [(&str, &str); 8] = [
+/// an indirect draw. The other files in GLSL are included by these. `gpc_visibility.slang` is the first file in Slang.
+pub const SHADER_INCLUDES: [(&str, &str); 9] = [
     ("gpc_visibility.glsl", include_str!("../../../shaders/include/gpc_visibility.glsl")),
     ("gpc_texture.glsl", include_str!("../../../shaders/include/gpc_texture.glsl")),
     ("gpc_position.glsl", include_str!("../../../shaders/include/gpc_position.glsl")),
@@ -18,6 +18,7 @@ pub const SHADER_INCLUDES: [(&str, &str); 8] = [
     ("place_in_tile.glsl", include_str!("../../../shaders/include/place_in_tile.glsl")),
     ("barycentric.glsl", include_str!("../../../shaders/include/barycentric.glsl")),
     ("finite.glsl", include_str!("../../../shaders/include/finite.glsl")),
+    ("gpc_visibility.slang", include_str!("../../../shaders/slang/gpc_visibility.slang")),
 ];
 
 /// Visibility samples of a round, sorted by shading key, on the device.

@@ -21,6 +21,12 @@ impl ImageState {
         stage: vk::PipelineStageFlags2::COMPUTE_SHADER,
         access: vk::AccessFlags2::SHADER_SAMPLED_READ,
     };
+    /// State in which the image is copied.
+    pub(crate) const COPIED: Self = Self {
+        layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+        stage: vk::PipelineStageFlags2::COPY,
+        access: vk::AccessFlags2::TRANSFER_READ,
+    };
     /// State in which the image is drawn to, over its contents.
     pub(crate) const DRAWN: Self = Self {
         layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,

@@ -20,7 +20,8 @@ struct Application {
 impl Application {
     fn frame(self, geometry: Geometry, color: LentImage, commands: vk::CommandBuffer) -> Result<(), HostError> {
         let Self { antialiaser, format, size: [width, height], sky, draws, projection, materials } = self;
-        let kinds = ImageKinds { ids: false, depth: false, color_format: format, color_encoded: false };
+        let kinds =
+            ImageKinds { ids: false, depth: false, color_format: format, color_encoded: false, color_copied: false };
         // color.before is ImageState { layout: vk::ImageLayout::UNDEFINED, .. }
         let images = Images { ids: None, depth: None, color, corner: [0, 0], layer: 0 };
         let options = Options::new(width, height).shade_all(true).background(Some(sky));

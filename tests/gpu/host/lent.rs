@@ -46,6 +46,30 @@ fn every_way_to_lend_gives_the_same_picture() {
     });
 }
 
+/// An image that shaders can't read gives the same bytes: the library reads a copy, of the right part.
+#[test]
+fn an_image_of_colours_that_is_copied_gives_the_same_picture() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        for corner in [[0, 0], [13, 5]] {
+            let read = Way { corner, ..PLACED };
+            let copied = Way { copied: true, ..read };
+            for base in [Base::All(&drawn), Base::Colors(&drawn), Base::Nothing] {
+                let [read, copied] = [&read, &copied].map(|way| machine.see(way, base));
+                assert!(read.outcome.statistics.superpixels > 0);
+                assert!(bits(&read.colors) == bits(&copied.colors), "{corner:?}");
+            }
+        }
+        let options = |way: &Way| {
+            let drawn_behind = Options::new(SIZE[0], SIZE[1]).keep_alpha(true);
+            machine.see_lent(way, &world.lent(way), Base::All(&drawn), drawn_behind).colors
+        };
+        let part = Way { corner: [13, 5], ..PLACED };
+        assert!(bits(&options(&part)) == bits(&options(&Way { copied: true, ..part })));
+    });
+}
+
 #[test]
 fn positions_are_the_twins() {
     on_gpu(|gpu| {

@@ -151,8 +151,13 @@ impl Canvas {
 }
 
 /// Kinds of the images of a canvas.
-const KINDS: ImageKinds =
-    ImageKinds { ids: false, depth: false, color_format: vk::Format::R32G32B32A32_SFLOAT, color_encoded: false };
+const KINDS: ImageKinds = ImageKinds {
+    ids: false,
+    depth: false,
+    color_format: vk::Format::R32G32B32A32_SFLOAT,
+    color_encoded: false,
+    color_copied: false,
+};
 
 /// Options for a canvas of a size.
 fn of_size([width, height]: [u32; 2]) -> Options {
@@ -418,7 +423,7 @@ impl<'a> Machine<'a> {
         let (plain, deep) = (vk::ImageAspectFlags::COLOR, vk::ImageAspectFlags::DEPTH);
         let ids = self.image(size, vk::Format::R32_UINT, plain);
         let depth = self.image(size, vk::Format::D32_SFLOAT, deep);
-        let color = self.image(size, vk::Format::R32G32B32A32_SFLOAT, plain);
+        let color = self.color(size, !way.copied);
         let mut pictures = Vec::new();
         if let Some(drawn) = base.ids() {
             let numbers = way.framed(&drawn.ids, options.size, u32::MAX);
@@ -454,6 +459,7 @@ impl<'a> Machine<'a> {
             depth: images.depth.is_some(),
             color_format: vk::Format::R32G32B32A32_SFLOAT,
             color_encoded: false,
+            color_copied: way.copied,
         };
         let background = options.background.or(Some(SKY));
         let options = options.background(background).shade_all(base.colors().is_none());
@@ -976,6 +982,24 @@ impl<'a> Machine<'a> {
         } else {
             vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT
         };
+        self.image_for(size, format, aspect, drawn | vk::ImageUsageFlags::SAMPLED)
+    }
+
+    /// An image of colours, which shaders can read if it is `sampled`.
+    fn color(&self, size: [u32; 2], sampled: bool) -> Image {
+        let sampled = if sampled { vk::ImageUsageFlags::SAMPLED } else { vk::ImageUsageFlags::empty() };
+        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | sampled;
+        self.image_for(size, vk::Format::R32G32B32A32_SFLOAT, vk::ImageAspectFlags::COLOR, usage)
+    }
+
+    /// An image that can be copied, for a usage besides.
+    fn image_for(
+        &self,
+        size: [u32; 2],
+        format: vk::Format,
+        aspect: vk::ImageAspectFlags,
+        usage: vk::ImageUsageFlags,
+    ) -> Image {
         let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
@@ -984,7 +1008,7 @@ impl<'a> Machine<'a> {
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | drawn | copied);
+            .usage(usage | copied);
         self.memory.image("lent", &info, aspect).unwrap()
     }
 }

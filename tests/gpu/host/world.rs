@@ -81,6 +81,8 @@ pub struct Way {
     pub depth_range: [f32; 2],
     /// Whether depth is 1 at the near plane and 0 far away.
     pub reversed_depth: bool,
+    /// Whether the image of colours can be copied and not be sampled.
+    pub copied: bool,
 }
 
 /// The way of a host that transforms all vertices itself.
@@ -102,6 +104,7 @@ pub const PLACED: Way = Way {
     back: 1.0,
     depth_range: [0.0, 1.0],
     reversed_depth: true,
+    copied: false,
 };
 
 impl Way {
