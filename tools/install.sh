@@ -23,7 +23,7 @@ install -m 644 LICENSE-MIT LICENSE-APACHE "$root/share/doc/gpc/"
 pages='embedding|embedding-reference|fits|swapchains|CHANGELOG'
 for page in docs/embedding.md docs/embedding-reference.md docs/fits.md docs/swapchains.md CHANGELOG.md; do
     sed -Ez -e 's#\]\(\.\./examples/forward#](../../gpc/examples/forward#g' \
-        -e 's#\]\(\.\./shaders/include/#](../../gpc/shaders/#g' \
+        -e 's#\]\(\.\./shaders/(include|slang)/#](../../gpc/shaders/#g' \
         -e "s%\]\((https?:|#|($pages)\.md|pictures/|\.\./\.\./gpc/)%]\x01(\1%g" \
         -e 's#\[([^]]*)\]\([^)]*\)#\1#g' -e 's#\x01##g' "$page" >"$work/page.md"
     install -m 644 "$work/page.md" "$root/share/doc/gpc/${page##*/}"
