@@ -401,6 +401,11 @@ impl Frame {
         sampler.record(recorder, &run, &shading);
         images.record_draw(recorder, &self.kinds);
         let part = images.part(self.options.size);
+        if self.kinds.color_copied {
+            // Until here the colours were those of the copy. They are drawn to where the part lies in the host's image.
+            let corner = std::mem::offset_of!(FrameUniform, color_corner) as u64;
+            recorder.update(&set.uniform, corner, bytemuck::bytes_of(&images.corner));
+        }
         work.patch.record(recorder, images.color.view, part);
         images.record_end(recorder);
         recording.end();
