@@ -516,7 +516,7 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     scenery.reserved = 0;
     ANSWERS(RECORD_LIST(LOCATIONS + 1), GPC_RESULT_CAPACITY, "9 locations; GpcLocationList.capacity is 8");
     draw.key = 1;
-    ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "GpcDraw.key of draw 0 is 1; it can be 0 to 0");
+    ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "draw 0: GpcDraw.key is 1; it can be 0 to 0");
     draw.key = 0;
     EXPECT(calls == 0, "what is refused records nothing");
     EXPECT(RECORD_LIST(0) == GPC_RESULT_SUCCESS && calls > 0, "a recording of no locations");
