@@ -16,6 +16,8 @@ mkdir -p "$out"
 
 "$out/python/bin/python" tools/slang/compile.py tools/slang/samples.slang shaders/slang "$out/samples.spv" \
     tests/hosts/shaders/spirv/samples.spv
+"$out/python/bin/python" tools/slang/compile.py tools/slang/draws.slang shaders/slang "$out/draws.spv" \
+    examples/forward/shaders/spirv/samples.spv
 
 make --silent install PREFIX="$out/root"
 export PKG_CONFIG_PATH="$out/root/lib/pkgconfig" LD_LIBRARY_PATH="$out/root/lib"
