@@ -24,6 +24,7 @@ void main() {
         arguments[ARGUMENT_CULL] = any_tile ? groups((frame.triangle_count + 511u) / 512u) : uvec4(0u);
         arguments[ARGUMENT_TALLY] = any_tile ? groups(workgroups_of((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH)) : uvec4(0u);
     } else if (push.after == AFTER_CULL) {
+        arguments[ARGUMENT_BIN_BUSY] = groups(((frame.tiles.x + 31u) / 32u * frame.tiles.y + 63u) / 64u);
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]) * uvec4(1u, 1u, TEAMS == 1u ? 1u : BIN_WORKGROUPS, 0u);
     } else if (push.after == AFTER_SAMPLE) {

@@ -1,6 +1,10 @@
-// bin: makes pairs of a surviving triangle and a tile that it may touch, with the triangle's rank in the tile's list. An
-// invocation takes a small triangle, or some workgroups take a large one.
-// Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
+// bin: makes pairs of a surviving triangle and a tile that it may touch, with the triangle's rank in the tile's list. The pass runs
+// in three steps:
+//   BUSY     an invocation takes a run of 32 tiles, and finds out which of them have superpixels, a bit each
+//   SMALL    an invocation takes a small triangle
+//   LARGE    some workgroups take a large triangle
+// Runs are parts of a row of tiles. Most tiles have no superpixels, so that a triangle is tested against few tiles of a run.
+// Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths, bits of runs, flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
 // If there is no room for a pair, its tile gets a flag, and `scatter` tries every triangle there.
 // Whether a triangle is large depends on how much of it a region shows. Both kinds get the same test against a tile, so that
@@ -14,46 +18,54 @@
 #include "include/triangle.glsl"
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = BIN_CONSTANT_STEP) const uint STEP = BIN_SMALL;
 
-layout(push_constant) uniform Push { uint large; } push;     // 1: takes large triangles
+const bool LARGE = STEP == BIN_LARGE;
+uint runs_of_row() { return (frame.tiles.x + 31u) / 32u; }
 
-const uint CHUNK = 32u;                                         // most tiles that an invocation tests before it stores pairs
+void find_busy() {
+    uint run = invocation_number(), runs = runs_of_row(), busy = 0u, k = 0u;
+    uvec2 at = split(run, runs);
+    if (at.y >= frame.tiles.y) return;
+    do {
+        uint column = 32u * at.x + k;
+        busy |= column < frame.tiles.x && masks[at.y * frame.tiles.x + min(column, frame.tiles.x - 1u)] != 0u ? 1u << k : 0u;
+    } while (++k < 32u);
+    tiles[run].y = busy;
+}
 
-void main() {
-    bool large = push.large != 0u;
-    uint i = large ? workgroup_number() : invocation_number();
-    uint listed = min(counters[large ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity);
+void make_pairs() {
+    uint i = LARGE ? workgroup_number() : invocation_number();
+    uint listed = min(counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity);
     bool exists = i < listed;
     i = min(i, frame.survivor_capacity - 1u);
-    uint t = exists ? survivors[large ? frame.survivor_capacity - 1u - i : i] : 0u;
+    uint t = exists ? survivors[LARGE ? frame.survivor_capacity - 1u - i : i] : 0u;
     Triangle corners = triangle_at(t);
     Footprint f = footprint_of(corners.v0, corners.v1, corners.v2);
     uint flag = t >= frame.first_blend ? TILE_HAS_BLEND : t >= frame.first_mask ? TILE_HAS_MASK : 0u;
 
     ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
-    uint columns = uint(high.x - low.x + 1), count = exists ? columns * uint(high.y - low.y + 1) : 0u;
-    float inverse_columns = 1.0 / float(columns);
-    uint first = large ? gl_WorkGroupID.z * 64u + gl_LocalInvocationID.x : 0u, apart = large ? gl_NumWorkGroups.z * 64u : 1u;
+    uint first_run = uint(low.x) / 32u, runs = uint(high.x) / 32u - first_run + 1u, count = exists ? runs * uint(high.y - low.y + 1) : 0u;
+    uint number = LARGE ? gl_WorkGroupID.z * 64u + gl_LocalInvocationID.x : 0u, apart = LARGE ? gl_NumWorkGroups.z * 64u : 1u;
     do {
-        uint touched = 0u, k = 0u;
+        uvec2 place = split(min(number, max(count, 1u) - 1u), runs);
+        uint run = first_run + place.x, row = uint(low.y) + place.y;
+        int before = max(low.x - 32 * int(run), 0), last = min(high.x - 32 * int(run), 31);
+        uint busy = number < count ? tiles[row * runs_of_row() + run].y & ~0u << before & ~0u >> (31 - last) : 0u, touched = 0u;
         do {
-            uint number = min(first + k * apart, max(count, 1u) - 1u);
-            uint row = uint((float(number) + 0.5) * inverse_columns);
-            ivec2 tile = low + ivec2(number - row * columns, row);
-            bool touches = first + k * apart < count && (masks[uint(tile.y) * frame.tiles.x + uint(tile.x)] & footprint_mask(f, tile)) != 0u;
+            uint bit = busy != 0u ? uint(findLSB(busy)) : uint(before);
+            ivec2 tile = ivec2(32u * run + bit, row);
+            bool some = busy != 0u && (masks[row * frame.tiles.x + uint(tile.x)] & footprint_mask(f, tile)) != 0u;
             // A pixel's centre is at most (3.5, 1.5) from the tile's; a quarter of a pixel more covers rounding.
             Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
             vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
-            touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
-            touched |= touches ? 1u << k : 0u;
-        } while (++k < CHUNK && first + k * apart < count);
+            touched |= some && !(min(reach.x, min(reach.y, reach.z)) < 0.0) ? 1u << bit : 0u;
+            busy &= busy - 1u;
+        } while (busy != 0u);
         uint slot = append_several(COUNTER_PAIRS, uint(bitCount(touched)));
         do {
-            bool some = touched != 0u;
-            uint number = first + (some ? uint(findLSB(touched)) : 0u) * apart;
-            uint row = uint((float(number) + 0.5) * inverse_columns);
-            uint index = (uint(low.y) + row) * frame.tiles.x + uint(low.x) + number - row * columns;
-            if (some) {
+            uint index = row * frame.tiles.x + 32u * run + (touched != 0u ? uint(findLSB(touched)) : uint(before));
+            if (touched != 0u) {
                 uint rank = atomicAdd(tiles[index].x, 1u);
                 bool kept = slot < frame.pair_capacity;
                 uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
@@ -65,6 +77,11 @@ void main() {
             slot++;
             touched &= touched - 1u;
         } while (touched != 0u);
-        first += CHUNK * apart;
-    } while (first < count);
+        number += apart;
+    } while (number < count);
+}
+
+void main() {
+    if (STEP == BIN_BUSY) find_busy();
+    else make_pairs();
 }

@@ -10,7 +10,8 @@
 //   ORDER    a layer: finds its place in the order of depth
 // Reads: pairs or, for tiles with pairs that were not kept (`every`), all triangles; tiles, masks, tile_lists, offsets.
 // Writes: candidates, as include/owners.glsl describes.
-// A triangle is tested against the rectangle around a run of samples before it is tested at each of them.
+// A team shows triangles to samples: each member holds a triangle and some samples of a block, and the members' triangles are shown
+// one after the other, with their IDs and planes shuffled, to all samples of the cells that they may touch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -23,43 +24,96 @@
 #include "include/touches.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = SCATTER_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
+layout(constant_id = SCATTER_CONSTANT_HAS_BLEND) const bool HAS_BLEND = false;
+layout(constant_id = SCATTER_CONSTANT_ROWS) const uint ROWS = 8u;      // samples of a block that a member holds
 layout(push_constant) uniform Push {
     uint step_;             // one of SCATTER_
     uint every;             // 1: tries every triangle in the tiles that have lost pairs
 } push;
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
-const uint RUNS = 32u;                                  // runs of neighbouring samples in a cell
-
-shared vec4 rectangles[RUNS];                           // the rectangle around the offsets of a run: middle, half of the sides
+const uint BLOCK = ROWS * TEAM;
 
 struct Cell {
     uint first_owner;
-    vec2 at, half_side;     // as in block.glsl
+    vec2 at;                // as in block.glsl
     mat2 pixel;
     uint location;
     uint samples;
 };
 
-uint run_length() { return (frame.sample_count + RUNS - 1u) / RUNS; }
+vec2 offset[ROWS];          // offsets of this member's samples of the block from the middle of a pixel
+vec2 block_middle, block_reach;     // the rectangle around all offsets of the block: middle, half of the sides
 
-void enclose_runs() {
-    uint run = gl_LocalInvocationID.x, length_ = run_length();
-    if (!POINTS && run < RUNS) {
-        vec2 low = vec2(1.0), high = vec2(-1.0);
-        uint i = 0u;
-        do {
-            vec2 offset = texelFetch(pattern_offsets, int(min(run * length_ + i, frame.sample_count - 1u))).xy;
-            low = min(low, offset);
-            high = max(high, offset);
-        } while (++i < length_);
-        rectangles[run] = vec4(0.5 * (low + high), 0.5 * (high - low) + ROUNDING);
+uint sample_of(uint block, uint row) { return (block * ROWS + row) * TEAM + member(); }
+
+void load_offsets(uint block) {
+    vec2 low = vec2(1.0), high = vec2(-1.0);
+    [[unroll]] for (uint row = 0u; row < ROWS; row++) {
+        offset[row] = POINTS ? vec2(0.0) : texelFetch(pattern_offsets, int(min(sample_of(block, row), frame.sample_count - 1u))).xy;
+        low = min(low, offset[row]);
+        high = max(high, offset[row]);
     }
-    barrier();
+    low = vec2(team_min(low.x), team_min(low.y));
+    high = vec2(team_max(high.x), team_max(high.y));
+    block_middle = 0.5 * (low + high);
+    block_reach = 0.5 * (high - low) + ROUNDING;
+}
+
+uint location_of(Cell cell, uint s) { return POINTS ? location_at(cell.location + min(s, max(cell.samples, 1u) - 1u)) : cell.location; }
+
+bool passes_alpha(Candidate t, vec2 center, Cell cell, vec2 p, mat2 pixel) {
+    if (!HAS_MASK || t.id <= frame.first_mask) return true;
+    return alpha_passes(alpha_test(t.id - 1u, center, POINTS ? p : cell.at, frame.sample_footprint * pixel), p);
+}
+
+// Updates the owner of sample `s` at `p`, which a triangle covers at depth `d`.
+void update(Candidate t, vec2 center, Cell cell, uint s, vec2 p, float d) {
+    uint o = cell.first_owner + s, depth = floatBitsToUint(d);
+    bool of_depths = push.step_ == SCATTER_DEPTHS;
+    if (!HAS_BLEND || push.step_ <= SCATTER_IDS) {
+        mat2 pixel = POINTS ? location_jacobian(location_of(cell, s)) : cell.pixel;
+        if (passes_alpha(t, center, cell, p, pixel)) atomicMax(candidates_out[o][of_depths ? 0 : 1], of_depths ? depth : ~t.id);
+    } else if (push.step_ == SCATTER_COUNT) {
+        atomicAdd(candidates_out[o].w, 1u);
+    } else {
+        uint count = candidates_out[o].w;
+        if (count == 0u || count == NO_ROOM_FOR_LAYERS) return;
+        uint slot = atomicAdd(candidates_out[o].z, 1u);
+        candidates_out[slot] = uvec4(depth, t.id, o, 0u);
+    }
+}
+
+// Shows a triangle to the samples of a cell that are in the block.
+void show_to_cell(Candidate t, vec2 center, Cell cell, uint block) {
+    vec3 least = thresholds(t);
+    vec2 place[ROWS];
+    float depth[ROWS];
+    uint wins = 0u;             // a bit for each row
+    [[unroll]] for (uint row = 0u; row < ROWS; row++) {
+        uint s = sample_of(block, row);
+        bool exists = s < cell.samples;
+        if (POINTS) place[row] = place_in_tile(texelFetch(locations, int(2u * location_of(cell, s))));
+        else place[row] = cell.at + (LOCATIONS ? cell.pixel * offset[row] : offset[row]);
+        bool there = covers(t, least, place[row], depth[row]) && depth[row] > 0.0 && exists;
+        uint seen = candidates_out[exists ? cell.first_owner + s : 0u].x, own = floatBitsToUint(depth[row]);
+        wins |= there && (push.step_ == SCATTER_IDS ? own == seen : own > seen) ? 1u << row : 0u;
+    }
+    do {
+        uint row = wins != 0u ? uint(findLSB(wins)) : 0u;
+        vec2 p = place[0];
+        float d = depth[0];
+        [[unroll]] for (uint other = 1u; other < ROWS; other++) {
+            p = row == other ? place[other] : p;
+            d = row == other ? depth[other] : d;
+        }
+        if (wins != 0u) update(t, center, cell, sample_of(block, row), p, d);
+        wins &= wins - 1u;
+    } while (team_or(wins) != 0u);
 }
 
 Cell pixel_cell(uint first, uint number, uint bit) {
-    return Cell(owner_of(first, number, 0u), vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5), vec2(0.5 + ROUNDING), mat2(1.0), 0u, frame.sample_count);
+    return Cell(owner_of(first, number, 0u), vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5), mat2(1.0), 0u, frame.sample_count);
 }
 
 Cell located_cell(uint first, uint number, uint first_cell) {
@@ -68,91 +122,66 @@ Cell located_cell(uint first, uint number, uint first_cell) {
     uvec2 held = texelFetch(location_cells, at + 1).xy;
     // The Jacobians of POINTS are those of their own locations, not of the cell.
     mat2 pixel = POINTS ? mat2(1.0) : location_jacobian(held.x);
-    return Cell(owner_of(first, number, 0u), square.xy, square.zw, pixel, held.x, POINTS ? held.y : frame.sample_count);
+    return Cell(owner_of(first, number, 0u), square.xy, pixel, held.x, POINTS ? held.y : frame.sample_count);
 }
 
-// The runs of a cell's samples that a triangle may touch, a bit each.
-uint runs_touched(Candidate t, Cell cell) {
-    if (LOCATIONS && !test_rectangle(t, cell.at, cell.half_side, HAS_MASK).touches) return 0u;
-    if (POINTS) return ~0u >> (32u - cell.samples);
-    uint runs = 0u, run = 0u, length_ = run_length();
+// Which of `count` cells of locations, at most 32 from number `first` on, a triangle may touch, a bit each.
+uint cells_touched(Candidate t, uint first, uint count) {
+    uint touched = 0u;
+    [[unroll]] for (uint part = 0u; part < 32u; part += TEAM) {
+        uint number = min(part + member(), max(count, 1u) - 1u);
+        vec4 square = uintBitsToFloat(texelFetch(location_cells, int(2u * (first + number))));
+        touched |= team_ballot(part + member() < count && test_rectangle(t, square.xy, square.zw, HAS_MASK).touches) << part;
+    }
+    return touched;
+}
+
+// Shows a triangle to cells of a tile: `cells` has a bit for each pixel; of locations it is their number, from number `from` on.
+void show_to_tile(Candidate t, uint tile, uint cells, uint from, uint block) {
+    uint first = tiles[tile].y, word = LOCATIONS ? 0u : masks[tile], first_cell = LOCATIONS ? tile_loads[tile].z : 0u, passed = 0u;
+    vec2 center = tile_center(ivec2(split(tile, frame.tiles.x)));
     do {
-        vec4 r = rectangles[run];
-        vec2 half_side = abs(cell.pixel[0]) * r.z + abs(cell.pixel[1]) * r.w + (LOCATIONS ? ROUNDING * cell.half_side : vec2(0.0));
-        bool touches = run * length_ < cell.samples && test_rectangle(t, cell.at + cell.pixel * r.xy, half_side, HAS_MASK).touches;
-        runs |= touches ? 1u << run : 0u;
-    } while (++run < RUNS);
-    return runs;
+        uint touched = LOCATIONS ? cells_touched(t, first_cell + from + passed, cells - min(cells, passed)) : cells;
+        do {
+            bool some = touched != 0u;
+            uint bit = some ? uint(findLSB(touched)) : 0u, number = LOCATIONS ? from + passed + bit : uint(bitCount(word & ((1u << bit) - 1u)));
+            Cell cell = LOCATIONS ? located_cell(first, number, first_cell) : pixel_cell(first, number, bit);
+            // Cells without room for their owners are skipped here, and counted by `sample`.
+            cell.samples = some && cell.first_owner + frame.sample_count <= owners_room() ? cell.samples : 0u;
+            show_to_cell(t, center, cell, block);
+            touched &= touched - 1u;
+        } while (touched != 0u);
+        passed += 32u;
+    } while (LOCATIONS && passed < cells);
 }
 
-bool passes_alpha(Candidate t, vec2 center, Cell cell, vec2 p, mat2 pixel) {
-    if (!HAS_MASK || t.id <= frame.first_mask) return true;
-    return alpha_passes(alpha_test(t.id - 1u, center, POINTS ? p : cell.at, frame.sample_footprint * pixel), p);
-}
-
-// Shows a triangle to sample `s` of a cell.
-void show_to(Candidate t, vec3 least, vec2 center, Cell cell, uint s) {
-    uint location = POINTS ? location_at(cell.location + s) : cell.location;
-    vec2 p = POINTS ? place_in_tile(texelFetch(locations, int(2u * location))) : cell.pixel * texelFetch(pattern_offsets, int(s)).xy + cell.at;
-    if (!LOCATIONS) p = cell.at + texelFetch(pattern_offsets, int(s)).xy;
-    mat2 pixel = POINTS ? location_jacobian(location) : cell.pixel;
-    float d;
-    bool there = covers(t, least, p, d) && d > 0.0;
-    if (!there) return;
-    uint o = cell.first_owner + s, depth = floatBitsToUint(d);
-    uvec4 owner = candidates_out[o];
-    if (push.step_ <= SCATTER_IDS) {
-        bool of_depths = push.step_ == SCATTER_DEPTHS;
-        bool wins = of_depths ? depth > owner.x : depth == owner.x && ~t.id > owner.y;
-        if (!wins || !passes_alpha(t, center, cell, p, pixel)) return;
-        if (of_depths) atomicMax(candidates_out[o].x, depth);
-        else atomicMax(candidates_out[o].y, ~t.id);
-    } else if (depth > owner.x) {
-        if (push.step_ == SCATTER_COUNT) {
-            atomicAdd(candidates_out[o].w, 1u);
-        } else if (owner.w != 0u && owner.w != NO_ROOM_FOR_LAYERS) {
-            uint slot = atomicAdd(candidates_out[o].z, 1u);
-            candidates_out[slot] = uvec4(depth, t.id, o, 0u);
-        }
-    }
-}
-
-// Shows triangle `t` to cells `from` to before `to` of a tile.
+// Shows triangle `t` of each member to cells `from` to before `to` of the member's tile; to none if there are no such cells.
 void show(uint t, uint tile, uint from, uint to) {
-    bool blend = t >= frame.first_blend, layers = push.step_ >= SCATTER_COUNT;
-    if (blend != layers || from >= to) return;
-    uint first = tiles[tile].y, word = LOCATIONS ? 0u : masks[tile], first_cell = LOCATIONS ? tile_loads[tile].z : 0u;
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
-    vec2 center = tile_center(tile_at);
     Triangle k = triangle_at(t);
-    Setup s = setup_triangle(k.v0, k.v1, k.v2, center, single_sided(k.word));
+    Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), single_sided(k.word));
     Footprint f = footprint_of(k.v0, k.v1, k.v2);
-    if (!k.exists || !s.valid || f.outside) return;
-    Candidate c = Candidate(s.a, s.b, s.c, s.depth, s.near, s.far, t + 1u, ~0u);
-    vec3 least = thresholds(c);
-    uint left = 0u;
-    if (!LOCATIONS) {
-        uint before = (1u << bit_of_cell(word, from)) - 1u, after = to < bitCount(word) ? ~((1u << bit_of_cell(word, to)) - 1u) : 0u;
-        left = word & pixels_touched(s) & footprint_mask(f, tile_at) & ~before & ~after;
+    Candidate held = Candidate(s.a, s.b, s.c, s.depth, s.near, s.far, t + 1u, ~0u);
+    bool shows = from < to && (t >= frame.first_blend) == (push.step_ >= SCATTER_COUNT) && k.exists && s.valid && !f.outside;
+    uint cells = 0u;
+    if (LOCATIONS) {
+        cells = shows ? to - from : 0u;
+    } else {
+        uint word = masks[tile], before = (1u << bit_of_cell(word, from)) - 1u;
+        uint after = to < bitCount(word) ? ~((1u << bit_of_cell(word, to)) - 1u) : 0u;
+        cells = shows ? word & footprint_mask(f, tile_at) & ~before & ~after : 0u;
     }
-    uint number = from;
-    // Cells without room for their owners are skipped here, and counted by `sample`.
-    while (LOCATIONS ? number < to : left != 0u) {
-        uint bit = uint(findLSB(left));
-        if (!LOCATIONS) number = uint(bitCount(word & ((1u << bit) - 1u)));
-        Cell cell = LOCATIONS ? located_cell(first, number, first_cell) : pixel_cell(first, number, bit);
-        left &= left - 1u;
-        number++;
-        uint runs = cell.first_owner + frame.sample_count <= owners_room() ? runs_touched(c, cell) : 0u;
-        uint length_ = POINTS ? 1u : run_length();
-        while (runs != 0u) {
-            uint begin = uint(findLSB(runs)) * length_, i = begin;
-            runs &= runs - 1u;
-            do {
-                show_to(c, least, center, cell, i);
-            } while (++i < min(begin + length_, cell.samples));
-        }
-    }
+    uint block = 0u;
+    do {
+        load_offsets(block);
+        uint left = LOCATIONS ? cells : cells & pixels_touched(s, block_middle, block_reach), busy = team_ballot(left != 0u);
+        do {
+            uint of = busy != 0u ? uint(findLSB(busy)) : 0u;
+            show_to_tile(shuffle_candidate(held, of), of_member(tile, of), of_member(left, of), from, block);
+            busy &= busy - 1u;
+        } while (busy != 0u);
+        block++;
+    } while (block * BLOCK < frame.sample_count);
 }
 
 uint cells_of_tile(uint tile) { return LOCATIONS ? tile_loads[tile].x : uint(bitCount(masks[tile])); }
@@ -200,8 +229,7 @@ void main() {
         if (i < min(counters[COUNTER_LAYERS], owners_room())) order(i);
         return;
     }
-    enclose_runs();
-    uint some = cells_of_scatter(), from = gl_WorkGroupID.z * some;
+    uint some_cells = cells_of_scatter(), from = gl_WorkGroupID.z * some_cells;
     uint number = workgroup_number(), tile = 0u, to = 0u;
     bool every = push.every != 0u;
     if (every) {
@@ -212,7 +240,7 @@ void main() {
         uvec4 group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(item, 0u, CELLS_OF_ENTRY, entry_part(entry) * CELLS_OF_ENTRY);
         tile = group.x;
         if ((tiles[tile].w & TILE_OVERFLOW) == 0u) return;
-        to = min(min(from + some, group.z) + group.w, cells_of_tile(tile));
+        to = min(min(from + some_cells, group.z) + group.w, cells_of_tile(tile));
         from += group.w;
     }
     uint count = every ? frame.triangle_count : min(counters[COUNTER_PAIRS], frame.pair_capacity);
@@ -223,15 +251,16 @@ void main() {
         bool unlisted = in_round(its) && (tiles[its].w & (TILE_LISTED | (every ? 0u : TILE_OVERFLOW))) == 0u;
         wanted |= first + k * 64u < count && unlisted ? 1u << k : 0u;
     } while (++k < pairs_of_scatter());
-    while (wanted != 0u) {
-        uint t = first + uint(findLSB(wanted)) * 64u;
+    do {
+        bool some = wanted != 0u;
+        uint t = min(first + (some ? uint(findLSB(wanted)) : 0u) * 64u, max(count, 1u) - 1u);
         wanted &= wanted - 1u;
         if (!every) {
             uvec2 pair = texelFetch(pairs, int(t)).xy;
             t = pair.x;
             tile = pair_tile(pair);
-            to = min(from + some, cells_of_tile(tile));
+            to = min(from + some_cells, cells_of_tile(tile));
         }
-        show(t, tile, from, to);
-    }
+        show(t, tile, from, some ? to : from);
+    } while (team_any(wanted != 0u));
 }

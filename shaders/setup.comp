@@ -40,10 +40,10 @@ void set_up(uint i) {
 void main() {
     uint count = min(counters[COUNTER_PAIRS], frame.pair_capacity);
     uint first = workgroup_number() * 64u * PAIRS_OF_SETUP + gl_LocalInvocationID.x;
-    uint wanted = 0u;
+    uint wanted = 0u, first_tile = counters[COUNTER_ROUND_FIRST], tile_end = counters[COUNTER_NEXT_TILE];
     [[unroll]] for (uint k = 0u; k < PAIRS_OF_SETUP; k++) {
         uint i = first + k * 64u, tile = pair_tile(texelFetch(pairs, int(min(i, count - 1u))).xy);
-        wanted |= i < count && in_round(tile) ? 1u << k : 0u;
+        wanted |= i < count && tile >= first_tile && tile < tile_end ? 1u << k : 0u;
     }
     while (wanted != 0u) {
         set_up(first + uint(findLSB(wanted)) * 64u);

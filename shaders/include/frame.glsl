@@ -82,7 +82,7 @@ layout(std430, set = SET_DATA, binding = BINDING_DISPLAY_OUT) writeonly buffer D
 layout(std430, set = SET_DATA, binding = BINDING_COLOR) buffer Color { vec4 color[]; };
 layout(std430, set = SET_DATA, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };
 layout(std430, set = SET_DATA, binding = BINDING_MASKS) buffer Masks { uint masks[]; };
-layout(std430, set = SET_DATA, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first one, first header, flags; then stretches, see load.glsl
+layout(std430, set = SET_DATA, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first one (before: bits of a run, see bin.comp), first header, flags; then stretches, see load.glsl
 layout(std430, set = SET_DATA, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = SET_DATA, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
 layout(set = SET_DATA, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, see setup.comp; or see owners.glsl

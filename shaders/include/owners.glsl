@@ -20,9 +20,9 @@ uint owners_room() { return 4u * frame.list_capacity; }
 uint candidates_of_owners(uint cells) { return (cells * frame.sample_count + 3u) / 4u; }
 
 // The work of an invocation of `scatter` is limited, since the driver ends long loops (MOST_TRIPS of workarounds.glsl). These
-// functions return the trips that a triangle may take in a cell, the number of triangles (or pairs) of an invocation, and the
-// number of a tile's cells that it shows each triangle to.
-uint trips_of_cell() { return 65u + frame.sample_count; }
+// functions return the most trips that its team takes to show triangles to a cell, those of its members one after the other, the number
+// of triangles (or pairs) of an invocation, and the number of a tile's cells that it shows each triangle to.
+uint trips_of_cell() { return 8u * 18u * ((frame.sample_count + 63u) / 64u); }
 uint pairs_of_scatter() { return clamp(56000u / (32u * trips_of_cell()), 1u, 8u); }
 uint cells_of_scatter() { return 56000u / (pairs_of_scatter() * trips_of_cell()); }
 

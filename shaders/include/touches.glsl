@@ -15,13 +15,18 @@ uint columns_within(vec3 a, vec3 e) {
     return misses ? 0u : ((1u << max(high, low)) - 1u) & ~((1u << low) - 1u);
 }
 
-// The pixels of the tile in whose squares the triangle may cover something, a bit each. Squares are larger by 1/64 of a pixel on
-// each side, for rounding.
-uint pixels_touched(Setup s) {
-    vec3 e = s.c - 3.5 * s.a - 1.5 * s.b + (0.5 + 1.0 / 64.0) * (abs(s.a) + abs(s.b));
+// The pixels of the tile in which the triangle may cover something of a rectangle, a bit each. The rectangle is given by its middle,
+// relative to that of the pixel, and half of its sides.
+uint pixels_touched(Setup s, vec2 middle, vec2 half_side) {
+    vec3 e = s.c + (middle.x - 3.5) * s.a + (middle.y - 1.5) * s.b + half_side.x * abs(s.a) + half_side.y * abs(s.b);
     uint word = 0u;
     [[unroll]] for (uint row = 0u; row < 4u; row++) word |= columns_within(s.a, e + float(row) * s.b) << (8u * row);
     return word;
+}
+
+// The pixels in whose squares it may cover something. Squares are larger by 1/64 of a pixel on each side, for rounding.
+uint pixels_touched(Setup s) {
+    return pixels_touched(s, vec2(0.0), vec2(0.5 + 1.0 / 64.0));
 }
 
 #endif

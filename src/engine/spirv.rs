@@ -355,29 +355,24 @@ impl Compiled for Attributes {
     }
 }
 
-/// What is pushed to `shaders/bin.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct BinPush {
-    pub large: u32,
-}
-
 /// Constants of `shaders/bin.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bin {
+    pub step: u32,
     pub instanced: bool,
 }
 
 impl Default for Bin {
     fn default() -> Self {
         Self {
+            step: 1,
             instanced: false,
         }
     }
 }
 
 impl Specialized for Bin {
-    type Push = BinPush;
+    type Push = ();
 
     const INTERFACE: &'static Interface = &Interface {
         name: "bin",
@@ -394,13 +389,14 @@ impl Specialized for Bin {
             Use { set: 1, binding: frame_set::SURVIVORS, access: Access::Read },
             Use { set: 1, binding: frame_set::PAIRS_OUT, access: Access::Write },
         ],
-        push_bytes: 4,
+        push_bytes: 0,
         invocations: Invocations::Fixed(64),
         by_teams: false,
     };
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(0, self.step)
             .flag(23, self.instanced)
     }
 }
@@ -2220,20 +2216,28 @@ pub struct ScatterPush {
 /// Constants of `shaders/scatter.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scatter {
+    pub team: u32,
     pub has_mask: bool,
+    pub has_blend: bool,
+    pub rows: u32,
     pub locations: bool,
     pub points: bool,
     pub instanced: bool,
+    pub teams: u32,
     pub cells_of_entry: u32,
 }
 
 impl Default for Scatter {
     fn default() -> Self {
         Self {
+            team: 8,
             has_mask: false,
+            has_blend: false,
+            rows: 8,
             locations: false,
             points: false,
             instanced: false,
+            teams: 1,
             cells_of_entry: 8,
         }
     }
@@ -2275,10 +2279,14 @@ impl Specialized for Scatter {
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(1, self.team)
             .flag(2, self.has_mask)
+            .flag(3, self.has_blend)
+            .with(5, self.rows)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(23, self.instanced)
+            .with(24, self.teams)
             .with(26, self.cells_of_entry)
     }
 }
@@ -3208,7 +3216,8 @@ pub enum Argument {
     ResolveMasked = 23,
     ResolveBlended = 24,
     ResolveUnlisted = 25,
-    Shade = 26,
+    BinBusy = 26,
+    Shade = 27,
 }
 
 impl Argument {
@@ -3240,6 +3249,7 @@ impl Argument {
         "resolve masked",
         "resolve blended",
         "resolve unlisted",
+        "bin busy",
         "shade",
     ];
 }
@@ -3260,6 +3270,9 @@ pub const DETECT_EXACT: u32 = 2;
 pub const DETECT_BLENDED: u32 = 3;
 pub const DETECT_EVERY: u32 = 4;
 pub const DETECT_SECOND_DIFFERENCES: u32 = 5;
+pub const BIN_BUSY: u32 = 0;
+pub const BIN_SMALL: u32 = 1;
+pub const BIN_LARGE: u32 = 2;
 pub const DISTRIBUTE_NUMBER: u32 = 0;
 pub const DISTRIBUTE_LAY_OUT: u32 = 1;
 pub const DISTRIBUTE_ARRANGE: u32 = 2;

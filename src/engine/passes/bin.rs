@@ -6,15 +6,15 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
-/// Lists the pairs, and counts the pairs of each tile: first for small triangles, then for large ones.
+/// Lists the pairs, and counts the pairs of each tile: of small triangles and of large ones.
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
 pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content) -> Result<Pass, VulkanError> {
     let instanced = scene.is_instanced();
-    let bin = layout.kernel(&spirv::Bin { instanced })?;
-    Ok(Pass::named(spirv::Bin::INTERFACE).dispatch(arguments::dispatch(layout, CountedBy::Cull)?).unordered([
-        bin.dispatch(spirv::BinPush { large: 0 }, Argument::BinSmall),
-        bin.dispatch(spirv::BinPush { large: 1 }, Argument::BinLarge),
-    ]))
+    let step = |step, argument: Argument| Ok(layout.kernel(&spirv::Bin { step, instanced })?.dispatch((), argument));
+    Ok(Pass::named(spirv::Bin::INTERFACE)
+        .dispatch(arguments::dispatch(layout, CountedBy::Cull)?)
+        .dispatch(step(spirv::BIN_BUSY, Argument::BinBusy)?)
+        .unordered([step(spirv::BIN_SMALL, Argument::BinSmall)?, step(spirv::BIN_LARGE, Argument::BinLarge)?]))
 }

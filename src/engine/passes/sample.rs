@@ -250,7 +250,7 @@ pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, blocks: &SampleBlo
     }
     // Tiles without a list come last, because `scatter` overwrites the memory of lists.
     if let Some(kernel) = unlisted {
-        pass = pass.then(scatter::pass(layout, scene, options)?).dispatch(kernel);
+        pass = pass.then(scatter::pass(layout, scene, blocks)?).dispatch(kernel);
     }
     Ok(pass)
 }

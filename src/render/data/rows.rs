@@ -332,8 +332,8 @@ fn read_by_shader(headless: &mut Headless, scene: &Scene, pose: &Pose, instanced
         of_frame.write(&shown);
         own.write(&[(FIELDS, (&fields).into())]);
     }
-    // The shader's only constant is one of `bin`, too.
-    let constants = spirv::Bin { instanced }.constants();
+    // The shader's only constant is one of `bin`, too. Vulkan ignores the other one.
+    let constants = spirv::Bin { step: spirv::BIN_SMALL, instanced }.constants();
     let code = include_bytes!("../../../tests/rows/shaders/spirv/rows.spv");
     let pipeline = compute_pipeline(&layout, code, &INTERFACE, &constants, None).unwrap();
     let triangle = if instanced { MeshInstance::ALIGNMENT } else { 1 };
