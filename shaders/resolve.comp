@@ -1,9 +1,10 @@
 // resolve: computes the colour of each superpixel from its shaded fragments. A team takes an entry of a work list, and a
 // member a cell of it.
 // The colours of fragments are tone-mapped one by one, then averaged in linear light; alpha is coverage.
-// Reads: tile_lists, tiles, masks, headers, fragments, shaded. Writes: color and, if asked for, display and marks.
+// Reads: tile_lists, tiles, masks, headers, fragments, shaded. Writes: color and, if asked for, display, marks and spreads.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
 // LOCATIONS: cells are locations, and colours are stored by the index of a location.
+// FILTERED, a variant: the spread of each superpixel is stored for `pixel_filter`.
 // LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours. With BY_LINES this is so only
 // of the cells that `sample_lines` left.
 #version 460
@@ -16,6 +17,10 @@
 #include "include/seen_beside.glsl"
 #ifdef DRAWN
 #include "include/behind.glsl"
+#endif
+#ifdef FILTERED
+#include "include/spread.glsl"
+layout(std430, set = SET_DATA, binding = BINDING_SPREADS_OUT) writeonly buffer SpreadsOut { uvec4 spreads_out[]; };
 #endif
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
@@ -37,6 +42,36 @@ void write(uvec2 pixel, vec4 c) {
     if (DISPLAY_CODES) display_out[at] = display_code(c);
     if (GROWS) mark_contrasting_neighbours(pixel, display_code(c));
 }
+
+#ifdef FILTERED
+// Sums over the fragments of a cell: of their samples' spread, weighted by their number, and the same times their colours.
+struct Spread {
+    float samples[8];
+    vec4 light[8];
+};
+
+void add_spread(inout Spread s, uint fragment, float weight, vec4 c) {
+    float own[8];
+    unpack_spread(texelFetch(fragments, int(frame.fragment_capacity + fragment)), own);
+    [[unroll]] for (uint i = 0u; i < 8u; i++) {
+        float weighted = weight * own[i];
+        s.samples[i] += weighted;
+        s.light[i] += weighted * c;
+    }
+}
+
+// Stores the spread of a pixel of this `mean`. The samples' own spreads should add up to that of the cell, which is 0. What is missing
+// is the spread of the background, if samples see it, and otherwise an error of rounding, which shows the mean.
+void write_spread_of(uvec2 pixel, Spread s, vec4 mean, vec4 missing, float share) {
+    if (any(greaterThanEqual(pixel, frame.size))) return;
+    uint at = 4u * (pixel.y * frame.size.x + pixel.x);
+    [[unroll]] for (uint channel = 0u; channel < 4u; channel++) {
+        float spread[8], each = share / max(mean[channel], 1e-30);
+        [[unroll]] for (uint i = 0u; i < 8u; i++) spread[i] = (s.light[i][channel] - s.samples[i] * missing[channel]) * each;
+        spreads_out[at + channel] = pack_spread(spread);
+    }
+}
+#endif
 
 void main() {
     uint number = team_number();
@@ -61,6 +96,13 @@ void main() {
     uint filled = on_lines ? 1u : blocks;
     uint block = 0u;
     bool left_over = false;
+#ifdef FILTERED
+    Spread spread;
+    [[unroll]] for (uint i = 0u; i < 8u; i++) {
+        spread.samples[i] = 0.0;
+        spread.light[i] = vec4(0.0);
+    }
+#endif
     do {
         uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.fragment_capacity - 1u)] : uvec2(0u);
         left_over = left_over || h.y == LEFT_BLOCK;
@@ -73,6 +115,9 @@ void main() {
             vec4 own = texelFetch(shaded, int(at)), c = layered ? own : to_output(vec4(own.rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;
+#ifdef FILTERED
+            add_spread(spread, at, weight, seen ? c : vec4(0.0));
+#endif
         }
     } while (++block < filled);
     uvec2 place = LOCATIONS && mine ? uvec2(texelFetch(location_cells, int(2u * (location_group.y + cell) + 1u)).x, 0u) : corner + uvec2(bit & 7u, bit >> 3);
@@ -84,4 +129,7 @@ void main() {
 #endif
     sum = (sum + background * uncovered) * share;
     if (mine && !left_over) write(place, sum);
+#ifdef FILTERED
+    if (mine && !left_over) write_spread_of(place, spread, sum, uncovered > 1e-3 ? background : sum, share);
+#endif
 }

@@ -44,6 +44,8 @@ const uint MOST_TOUCHING = 64u;             // candidates that touch a cell; wit
 #include "include/variation.glsl"
 #include "include/lines.glsl"
 #include "include/order.glsl"
+#include "include/fragment_spread.glsl"
+#include "include/line_spread.glsl"
 
 // The candidates that touch each cell: words with a bit for each of 32 candidates of the tile's list, without words that are 0, and the
 // number of the first of these candidates.
@@ -80,6 +82,7 @@ struct Slot {
     uint fragments;           // number of fragments that it makes
     uint count;             // number of its samples
     uint place;             // place in the middle of its samples
+    uvec4 spread;           // their spread, see spread.glsl
 };
 
 Slot slots[HELD];
@@ -500,7 +503,7 @@ bool find_owners(inout Cell cell) {
         shown[r] = 0u;
         open_[r] = 0u;
     }
-    [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u);
+    [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u, uvec4(0u));
     State s = State(0u, 3.4e38, false, false, false, false, 0u, vec4(0.0), 0.0, 0.0);
     Key limit = Key(~0u, 0u);       // candidates up to this key are done
     bool directed = false;
@@ -569,8 +572,11 @@ uint count_fragments(Cell cell) {
             fragments_ = (own & 0xffffu) + min(own >> 16, 1u);
         }
         uint place = place_of_bits(sums, cell.columns, false);
+        uvec4 spread = uvec4(0u);
+        if (SPREAD != SPREAD_NONE) spread = spread_of_bits(bits, count_of(sums), cell.columns);
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool here = slot == h * TEAM + member() && slot < used;
+            if (SPREAD != SPREAD_NONE) slots[h].spread = here ? spread : slots[h].spread;
             slots[h].count = here ? count_of(sums) : slots[h].count;
             slots[h].place = here ? place : slots[h].place;
             slots[h].fragments = here ? fragments_ : slots[h].fragments;
@@ -590,7 +596,10 @@ uint weight_of(uint samples) {
 void write_singles(Cell cell, uint singles, uint base) {
     [[unroll]] for (uint h = 0u; h < HELD; h++) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
-        if ((singles & bit) != 0u) fragments_out[base + before] = uvec4(cell.id, slots[h].id, slots[h].place, weight_of(slots[h].count));
+        if ((singles & bit) != 0u) {
+            fragments_out[base + before] = uvec4(cell.id, slots[h].id, slots[h].place, weight_of(slots[h].count));
+            if (SPREAD != SPREAD_NONE) write_spread(base + before, slots[h].spread);
+        }
     }
 }
 
@@ -620,7 +629,12 @@ uint write_parts(Cell cell, bool exists, uint slot, uint base) {
     sums = team_add(sums);
     bool writes = (member() & sharing_lanes(grid)) == 0u;
     own = writes ? own : 0u;
-    if (member() == 0u && sums.x != 0u) fragments_out[base] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
+    uvec4 spread = uvec4(0u);
+    if (SPREAD != SPREAD_NONE) spread = spread_of_bits(rest, count_of(sums), cell.columns);
+    if (member() == 0u && sums.x != 0u) {
+        fragments_out[base] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
+        if (SPREAD != SPREAD_NONE) write_spread(base, spread);
+    }
     uint of_rest = sums.x != 0u ? 1u : 0u, at = base + of_rest + team_before(own), all = of_rest + team_add(own);
     uint steps = team_max(own), step = 0u;
     do {
@@ -646,7 +660,11 @@ uint write_parts(Cell cell, bool exists, uint slot, uint base) {
                 sums += grid.lines > span ? others : uvec2(0u);
             }
         }
-        if (writes && fields != 0u) fragments_out[at + step] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
+        if (writes && fields != 0u) {
+            uint place = place_of_bits(sums, cell.columns, wide);
+            fragments_out[at + step] = uvec4(cell.id, id, place, weight_of(count_of(sums)));
+            if (SPREAD != SPREAD_NONE) write_spread(at + step, spread_of_place(place));
+        }
     } while (++step < steps);
     return all;
 }

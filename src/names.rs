@@ -4,6 +4,7 @@ use crate::camera::panorama::PanoramaProjection;
 use crate::camera::zoom::{Shape, Transition};
 use crate::output::VideoFormat;
 use crate::render::{Detection, Footprint, MethodKind, Shading, Shadows};
+use crate::sampling::FilterShape;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use serde::{Serialize, Serializer};
@@ -36,6 +37,13 @@ names! {
         Msaa "msaa" "The device's own multisampling",
         Accumulate "accumulate" "The mean of N frames, whose cameras are moved within the pixel by a Sobol sequence",
         Rotated "rotated" "As accumulate, by the points of a rotated grid",
+    }
+    FilterShape {
+        Box "box" "The pixel itself",
+        Tent "tent" "Falls linearly to 0",
+        Gaussian "gaussian" "The softest; hides patterns best",
+        Mitchell "mitchell" "The sharpest; has negative lobes",
+        BlackmanHarris "blackman-harris" "A bell, a little sharper than the Gaussian",
     }
     Detection {
         Contrast "contrast" "Pixels that contrast with a neighbour",

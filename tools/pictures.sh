@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Renders the pictures of the README and of docs/gallery.md again, with the commands that are printed there, and those of
-# docs/embedding-reference.md, which a test makes. Look at each picture.
+# Renders the pictures of the README, of docs/filters.md and of docs/gallery.md again, with the commands that are printed there, and
+# those of docs/embedding-reference.md, which a test makes. Look at each picture.
 #
 # Scenes that are not part of the repository (docs/scenes.md says where they come from) are expected in ../shared/scenes. If a
 # scene is missing, its pictures stay as they are. Enlarging needs ffmpeg. tools/window.sh makes the pictures of the window.
@@ -35,6 +35,31 @@ gpc bench assets/checker.glb --out "$work/head" --size 16x16 --methods none --sa
     echo scene,method,samples,gpu_ms_median
     cat "$work/front.rows"
 } >docs/bench/picture-lavapipe-22.3.csv
+
+# Pixel filters: a part of an image by each of them, enlarged, side by side. The zone plate is made of rings of equal area.
+awk 'BEGIN { rings = 180; sides = 720
+    print "ply\nformat ascii 1.0\nelement vertex " 2 * rings * sides "\nproperty float x\nproperty float y\nproperty float z"
+    print "element face " rings * sides "\nproperty list uchar int vertex_indices\nend_header"
+    for (edge = 0; edge < 2 * rings; edge++) for (i = 0; i < sides; i++) {
+        angle = 6.283185307 * i / sides; radius = sqrt(edge / (2 * rings)); print radius * cos(angle), radius * sin(angle), 0 }
+    for (ring = 0; ring < rings; ring++) for (i = 0; i < sides; i++) {
+        next_ = (i + 1) % sides; inner = 2 * ring * sides; outer = inner + sides
+        print 4, inner + i, outer + i, outer + next_, inner + next_ } }' >"$work/plate.ply"
+filters=(box tent gaussian mitchell blackman-harris)
+strip() { # NAME CROP SCENE OPTIONS...
+    local inputs=() crops='' joined='' i
+    for i in "${!filters[@]}"; do
+        gpc render "${@:3}" --filter "${filters[i]}" -o "$work/$1-$i.png" --quiet
+        inputs+=(-i "$work/$1-$i.png")
+        crops+="[$i]crop=$2,scale=iw*5:ih*5:flags=neighbor,pad=iw+4:ih:0:0:white[c$i];"
+        joined+="[c$i]"
+    done
+    ffmpeg -loglevel error -y "${inputs[@]}" -filter_complex "$crops${joined}hstack=${#filters[@]},crop=iw-4:ih:0:0" \
+        "docs/pictures/filter-$1.png"
+}
+strip wires 60:45:150:0 assets/fence.glb --size 480x270 --background '#a8c0d8'
+strip letters 60:45:180:195 assets/letters.glb --size 480x270 --background '#708090'
+strip plate 60:45:128:50 "$work/plate.ply" --eye 0,0,3 --fov 36.87 --size 256x256 --background '#000000'
 
 # Planar and superpixel sets.
 gpc render assets/letters.glb -o $out/planar.png --size 480x300 --background '#708090' --aa none --quiet

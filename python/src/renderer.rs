@@ -364,6 +364,10 @@ impl Renderer {
         if !request.layers.is_empty() || request.kind != Kind::Float32 {
             return Err(error::usage("dtype and layers: a list of locations gives colours of float32 alone"));
         }
+        let filter = request.settings.pixel_filter;
+        if !filter.is_box() {
+            return Err(error::render(RenderError::LocationFilter { shape: filter.shape }));
+        }
         let cells = CellOptions::new(request.settings.method.samples());
         let sampled = self.work(py, |inner| {
             let pinhole = camera.pinhole(&inner.surroundings(), plane)?;

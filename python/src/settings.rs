@@ -4,6 +4,7 @@ use crate::error;
 use crate::pixels::Layer;
 use clap::ValueEnum;
 use gpc::render::{MethodKind, PixelRect, SceneSettings, Settings, Shading, Shadows};
+use gpc::sampling::{FilterShape, PixelFilter};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -24,8 +25,7 @@ pub struct Request {
     pub layers: Vec<Layer>,
 }
 
-const KNOWN: &str =
-    "samples, method, contrast, shading, background, exposure, region, line_width, point_size, dtype, layers";
+const KNOWN: &str = "samples, method, filter, filter_radius, contrast, shading, background, exposure, region, line_width, point_size, dtype, layers";
 
 impl Request {
     /// Reads the keyword arguments `options` for an image of `size` = (width, height).
@@ -37,6 +37,7 @@ impl Request {
     ) -> PyResult<Self> {
         let (mut method, mut samples) = (MethodKind::Superpixel, None);
         let (mut contrast, mut shading, mut region) = (None, None, None);
+        let (mut filter, mut radius) = (FilterShape::Box, None);
         let (mut kind, mut layers) = (Kind::Float32, Vec::new());
         let mut scene = SceneSettings::default().max_memory(max_memory);
         if shadows {
@@ -47,6 +48,8 @@ impl Request {
             match name.as_str() {
                 "samples" => samples = Some(value.extract()?),
                 "method" => method = choice(&name, &value)?,
+                "filter" => filter = choice(&name, &value)?,
+                "filter_radius" => radius = value.extract()?,
                 "contrast" => contrast = value.extract()?,
                 "shading" => shading = Some(choice::<Shading>(&name, &value)?),
                 "background" => scene = scene.background(value.extract()?),
@@ -69,6 +72,8 @@ impl Request {
         let default = if method == MethodKind::Msaa { 4 } else { 64 };
         let mut settings =
             Settings::new(size[0], size[1]).method(method.with_samples(samples.unwrap_or(default))).scene(scene);
+        let filter = PixelFilter::from(filter);
+        settings = settings.pixel_filter(filter.with_radius(radius.unwrap_or(filter.radius)));
         if contrast.is_some() {
             settings = settings.map_superpixels(|options| options.contrast(contrast));
         }

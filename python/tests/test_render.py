@@ -44,6 +44,16 @@ def test_layers(renderer: gpc.Renderer) -> None:
     assert np.all(layers["samples"][layers["superpixel"]] == 64) and np.all(layers["samples"][~layers["superpixel"]] == 1)
 
 
+def test_filters(renderer: gpc.Renderer) -> None:
+    sharp = renderer.render(size=SIZE)
+    soft = renderer.render(size=SIZE, filter="gaussian")
+    softer = renderer.render(size=SIZE, filter="gaussian", filter_radius=2.5)
+    steps = [float(np.abs(np.diff(image[..., 3], axis=1)).max()) for image in (sharp, soft, softer)]
+    assert steps[0] > steps[1] > steps[2]
+    with pytest.raises(ValueError, match="radius must be from 0.5 to 2.5"):
+        renderer.render(size=SIZE, filter="tent", filter_radius=4.0)
+
+
 def test_a_region_is_a_part_of_the_image(renderer: gpc.Renderer) -> None:
     whole = renderer.render(size=SIZE)
     assert np.array_equal(whole[20:60, 30:100], renderer.render(size=SIZE, region=(30, 20, 70, 40)))

@@ -99,8 +99,10 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         fits = fits && complete;
         [[unroll]] for (uint g = 0u; g < ROWS; g++) {
             uint s = sample_of(g);
-            if (fits && s < samples)
+            if (fits && s < samples) {
                 fragments_out[base + s] = uvec4(POINTS ? location_at(cell_id + s) | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
+                if (SPREAD != SPREAD_NONE) write_spread(base + s, spread_of_place(place_of(offset[g], 1.0)));
+            }
         }
         return uvec2(base, fits ? samples : 0u);
     }
@@ -109,22 +111,34 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         next_id[g] = 0u;
         left |= sample_of(g) < samples && node[g] != ~0u ? 1u << g : 0u;
     }
-    uvec4 held;
+    uvec4 held, held_spread;
     do {
         Group s = first_group(left);
         held = lane == count ? uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node) : held;
+        if (SPREAD != SPREAD_NONE) {
+            uvec4 spread = spread_of_rows(s.rows, s.samples);
+            held_spread = lane == count ? spread : held_spread;
+        }
         left &= ~s.rows;
         count += s.samples > 0.0 ? 1u : 0u;
         beyond = count <= TEAM ? left : beyond;
     } while (team_any(left != 0u));
     uint base = allocate_fragments(complete ? count : 0u, fits);
     fits = fits && complete;
-    if (fits && lane < count) fragments_out[base + lane] = held;
+    if (fits && lane < count) {
+        fragments_out[base + lane] = held;
+        if (SPREAD != SPREAD_NONE) write_spread(base + lane, held_spread);
+    }
     // Members hold TEAM leaves. Others are written one by one.
     uint stored = TEAM;
     do {
         Group s = first_group(beyond);
-        if (fits && stored < count && member() == 0u) fragments_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
+        uvec4 spread = uvec4(0u);
+        if (SPREAD != SPREAD_NONE) spread = spread_of_rows(s.rows, s.samples);
+        if (fits && stored < count && member() == 0u) {
+            fragments_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
+            if (SPREAD != SPREAD_NONE) write_spread(base + stored, spread);
+        }
         beyond &= ~s.rows;
     } while (++stored < count);
     trips += 2u * count;

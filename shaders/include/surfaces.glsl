@@ -4,6 +4,7 @@
 #define SURFACES_GLSL
 #include "fragments.glsl"
 #include "variation.glsl"
+#include "fragment_spread.glsl"
 
 // What a block of samples sees of one triangle.
 struct Surface {
@@ -11,6 +12,7 @@ struct Surface {
     float samples;          // number of samples that see it
     vec2 sum;               // sum of their offsets
     uint parts;             // BY_PART: a bit for each part that sees it
+    uvec4 spread;           // with a pixel filter: the spread of these samples
 };
 
 // A block has at most 32 parts: runs of PART neighbouring samples (src/engine/passes/sample.rs chooses this length).
@@ -22,20 +24,39 @@ uint part_number(uint g) {
     return PARTS_A_ROW > 1u ? g * PARTS_A_ROW + member() / PART_LANES : g / ROWS_A_PART;
 }
 
+// The spread of the samples in `rows`, a bit each. `samples` is the number of these samples in the whole team. Sums are of integers, so
+// that teams of each size get the same.
+uvec4 spread_of_rows(uint rows, float samples) {
+    const float UNIT = 32767.0;
+    int sums[8];
+    [[unroll]] for (uint i = 0u; i < 8u; i++) sums[i] = 0;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+        float own[8];
+        spread_of(2.0 * offset[g], bent(offset[g]), own);
+        [[unroll]] for (uint i = 0u; i < 8u; i++) sums[i] += (rows >> g & 1u) != 0u ? int(round(UNIT * own[i])) : 0;
+    }
+    float spread[8], each = 1.0 / (UNIT * max(samples, 1.0));
+    [[unroll]] for (uint i = 0u; i < 8u; i++) spread[i] = float(int(team_add(uint(sums[i])))) * each;
+    return pack_spread(spread);
+}
+
 // What the block sees of the triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
-    Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
+    Surface r = Surface(~0u, 0.0, vec2(0.0), 0u, uvec4(0u));
+    uint rows = 0u;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
     r.id = team_min(r.id);
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         bool same = id[g] == r.id;
         r.samples += same ? 1.0 : 0.0;
         r.sum += same ? offset[g] : vec2(0.0);
+        rows |= same ? 1u << g : 0u;
         if (BY_PART) r.parts |= same ? 1u << part_number(g) : 0u;
     }
     r.samples = team_add(r.samples);
     r.sum = vec2(team_add(r.sum.x), team_add(r.sum.y));
     if (BY_PART) r.parts = team_or(r.parts);
+    if (SPREAD != SPREAD_NONE) r.spread = spread_of_rows(rows, r.samples);
     return r;
 }
 
@@ -129,11 +150,12 @@ struct HeldSurface {
     uint place;
     float samples;
     uint parts;
+    uvec4 spread;
 };
 
 // Finds the surfaces of a block, by ascending ID. Returns their number, which may exceed HELD.
 uint find_surfaces(out HeldSurface held[OWN_SURFACES]) {
-    [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) held[h] = HeldSurface(0u, 0u, 0.0, 0u);
+    [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) held[h] = HeldSurface(0u, 0u, 0.0, 0u, uvec4(0u));
     float left = 0.0;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
     left = team_add(left);
@@ -147,6 +169,7 @@ uint find_surfaces(out HeldSurface held[OWN_SURFACES]) {
             held[h].place = mine ? place_of(s.sum, s.samples) : held[h].place;
             held[h].samples = mine ? s.samples : held[h].samples;
             held[h].parts = mine ? s.parts : held[h].parts;
+            if (SPREAD != SPREAD_NONE) held[h].spread = mine ? s.spread : held[h].spread;
         }
         count += some ? 1u : 0u;
         left -= s.samples;
@@ -175,7 +198,11 @@ uvec2 record_samples(Cell cell) {
     uint base = allocate_fragments(cell.samples, fits);
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint s = sample_of(g);
-        if (fits && s < cell.samples) fragments_out[base + s] = uvec4(cell.id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
+        if (fits && s < cell.samples) {
+            uint place = place_of(offset[g], 1.0);
+            fragments_out[base + s] = uvec4(cell.id, id[g], place, floatBitsToUint(1.0));
+            if (SPREAD != SPREAD_NONE) write_spread(base + s, spread_of_place(place));
+        }
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }
@@ -205,14 +232,19 @@ uvec2 record_surfaces(Cell cell) {
     // Surfaces with one fragment: those that members hold are written at once, the others one by one.
     [[unroll]] for (uint h = 0u; h < OWN_SURFACES; h++) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
-        if (fits && (singles & bit) != 0u) fragments_out[base + before] = uvec4(cell.id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
+        if (fits && (singles & bit) != 0u) {
+            fragments_out[base + before] = uvec4(cell.id, held[h].id, held[h].place, floatBitsToUint(held[h].samples));
+            if (SPREAD != SPREAD_NONE) write_spread(base + before, held[h].spread);
+        }
     }
     uint slot = base + single_count;
     uint seen = team_max(greatest), stored = 0u;
     do {
         Surface s = surface_after(seen);
-        if (fits && stored < beyond && member() == 0u)
+        if (fits && stored < beyond && member() == 0u) {
             fragments_out[slot] = uvec4(cell.id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
+            if (SPREAD != SPREAD_NONE) write_spread(slot, s.spread);
+        }
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
@@ -235,8 +267,11 @@ uvec2 record_surfaces(Cell cell) {
             [[unroll]] for (uint h = 0u; h < ROWS; h++) {
                 vec3 part = h < PARTS_HELD ? parts[h] : vec3(0.0);
                 uint before = uint(bitCount(present & ((1u << held_part(h)) - 1u)));
-                if (fits && part.z != 0.0)
-                    fragments_out[slot + before] = uvec4(cell.id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z));
+                if (fits && part.z != 0.0) {
+                    uint place = place_of_part(part.xy, part.z, wide);
+                    fragments_out[slot + before] = uvec4(cell.id, current, place, floatBitsToUint(part.z));
+                    if (SPREAD != SPREAD_NONE) write_spread(slot + before, spread_of_place(place));
+                }
             }
             slot += uint(bitCount(present));
             pending &= pending - 1u;

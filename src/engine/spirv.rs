@@ -71,6 +71,10 @@ pub mod frame_set {
     pub const LOCATION_ORDER: Binding = Binding::new(57, "location_order", Kind::UNIFORM_TEXEL_BUFFER, 1);
     pub const CORNERS_OUT: Binding = Binding::new(58, "corners_out", Kind::STORAGE_BUFFER, 1);
     pub const INDEXED_DRAWS_OUT: Binding = Binding::new(59, "indexed_draws_out", Kind::STORAGE_BUFFER, 1);
+    pub const SPREADS: Binding = Binding::new(60, "spreads", Kind::UNIFORM_TEXEL_BUFFER, 1);
+    pub const SPREADS_OUT: Binding = Binding::new(61, "spreads_out", Kind::STORAGE_BUFFER, 1);
+    pub const FILTER_WEIGHTS: Binding = Binding::new(62, "filter_weights", Kind::STORAGE_BUFFER, 1);
+    pub const PIXEL_COLORS: Binding = Binding::new(63, "pixel_colors", Kind::UNIFORM_TEXEL_BUFFER, 1);
 }
 
 /// An element of the buffer `draws`, as in `shaders/adopt.comp`.
@@ -1586,6 +1590,85 @@ impl Compiled for PatchVertex {
     }
 }
 
+/// Constants of `shaders/pixel_filter.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelFilter {
+    pub reach: u32,
+    pub supersampled: bool,
+    pub superpixels: bool,
+    pub grown: bool,
+    pub weight_0: u32,
+    pub weight_1: u32,
+    pub weight_2: u32,
+    pub slope_1: u32,
+    pub slope_2: u32,
+    pub bend_0: u32,
+    pub bend_1: u32,
+    pub bend_2: u32,
+}
+
+impl Default for PixelFilter {
+    fn default() -> Self {
+        Self {
+            reach: 1,
+            supersampled: false,
+            superpixels: false,
+            grown: false,
+            weight_0: 0,
+            weight_1: 0,
+            weight_2: 0,
+            slope_1: 0,
+            slope_2: 0,
+            bend_0: 0,
+            bend_1: 0,
+            bend_2: 0,
+        }
+    }
+}
+
+impl Specialized for PixelFilter {
+    type Push = ();
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "pixel_filter",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FILTERED, access: Access::Write },
+            Use { set: 1, binding: frame_set::MARKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SPREADS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FILTER_WEIGHTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::PIXEL_COLORS, access: Access::Read },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Fixed(64),
+        by_teams: false,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.reach)
+            .flag(1, self.supersampled)
+            .flag(2, self.superpixels)
+            .flag(3, self.grown)
+            .with(4, self.weight_0)
+            .with(5, self.weight_1)
+            .with(6, self.weight_2)
+            .with(7, self.slope_1)
+            .with(8, self.slope_2)
+            .with(9, self.bend_0)
+            .with(10, self.bend_1)
+            .with(11, self.bend_2)
+    }
+}
+
+impl Compiled for PixelFilter {
+    fn code() -> &'static [u8] {
+        PIXEL_FILTER
+    }
+}
+
 /// Constants of `shaders/points.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Points {
@@ -1980,6 +2063,7 @@ impl Specialized for Resolve {
             Use { set: 1, binding: frame_set::MARKS, access: Access::ReadWrite },
             Use { set: 1, binding: frame_set::LOCATION_CELLS, access: Access::Read },
             Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: frame_set::SPREADS_OUT, access: Access::Write },
             Use { set: 2, binding: resolve_set::HOST_IMAGE, access: Access::Read },
         ],
         push_bytes: 0,
@@ -2020,6 +2104,7 @@ pub struct Sample {
     pub part: u32,
     pub apart: bool,
     pub long: bool,
+    pub spread: u32,
     pub locations: bool,
     pub points: bool,
     pub instanced: bool,
@@ -2041,6 +2126,7 @@ impl Default for Sample {
             part: 8,
             apart: false,
             long: false,
+            spread: 0,
             locations: false,
             points: false,
             instanced: false,
@@ -2100,6 +2186,7 @@ impl Specialized for Sample {
             .with(8, self.part)
             .flag(9, self.apart)
             .flag(12, self.long)
+            .with(13, self.spread)
             .flag(20, self.locations)
             .flag(21, self.points)
             .flag(23, self.instanced)
@@ -2120,6 +2207,7 @@ pub struct SampleLines {
     pub apart: bool,
     pub header: u32,
     pub lines: u32,
+    pub spread: u32,
     pub locations: bool,
     pub instanced: bool,
     pub teams: u32,
@@ -2138,6 +2226,7 @@ impl Default for SampleLines {
             apart: false,
             header: 64,
             lines: 16,
+            spread: 0,
             locations: false,
             instanced: false,
             teams: 1,
@@ -2192,6 +2281,7 @@ impl Specialized for SampleLines {
             .flag(9, self.apart)
             .with(10, self.header)
             .with(11, self.lines)
+            .with(13, self.spread)
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .with(24, self.teams)
@@ -3049,7 +3139,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 44] = [
+pub const INTERFACES: [&Interface; 45] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3074,6 +3164,7 @@ pub const INTERFACES: [&Interface; 44] = [
     Occlude::INTERFACE,
     PatchFragment::INTERFACE,
     PatchVertex::INTERFACE,
+    PixelFilter::INTERFACE,
     Points::INTERFACE,
     Pose::INTERFACE,
     Prefilter::INTERFACE,
@@ -3299,6 +3390,9 @@ pub const SCATTER_COUNT: u32 = 3;
 pub const SCATTER_PLACE: u32 = 4;
 pub const SCATTER_LAYERS: u32 = 5;
 pub const SCATTER_ORDER: u32 = 6;
+pub const SPREAD_NONE: u32 = 0;
+pub const SPREAD_SQUARE: u32 = 1;
+pub const SPREAD_ABSOLUTE: u32 = 2;
 pub const ENCODE_RGBA8_SRGB: u32 = 0;
 pub const ENCODE_RGBA16F: u32 = 1;
 pub const ENCODE_STRAIGHT_RGBA8: u32 = 2;

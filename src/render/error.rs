@@ -2,7 +2,7 @@
 
 use super::locations::LocationError;
 use crate::engine::sampler::{EngineError, MethodKind};
-use crate::sampling::PatternError;
+use crate::sampling::{FilterShape, PatternError};
 use crate::vulkan::VulkanError;
 
 /// An error of the renderer.
@@ -21,6 +21,12 @@ pub enum RenderError {
     /// Region in a request for locations: only the pixels of an image have regions.
     #[error("a region is a part of an image's pixels; of locations, hand over those that are wanted")]
     LocationRegion,
+    /// Pixel filter in a request for an image of locations.
+    #[error("a {shape} filter reaches beyond the pixel, and locations are no pixels; they are averaged by a box alone")]
+    LocationFilter {
+        /// Shape of the filter that was asked for.
+        shape: FilterShape,
+    },
     /// Width of lines, or size of points, that is not above 0 and at most the limit.
     #[error(
         "lines or points of {0} pixels: their width or size must be above 0 and at most {limit}",
@@ -96,6 +102,7 @@ impl RenderError {
             | Self::Pinhole(_)
             | Self::LocationMethod { .. }
             | Self::LocationRegion
+            | Self::LocationFilter { .. }
             | Self::Stroke(_)
             | Self::ShadowLights { .. } => true,
             _ => false,

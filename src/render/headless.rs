@@ -278,7 +278,9 @@ impl Headless {
         match &frame.settings().method {
             Method::Accumulate { samples, pattern } => {
                 let offsets = pattern.offsets(*samples).map_err(EngineError::from)?;
-                let offsets: Vec<_> = offsets.into_iter().map(|offset| DVec2::from(offset.map(f64::from))).collect();
+                let across = 2.0 * frame.settings().pixel_filter.radius;
+                let offsets: Vec<_> =
+                    offsets.into_iter().map(|offset| across * DVec2::from(offset.map(f64::from))).collect();
                 self.mean(frame, camera, &offsets, || {})
             }
             _ => self.render_one(frame, camera),

@@ -3,6 +3,7 @@
 use super::{CellOptions, Footprint, Method, PixelRect, Reference, RenderError, Shading, SuperpixelOptions};
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{ImageRequest, SamplerSettings};
+use crate::sampling::PixelFilter;
 use crate::vulkan::Limits;
 
 /// Shadows of the scene's lights.
@@ -57,6 +58,8 @@ pub struct Settings {
     pub region: Option<PixelRect>,
     /// Method of antialiasing.
     pub method: Method,
+    /// Filter by which pixels are averaged. Only images of pixels have one; images at locations have the box.
+    pub pixel_filter: PixelFilter,
     /// Whether to output depth, ID, normal and number of samples of every pixel too.
     pub attributes: bool,
     /// Settings of rendering the scene.
@@ -122,6 +125,7 @@ impl Settings {
             size: [width, height],
             region: None,
             method: SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).into(),
+            pixel_filter: PixelFilter::BOX,
             attributes: false,
             scene: SceneSettings::default(),
         }
@@ -171,8 +175,8 @@ impl Settings {
         match &self.method {
             Method::Superpixel(options) => TextureFilter::of_cells(footprint, options.cells.shading),
             Method::Accumulate { samples, .. } if footprint == Footprint::Sample => {
-                let side = 1.0 / (*samples as f32).sqrt();
-                TextureFilter::of_pixels(Footprint::Side(side), 1)
+                let side = 2.0 * self.pixel_filter.radius as f32 / (*samples as f32).sqrt();
+                TextureFilter::of_pixels(Footprint::Side(side.min(1.0)), 1)
             }
             method => TextureFilter::of_pixels(footprint, method.side()),
         }
@@ -189,6 +193,7 @@ impl Settings {
             size: self.size,
             region: self.region,
             method: &self.method,
+            filter: self.pixel_filter,
             attributes: self.attributes,
             max_memory: self.scene.max_memory,
         }
@@ -221,6 +226,7 @@ setters! {
     Settings {
         size: [u32; 2] = "the width and height in pixels",
         region: Option<PixelRect> = "the part of the image to render; `None` for the whole image",
+        pixel_filter: PixelFilter = "the filter by which pixels are averaged",
         attributes: bool = "whether depth, ID, normal and number of samples of every pixel are output too",
         scene: SceneSettings = "the settings of rendering the scene",
     }

@@ -32,6 +32,7 @@ mod meshes;
 mod methods;
 mod normals;
 mod partition;
+mod pixel_filter;
 mod pose;
 mod prefilter;
 mod region;

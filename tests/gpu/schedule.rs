@@ -143,6 +143,7 @@ impl<'a> Passes<'a> {
             has_mask: false,
             has_blend: case.blends,
             always_blends: false,
+            spread: None,
         };
         let limits = gpu.gpu().limits();
         let blocks = SampleBlocks::new(limits.teams, options);

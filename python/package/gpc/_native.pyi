@@ -36,6 +36,10 @@ class _Options(TypedDict, total=False):
     samples: int
     """Samples of a pixel that aliases: 1 to 1,024, by default 64."""
     method: Literal["superpixel", "none", "ssaa", "msaa"]
+    filter: Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
+    """Filter by which a pixel is averaged. Images at the pixels of a camera alone have others than the box."""
+    filter_radius: Optional[float]
+    """Distance in pixels at which the filter ends; None for the filter's default."""
     contrast: Optional[int]
     """Codes of 8 bits by which colours must differ for a pixel to be sampled again."""
     shading: Literal["triangle", "part", "sample"]

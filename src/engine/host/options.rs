@@ -4,7 +4,7 @@ use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{
     CellOptions, Detection, Footprint, ImageRequest, Method, Reference, SamplerSettings, Shading, SuperpixelOptions,
 };
-use crate::sampling::Pattern;
+use crate::sampling::{Pattern, PixelFilter};
 
 /// Options of antialiasing a host's frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +109,14 @@ impl Options {
 
     /// The image to antialias, by a method with [these options](Self::superpixels).
     pub(super) fn image<'a>(&self, method: &'a Method) -> ImageRequest<'a> {
-        ImageRequest { size: self.size, region: None, method, attributes: false, max_memory: self.max_memory }
+        ImageRequest {
+            size: self.size,
+            region: None,
+            method,
+            filter: PixelFilter::BOX,
+            attributes: false,
+            max_memory: self.max_memory,
+        }
     }
 
     /// Settings of the sampler.

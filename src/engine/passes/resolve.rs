@@ -23,7 +23,7 @@ pub(crate) enum ResolveTarget {
 /// `target` is the later pass that reads more than the colours, and `output` holds the colour constants of
 /// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
 /// the background if it is `None`. Layers are composited only over the background, so `behind` must be `None` for
-/// scenes that may have layers.
+/// scenes that may have layers. It must also be `None` if the spread of visibility samples is stored.
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
@@ -44,9 +44,10 @@ pub(crate) fn pass(
             encoded: behind.is_some_and(|image| image.encoded()),
             ..of_list(layout, list, blocks.block, target, output)
         };
-        let code = match behind {
-            Some(_) => spirv::RESOLVE_DRAWN,
-            None => spirv::RESOLVE,
+        let code = match (behind, options.spread) {
+            (Some(_), _) => spirv::RESOLVE_DRAWN,
+            (None, Some(_)) => spirv::RESOLVE_FILTERED,
+            (None, None) => spirv::RESOLVE,
         };
         let resolve = layout.kernel_variant(code, &shader)?;
         let dispatch = resolve.dispatch((), list.entries());

@@ -5,6 +5,7 @@ use super::{sample_lines, scatter};
 use crate::engine::data::{Argument, Cells, Content};
 use crate::engine::pipelines::{Dispatch, FrameLayout, Pass, Size};
 use crate::engine::spirv;
+use crate::sampling::Bend;
 use crate::vulkan::{Specialized, Teams, VulkanError};
 
 /// Lists into which `enlist` sorts tiles, in the order of `shaders/include/load.glsl`.
@@ -62,6 +63,9 @@ pub struct SampleOptions {
     pub has_blend: bool,
     /// Whether all cells show a BLEND triangle; then only lists with BLEND triangles are sampled.
     pub always_blends: bool,
+    /// For a pixel filter, the function by which the spread of visibility samples over their cells is described; `None` if it is not
+    /// stored.
+    pub spread: Option<Bend>,
 }
 
 /// Sampling of cells with long lists of candidates. Loops over these must stay within the number of iterations that
@@ -195,6 +199,7 @@ impl SampleBlocks {
             part: options.part_samples(),
             apart: options.takes_one_cell() || list == TileList::Unlisted,
             long: options.long_lists.takes_one_cell(),
+            spread: options.spread_constant(),
             locations: options.cells.are_locations(),
             points: options.cells.are_points(),
             instanced: scene.is_instanced(),
@@ -287,6 +292,15 @@ impl SampleOptions {
         self.fragments == FragmentRate::Part && self.part_samples() < block
     }
 
+    /// The constant by which kernels know how spread is described.
+    fn spread_constant(&self) -> u32 {
+        match self.spread {
+            None => spirv::SPREAD_NONE,
+            Some(Bend::Square) => spirv::SPREAD_SQUARE,
+            Some(Bend::Absolute) => spirv::SPREAD_ABSOLUTE,
+        }
+    }
+
     /// Whether `sample_lines` processes cells that no BLEND triangle touches. It leaves the others, and some more, to a second run,
     /// and marks them.
     pub fn by_lines(&self) -> bool {
@@ -324,6 +338,7 @@ mod tests {
                 has_mask: false,
                 has_blend: false,
                 always_blends: false,
+                spread: None,
             };
             assert!(samples / options.part_samples() <= MOST_PARTS, "{samples}");
         }

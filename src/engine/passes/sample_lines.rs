@@ -28,6 +28,7 @@ pub(super) fn kernel(
         by_part: shader.by_part,
         part: shader.part,
         apart: shader.apart,
+        spread: shader.spread,
         header,
         lines,
         locations: shader.locations,

@@ -1,7 +1,7 @@
 //! Errors of the engine.
 
 use super::PixelRect;
-use crate::sampling::PatternError;
+use crate::sampling::{FilterError, PatternError};
 use crate::vulkan::VulkanError;
 
 /// An error of the engine that samples triangles.
@@ -14,6 +14,9 @@ pub enum EngineError {
     /// Number of samples that the pattern can't have.
     #[error(transparent)]
     Pattern(#[from] PatternError),
+    /// Pixel filter with an impossible radius.
+    #[error(transparent)]
+    Filter(#[from] FilterError),
     /// Region of an image that has no pixels or leaves the image.
     #[error(
         "a region of {} x {} pixels from column {}, row {}: it must have pixels and lie in the image of {} x {}",
@@ -88,6 +91,7 @@ impl EngineError {
         matches!(
             self,
             Self::Pattern(_)
+                | Self::Filter(_)
                 | Self::Samples { .. }
                 | Self::Region { .. }
                 | Self::Attributes

@@ -100,6 +100,7 @@ impl SamplerContext<'_> {
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
             always_blends: false,
+            spread: None,
         }
     }
 }

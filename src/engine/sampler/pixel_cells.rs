@@ -6,6 +6,7 @@ use crate::engine::passes::detect::{self, DetectMode, DetectOptions};
 use crate::engine::passes::resolve::ResolveTarget;
 use crate::engine::passes::{SampleOptions, grow, thin};
 use crate::engine::sampler::{Detection, EngineError, SuperpixelOptions};
+use crate::sampling::{Bend, PixelFilter};
 use std::sync::Arc;
 
 /// The pixels of an image that become cells.
@@ -30,6 +31,10 @@ pub(crate) struct PixelCells {
     pub detected: bool,
     /// Image of the host with the colours behind the triangles; `None` for the settings' background.
     pub behind: Option<Arc<HostImage>>,
+    /// For a pixel filter, the function by which the spread of cells is described; `None` if it is not stored.
+    pub spread: Option<Bend>,
+    /// Distance in pixels from the region's own pixels to the farthest cells that they depend on.
+    pub reach: u32,
 }
 
 impl DetectMode {
@@ -59,7 +64,14 @@ impl PixelCells {
             growths: options.growth_count(),
             detected: false,
             behind: None,
+            spread: None,
+            reach: 0,
         }
+    }
+
+    /// These cells, for a pixel filter.
+    pub fn filtered(self, filter: &PixelFilter) -> Self {
+        Self { spread: (!filter.is_box()).then(|| filter.bend()), reach: filter.reach(), ..self }
     }
 
     /// Makes a sampler for these cells.
@@ -70,6 +82,7 @@ impl PixelCells {
         let SamplerContext { layout, scene, settings, sizes, .. } = *context;
         let options = SampleOptions {
             always_blends: self.mode == DetectMode::Blended,
+            spread: self.spread,
             ..context.sample_options(Cells::Pixels, self.samples)
         };
         let blend_ids = self.blend_ids && scene.has_blend();
@@ -84,13 +97,16 @@ impl PixelCells {
                     DetectMode::Blended => 0,
                     _ => sizes.shadow_words,
                 },
-                beyond: self.growths,
+                beyond: self.growths + self.reach,
             };
             let thin = || thin::pass(layout, scene, blend_ids, self.folds, self.depth_of_image);
             Ok(Source::Pixels {
                 thin: self.thin.then(thin).transpose()?,
                 detect: detect::pass(layout, &options)?,
-                growths: (0..self.growths).rev().map(|beyond| grow::pass(layout, beyond)).collect::<Result<_, _>>()?,
+                growths: (0..self.growths)
+                    .rev()
+                    .map(|beyond| grow::pass(layout, beyond + self.reach))
+                    .collect::<Result<_, _>>()?,
             })
         };
         let target = match (self.growths > 0, self.detected) {

@@ -21,9 +21,12 @@ pub(crate) struct Region {
     /// Lower right pixel that is wanted, exclusive.
     wanted_high: [u32; 2],
     /// Width of the border around the region with which detection compares: left, top, right, bottom, in pixels.
-    /// Detection needs [`NEIGHBOURS`] pixels. On the left and at the top, the border is a whole tile, so that tiles and
-    /// the rounding of edge functions are the same as in the undivided image.
+    /// Detection needs [`NEIGHBOURS`] pixels, and a pixel filter as many more as it reaches. On the left and at the top,
+    /// the border is made of whole tiles, so that tiles and the rounding of edge functions are the same as in the
+    /// undivided image.
     halo: [u32; 4],
+    /// Distance in pixels within which pixels affect the wanted ones.
+    depends: u32,
 }
 
 impl Region {
@@ -60,8 +63,8 @@ impl Region {
     pub fn drawn(&self) -> [[u32; 2]; 2] {
         let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
         [
-            first.map(|place| place.saturating_sub(NEIGHBOURS)),
-            [0, 1].map(|axis| (first[axis] + size[axis] + NEIGHBOURS).min(outer[axis])),
+            first.map(|place| place.saturating_sub(self.depends)),
+            [0, 1].map(|axis| (first[axis] + size[axis] + self.depends).min(outer[axis])),
         ]
     }
 }
@@ -219,22 +222,27 @@ impl Plan {
         let [width, height] = image.size;
         let side = image.method.side();
         let detects = matches!(image.method, Method::Superpixel(_));
+        // Frames that are accumulated are filtered together, later.
+        let filtered_alone = !matches!(image.method, Method::Accumulate { .. });
+        let filters_pixels = filtered_alone && !image.filter.is_box();
+        let depends = NEIGHBOURS + if filters_pixels { image.filter.reach() } else { 0 };
         let mut regions = Vec::new();
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
                 let high = [(x + region[0]).min(width), (y + region[1]).min(height)];
-                let halo = |inside: bool, pixels: u32| u32::from(detects && inside) * pixels;
+                let halo = |inside: bool, pixels: u32| u32::from((detects || filters_pixels) && inside) * pixels;
                 regions.push(Region {
                     low: [x, y],
                     high,
                     wanted_low: [x, y],
                     wanted_high: high,
                     halo: [
-                        halo(x > 0, 8),
-                        halo(y > 0, 4),
-                        halo(high[0] < width, NEIGHBOURS),
-                        halo(high[1] < height, NEIGHBOURS),
+                        halo(x > 0, depends.next_multiple_of(8)),
+                        halo(y > 0, depends.next_multiple_of(4)),
+                        halo(high[0] < width, depends),
+                        halo(high[1] < height, depends),
                     ],
+                    depends,
                 });
             }
         }
@@ -268,6 +276,8 @@ impl Plan {
         // A tile has room for all layers of its samples.
         let of_tile = capacity.layered(pixels.min(32) * samples);
         let fragments = fragments.max(of_tile.min(most_fragments(limits)));
+        let spreads = detects && filters_pixels;
+        let fragments = if spreads { fragments.min(most_fragments(limits) / 2) } else { fragments };
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
@@ -283,19 +293,21 @@ impl Plan {
         let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
         let pairs = room(triangles * 4 + tiles * 16, most_pairs);
         let candidates = room(triangles * 3 + tiles * 8, most_candidates);
-        let filtered = if side > 1 { pixels / u64::from(side * side) } else { 0 };
-        let filters = limits.is_cpu()
+        let filtered = if side > 1 || filters_pixels { pixels / u64::from(side * side) } else { 0 };
+        let lists_triangles = limits.is_cpu()
             && !matches!(image.method, Method::Msaa { .. })
             && scene.triangle_slots() >= FILTER_TRIANGLES
             && triangles * 12 <= limits.max_storage_bytes;
         let sizes = ResourceSizes {
             // A surviving triangle has at least one pair.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4).min(scene.triangle_slots()),
-            filtered_triangles: if filters { scene.triangle_slots() } else { 0 },
+            filtered_triangles: if lists_triangles { scene.triangle_slots() } else { 0 },
             pair_capacity: at_most(pairs, most_listed),
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             fragment_capacity: fragments as u32,
             filtered: filtered as u32,
+            spreads,
+            filter_weights: if filters_pixels && side > 1 { image.filter.span() * side } else { 0 },
             attributes: image.attributes,
             encoded: match encoded_bytes {
                 0 => 0,
@@ -323,6 +335,7 @@ impl Plan {
 mod tests {
     use super::*;
     use crate::engine::sampler::SuperpixelOptions;
+    use crate::sampling::PixelFilter;
     use crate::vulkan::Teams;
     use ash::vk;
 
@@ -387,7 +400,9 @@ mod tests {
             for samples in [64, 256, 1024] {
                 let method = Method::from(SuperpixelOptions::new(samples));
                 let taken = |local: u64, max_memory| {
-                    let image = ImageRequest { size, region: None, method: &method, attributes: false, max_memory };
+                    let filter = PixelFilter::BOX;
+                    let image =
+                        ImageRequest { size, region: None, method: &method, filter, attributes: false, max_memory };
                     let limits = gpu(local << 30);
                     let plan = Plan::whole(&image, &Triangles, &limits, Capacity::default(), 0);
                     let plan = plan.unwrap();

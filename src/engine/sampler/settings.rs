@@ -2,6 +2,7 @@
 
 use super::footprint::TextureFilter;
 use super::{CellOptions, EngineError, Method};
+use crate::sampling::PixelFilter;
 use crate::vulkan::Limits;
 
 /// Area of the image for which texture levels are chosen, also for the alpha of MASK materials. [`Method::None`] and
@@ -97,6 +98,8 @@ pub(crate) struct ImageRequest<'a> {
     pub region: Option<PixelRect>,
     /// Method of antialiasing.
     pub method: &'a Method,
+    /// Filter by which pixels are averaged.
+    pub filter: PixelFilter,
     /// Whether to output attributes of every pixel too.
     pub attributes: bool,
     /// Limit for device memory in bytes; `None` for no limit.
@@ -113,6 +116,7 @@ impl ImageRequest<'_> {
         if self.attributes && matches!(self.method, Method::Msaa { .. } | Method::Accumulate { .. }) {
             return Err(EngineError::Attributes);
         }
+        self.filter.check()?;
         self.method.check(limits)
     }
 }

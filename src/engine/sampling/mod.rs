@@ -1,4 +1,4 @@
-//! Patterns: the places of the samples in a pixel.
+//! Patterns: the places of the samples in a pixel; and filters: their weights.
 //!
 //! A [`Pattern`] gives the samples of a superpixel as offsets from the pixel's centre, in pixels, x to the right and y
 //! down. Each coordinate is in [-0.5, 0.5) and a multiple of 2^-16, and so exact in 32-bit floating point and in fixed
@@ -11,12 +11,15 @@
 //! number of samples to halve. So every aligned run of 64 or of 256 samples is compact: at 1,024 samples, each run of
 //! 256 is a quarter of the pixel and each run of 64 a sixteenth. The order depends on the set of samples alone.
 
+mod filter;
 mod lattice;
 mod order;
 mod pattern;
 mod sobol;
 mod standard;
 
+pub(crate) use filter::{Bend, SPREAD_SCALES};
+pub use filter::{FilterError, FilterShape, PixelFilter};
 pub use pattern::{MAX_SAMPLES, Pattern, PatternError};
 pub use sobol::owen_sobol;
 

@@ -6,6 +6,7 @@ use crate::engine::passes::{FragmentRate, Raster, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{Job, PixelCells, Sampler, fragment_rate};
 use crate::render::data::GpuScene;
+use crate::render::passes::pixel_filter::{self, Superpixels};
 use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
 use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
@@ -37,7 +38,8 @@ pub(super) struct Passes {
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
     pub attributes: Option<Pass>,
-    pub box_filter: Option<Pass>,
+    /// Filter of the pixels, unless each is a colour of its own.
+    pub filter: Option<Pass>,
     /// Conversion of the colours to the encoding of the target; `None` for floats of 32 bits.
     pub encode: Option<(Encoding, Pass)>,
 }
@@ -98,7 +100,20 @@ impl Passes {
             ..PixelCells::superpixels(&superpixels)
         };
         let blended = || blended.sampler(&context);
-        let antialiasing = || PixelCells::superpixels(&superpixels).sampler(&context);
+        let pixel_filter = settings.pixel_filter;
+        let antialiasing = || PixelCells::superpixels(&superpixels).filtered(&pixel_filter).sampler(&context);
+        let filter = || match &settings.method {
+            Method::Accumulate { .. } => Ok(None),
+            _ if pixel_filter.is_box() => (side > 1).then(|| box_filter::pass(layout, side)).transpose(),
+            _ => {
+                let among = match (antialiased, grows) {
+                    (false, _) => Superpixels::None,
+                    (true, false) => Superpixels::Detected,
+                    (true, true) => Superpixels::Grown,
+                };
+                pixel_filter::pass(layout, &pixel_filter, side > 1, among).map(Some)
+            }
+        };
         let multisampling = || -> Result<_, RenderError> {
             Ok(Multisampling {
                 multisample: multisample::pass(layout)?,
@@ -116,7 +131,7 @@ impl Passes {
             blended: scene.has_blend().then(blended).transpose()?,
             superpixels: antialiased.then(antialiasing).transpose()?,
             attributes: settings.attributes.then(|| attributes::pass(layout, scene, antialiased, grows)).transpose()?,
-            box_filter: (side > 1).then(|| box_filter::pass(layout, side)).transpose()?,
+            filter: filter()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
                 .map(|e| Ok::<_, RenderError>((e, encode::pass(layout, e)?)))

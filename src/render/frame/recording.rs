@@ -12,7 +12,7 @@ use crate::engine::sampler::plan::{Plan, Region};
 use crate::engine::sampler::{RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
-use crate::render::passes::{Encoding, Receiving, StrokeSizes, encode};
+use crate::render::passes::{Encoding, Receiving, StrokeSizes, encode, pixel_filter};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{PassTime, Recorder};
@@ -177,7 +177,11 @@ impl FrameRecording<'_> {
         if let Some(attributes) = &passes.attributes {
             attributes.record_for(recorder, filtered);
         }
-        if let Some(filter) = &passes.box_filter {
+        if let Some(filter) = &passes.filter {
+            if side > 1 && !self.settings.pixel_filter.is_box() {
+                let weights = pixel_filter::weights(&self.settings.pixel_filter, side);
+                recorder.update(resources.buffer(Data::FilterWeights), 0, bytemuck::cast_slice(&weights));
+            }
             filter.record_for(recorder, filtered);
             resources.record_keep_filtered(recorder, filtered);
         }

@@ -34,7 +34,7 @@ impl Headless {
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
     /// [`RenderError::LocationMethod`] if the method is `msaa` or accumulates, [`RenderError::LocationRegion`] if the settings have a
-    /// region; otherwise as [`Headless::render`].
+    /// region, [`RenderError::LocationFilter`] if they have a pixel filter other than the box; otherwise as [`Headless::render`].
     pub fn render_locations(
         &mut self,
         scene: &PreparedScene,
@@ -59,6 +59,9 @@ impl Headless {
         }
         if settings.region.is_some() {
             return Err(RenderError::LocationRegion);
+        }
+        if !settings.pixel_filter.is_box() {
+            return Err(RenderError::LocationFilter { shape: settings.pixel_filter.shape });
         }
         let count = u64::from(size[0]) * u64::from(size[1]);
         for (index, location) in rig.iter().flat_map(|(_, locations)| locations).enumerate() {

@@ -32,8 +32,12 @@ pub struct ResourceSizes {
     pub list_capacity: u32,
     /// Largest number of visibility samples of a round; 0 if no cell is ever sampled.
     pub fragment_capacity: u32,
-    /// Number of pixels of a region after the box filter; 0 without the filter.
+    /// Number of pixels of a region after a filter; 0 without one.
     pub filtered: u32,
+    /// Whether the spread of visibility samples and of superpixels is stored, for a pixel filter.
+    pub spreads: bool,
+    /// Number of weights of a pixel filter for supersampled pixels; 0 without one.
+    pub filter_weights: u32,
     /// Number of shadow words of each shaded place; their bits say which lights reach it. 0 without shadows. See
     /// `shaders/include/shadows.glsl`.
     pub shadow_words: u32,
@@ -63,6 +67,8 @@ impl ResourceSizes {
             list_capacity: 0,
             fragment_capacity: 0,
             filtered: 0,
+            spreads: false,
+            filter_weights: 0,
             shadow_words: 0,
             attributes: false,
             encoded: 0,
@@ -135,6 +141,11 @@ impl ResourceSizes {
     pub(super) fn all_shadow_words(&self) -> u64 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
         u64::from(self.shadow_words) * (u64::from(pixels) + u64::from(self.fragment_capacity))
+    }
+
+    /// Number of vectors of the buffer of visibility samples: one for each, and another one for its spread.
+    pub(super) fn fragment_vectors(&self) -> u64 {
+        u64::from(self.fragment_capacity) * if self.spreads { 2 } else { 1 }
     }
 
     /// Number of work items: tiles or, if there are more, groups of locations.

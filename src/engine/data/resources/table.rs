@@ -52,8 +52,12 @@ pub enum Data {
     Arguments,
     /// Word for conditional rendering: not 0 if another round has work.
     AnotherRound,
-    /// Pixels after the box filter.
+    /// Pixels after a filter.
     Filtered,
+    /// How the light of superpixels is spread: see `shaders/include/spread.glsl`.
+    Spreads,
+    /// Weights of a pixel filter, for supersampled pixels.
+    FilterWeights,
     /// Attributes of pixels or locations.
     Attributes,
     /// Encoded pixels, and the thresholds before them.
@@ -148,7 +152,7 @@ impl Row {
 
 impl Data {
     /// All buffers, in the order of their declaration.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 32] = [
         Self::Counters,
         Self::Display,
         Self::Color,
@@ -171,6 +175,8 @@ impl Data {
         Self::Arguments,
         Self::AnotherRound,
         Self::Filtered,
+        Self::Spreads,
+        Self::FilterWeights,
         Self::Attributes,
         Self::Encoded,
         Self::Locations,
@@ -200,7 +206,10 @@ impl Data {
             Self::Display => {
                 Row::new("display codes", UINT, colors).texels_at(frame_set::DISPLAY).at(frame_set::DISPLAY_OUT)
             }
-            Self::Color => Row::new("colour", VECTOR, colors).at(frame_set::COLOR).within(output),
+            Self::Color => Row::new("colour", FLOAT4, colors)
+                .texels_at(frame_set::PIXEL_COLORS)
+                .at(frame_set::COLOR)
+                .within(output),
             Self::Masks => Row::new("superpixel mask", WORD, tiles).at(frame_set::MASKS),
             Self::Marks => Row::new("marks of pixels", Element::Bytes(12), sizes.work_items()).at(frame_set::MARKS),
             Self::Tiles => Row::new("tiles", VECTOR, sizes.tile_vectors()).at(frame_set::TILES),
@@ -223,7 +232,7 @@ impl Data {
                 Row::new("candidates", UINT4, texels).texels_at(frame_set::CANDIDATES).at(frame_set::CANDIDATES_OUT)
             }
             Self::Headers => Row::new("fragment headers", Element::Bytes(8), fragments).at(frame_set::HEADERS),
-            Self::Fragments => Row::new("visibility samples", UINT4, fragments)
+            Self::Fragments => Row::new("visibility samples", UINT4, sizes.fragment_vectors())
                 .texels_at(frame_set::FRAGMENTS)
                 .at(frame_set::FRAGMENTS_OUT),
             Self::Shaded => {
@@ -240,6 +249,15 @@ impl Data {
             Self::Filtered => Row::new("filtered colour", FLOAT4, sizes.filtered)
                 .texels_at(frame_set::FILTERED)
                 .with(vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER),
+            Self::Spreads => {
+                let pixels = if sizes.spreads { colors } else { 0 };
+                Row::new("spread of superpixels", UINT4, 4 * pixels)
+                    .texels_at(frame_set::SPREADS)
+                    .at(frame_set::SPREADS_OUT)
+            }
+            Self::FilterWeights => {
+                Row::new("weights of a pixel filter", WORD, sizes.filter_weights).at(frame_set::FILTER_WEIGHTS)
+            }
             Self::Attributes => {
                 let count = if sizes.attributes { colors } else { 0 };
                 Row::new("attributes", Element::Bytes(32), count).at(frame_set::ATTRIBUTES_OUT).within(output)

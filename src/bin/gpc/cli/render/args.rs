@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
 use gpc::render::{CellOptions, Detection, Footprint, Method, MethodKind, PixelRect, Shading, SuperpixelOptions};
-use gpc::sampling::Pattern;
+use gpc::sampling::{FilterShape, Pattern, PixelFilter};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -30,6 +30,18 @@ pub struct RenderArgs {
     #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, help_heading = "Image", hide_short_help = true)]
     pub region: Option<PixelRect>,
 
+    /// Filter by which a pixel is averaged, around its centre
+    ///
+    /// It averages display-linear light, as all averages here. All but box reach into the pixels around, and so show no beads along
+    /// wires and edges.
+    #[arg(long, value_name = "FILTER", default_value = "box", help_heading = "Antialiasing", hide_short_help = true)]
+    pub filter: FilterShape,
+    /// Distance in pixels from a pixel's centre at which its filter ends, from 0.5 to 2.5 [default: 1 for tent, 1.5 for
+    /// blackman-harris, 2 for gaussian and mitchell]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true, value_parser = values::finite, help_heading = "Antialiasing",
+        hide_short_help = true)]
+    pub filter_radius: Option<f64>,
+
     #[command(flatten)]
     pub image: ImageArgs,
     #[command(flatten)]
@@ -45,6 +57,14 @@ pub struct RenderArgs {
     pub time_rounds: bool,
     #[command(flatten)]
     pub report: ReportArgs,
+}
+
+impl RenderArgs {
+    /// The pixel filter that is asked for.
+    pub fn pixel_filter(&self) -> PixelFilter {
+        let filter = PixelFilter::from(self.filter);
+        filter.with_radius(self.filter_radius.unwrap_or(filter.radius))
+    }
 }
 
 /// How edges are antialiased.

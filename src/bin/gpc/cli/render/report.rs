@@ -6,6 +6,7 @@ use super::view::NamedView;
 use crate::cli::report::{DeviceReport, Effort, RenderWork};
 use gpc::camera::{Camera, Projection};
 use gpc::render::Settings;
+use gpc::sampling::PixelFilter;
 use serde::Serialize;
 
 /// Figures of one image.
@@ -20,6 +21,8 @@ pub struct ImageReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<RegionReport>,
     camera: CameraReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    filter: Option<FilterReport>,
     #[serde(flatten)]
     effort: Effort,
     /// Times of the start-up, reported with the first image only; `None` for repeated renderings.
@@ -35,6 +38,20 @@ struct RegionReport {
     corner: [u32; 2],
     /// Width and height of the whole image.
     image: [u32; 2],
+}
+
+/// Pixel filter of an image, unless it is the box.
+#[derive(Serialize)]
+struct FilterReport {
+    name: String,
+    /// Radius in pixels.
+    radius: f64,
+}
+
+impl FilterReport {
+    fn of(filter: PixelFilter) -> Option<Self> {
+        (!filter.is_box()).then(|| Self { name: filter.shape.to_string(), radius: filter.radius })
+    }
 }
 
 #[derive(Serialize)]
@@ -74,6 +91,7 @@ impl ImageReport {
                 .region
                 .map(|region| RegionReport { corner: region.corner, image: origin.settings.size }),
             camera: describe(origin.camera, origin.view, width / height),
+            filter: FilterReport::of(origin.settings.pixel_filter),
             effort: Effort::new(
                 origin.settings,
                 &RenderWork {
