@@ -1,8 +1,8 @@
 // pixel_filter: averages by a pixel filter that reaches beyond the pixel. An invocation takes an output pixel.
 // Pixels that are no superpixels, and those of supersampling, weigh as much as the filter's integral over their square. Superpixels
 // weigh by how their light is spread (include/spread.glsl). Pixels beyond the image's edge have no weight.
-// Reads: pixel_colors, the color of a region (linear light, as in the output); SUPERSAMPLED: filter_weights; SUPERPIXELS: masks, marks,
-// spreads. Writes: filtered. Twin: twins/src/pixel_filter.rs.
+// Reads: pixel_colors (of the region, linear light as in the output); SUPERSAMPLED: filter_weights; SUPERPIXELS: masks, marks, spreads.
+// Writes: filtered. Twin: twins/src/pixel_filter.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

@@ -187,6 +187,32 @@ fn regions_of_tiles_with_blend_triangles_are_parts_of_the_image() {
     assert_cut_tiles_are_parts(&panes());
 }
 
+/// A block with a needle at its right side, which is so thin that no pixel's centre sees it.
+fn needle() -> Stage {
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+    let corners = |places: [[f64; 2]; 3]| places.map(|place| seen_at(place, 4.0, CROWDED[1]));
+    stage.add(0, corners([[-20.0, -5.0], [-10.0, -5.0], [-10.0, 5.0]]));
+    stage.add(0, corners([[-20.0, -5.0], [-10.0, 5.0], [-20.0, 5.0]]));
+    stage.add(0, corners([[-10.0, 0.2], [20.0, 0.3], [-10.0, 0.4]]));
+    stage
+}
+
+/// Each growth follows the needle by a pixel, so what a pixel is depends on one that is as far away as there are growths.
+#[test]
+fn regions_have_the_superpixels_of_all_growths() {
+    on_gpu(|gpu| {
+        let stage = needle();
+        for options in [SuperpixelOptions::new(128), SuperpixelOptions::new(64).growths(Some(8))] {
+            let settings = Settings::new(CROWDED[0], CROWDED[1]).attributes(true).method(options.clone().thin(false));
+            let whole = render(gpu, &stage, &settings);
+            let last = region([22 + options.growth_count(), 24], [1, 1]);
+            assert_eq!(part(&whole.attributes, CROWDED[0], last)[0].superpixel, 1, "the growths end before");
+            let regions = [(last.corner, [8, 4]), (last.corner, [1, 1])];
+            assert_regions_are_parts(gpu, &stage, &settings, &regions, "needle");
+        }
+    });
+}
+
 /// A large image is rendered in parts; a region may span several of them.
 #[test]
 fn a_region_of_an_image_in_parts_is_that_part_of_it() {

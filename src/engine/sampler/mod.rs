@@ -282,7 +282,7 @@ impl Sampler {
             self.sort.record(recorder);
             shading.record(recorder, resources);
             for pass in &self.colors {
-                // resolve: ids, display, masks, tiles, tile_lists, headers, fragments, shaded, marks ─▶ display, color, marks
+                // resolve: ids, display, masks, tiles, tile_lists, headers, fragments, shaded, marks ─▶ display, color, marks, spreads
                 pass.record(recorder);
             }
         });

@@ -21,8 +21,8 @@ pub(crate) struct Region {
     /// Lower right pixel that is wanted, exclusive.
     wanted_high: [u32; 2],
     /// Width of the border around the region with which detection compares: left, top, right, bottom, in pixels.
-    /// Detection needs [`NEIGHBOURS`] pixels, and a pixel filter as many more as it reaches. On the left and at the top,
-    /// the border is made of whole tiles, so that tiles and the rounding of edge functions are the same as in the
+    /// Detection needs [`NEIGHBOURS`] pixels, each growth one more, and a pixel filter as many more as it reaches. On the
+    /// left and at the top, the border is made of whole tiles, so that tiles and the rounding of edge functions are the same as in the
     /// undivided image.
     halo: [u32; 4],
     /// Distance in pixels within which pixels affect the wanted ones.
@@ -78,9 +78,9 @@ pub(crate) struct Plan {
     pub lists_can_grow: bool,
 }
 
-/// Distance in pixels within which pixels affect each other: a pixel is compared with its neighbours, which may have
-/// become superpixels because of their own neighbours, and so on.
-const NEIGHBOURS: u32 = 3;
+/// Distance in pixels within which pixels decide whether one is a superpixel before the first growth. In each growth, a
+/// pixel becomes one because of its neighbours, so that it depends on pixels one farther away.
+const NEIGHBOURS: u32 = 2;
 /// Largest number of rendered pixels in a region. A larger image has several regions, each of them a separate
 /// submission if the renderer has its own device.
 const REGION_PIXELS: u64 = 4 << 20;
@@ -221,11 +221,14 @@ impl Plan {
     ) -> Result<Self, EngineError> {
         let [width, height] = image.size;
         let side = image.method.side();
-        let detects = matches!(image.method, Method::Superpixel(_));
+        let (detects, growths) = match &image.method {
+            Method::Superpixel(options) => (true, options.growth_count()),
+            _ => (false, 0),
+        };
         // Frames that are accumulated are filtered together, later.
         let filtered_alone = !matches!(image.method, Method::Accumulate { .. });
         let filters_pixels = filtered_alone && !image.filter.is_box();
-        let depends = NEIGHBOURS + if filters_pixels { image.filter.reach() } else { 0 };
+        let depends = NEIGHBOURS + growths + if filters_pixels { image.filter.reach() } else { 0 };
         let mut regions = Vec::new();
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
