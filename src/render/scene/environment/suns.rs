@@ -144,7 +144,10 @@ struct Grid {
 impl Grid {
     fn new(map: &Equirectangular) -> Self {
         let mut block = 1;
-        while map.width / (2 * block) >= COLUMNS && map.width % (2 * block) == 0 && map.height % (2 * block) == 0 {
+        while map.width / (2 * block) >= COLUMNS
+            && map.width.is_multiple_of(2 * block)
+            && map.height.is_multiple_of(2 * block)
+        {
             block *= 2;
         }
         Self { block, columns: map.width / block, rows: map.height / block, width: map.width }
