@@ -97,12 +97,15 @@ vec3 suns_reflection(vec3 d, float alpha) {
         node = uint(sun.position_range.w);
         vec2 size = vec2(sun.color_scale.w, sun.offset.x);
         // How much the lobe is wider than a single part.
-        float wide = found.y > 0.0 ? 1.0 : smoothstep(0.7, 1.4, 2.0 * alpha / size.y), share = 0.0;
-        if (wide > 0.0) share = wide * lobe_share(found.x, sun.direction_kind.w, alpha);
+        float wide = found.y > 0.0 ? 1.0 : smoothstep(0.7, 1.4, 2.0 * alpha / size.y);
+        float share = lobe_share(found.x, sun.direction_kind.w, alpha);
         if (wide < 1.0) {
             vec2 apart = place - sun.position_range.xy;
             apart.x -= grid.x * round(apart.x / grid.x);
-            share += (1.0 - wide) * texel_share(apart, 2.0 * alpha / size) / (size.x * size.y);
+            // The squares of `texel_share` end where the lobe still has a tail.
+            vec2 width = 2.0 * alpha / size, ends = abs(apart) / (1.0 + 3.36 * width);
+            float narrow = texel_share(apart, width) / (size.x * size.y), tail = smoothstep(0.6, 1.0, max(ends.x, ends.y));
+            share = mix(narrow, share, max(wide, tail));
         }
         sum += share * sun.color_scale.rgb;
     }
