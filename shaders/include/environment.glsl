@@ -47,11 +47,16 @@ vec4 tent_mean(float x, vec4 reach) {
 // The same average for a single part, whose light is interpolated to the parts beside it, over a lobe that is about as narrow. The lobe
 // is taken for the mean of four squares, whose sides are quantiles of it. `apart` is in columns and rows, and `width` the radius of
 // the lobe in them.
+const vec4 SQUARES = vec4(0.655, 1.11, 1.72, 3.36);
+
 float texel_share(vec2 apart, vec2 width) {
-    const vec4 reaches = vec4(0.655, 1.11, 1.72, 3.36);
-    vec2 most = 1.0 + reaches.w * width;
-    if (any(greaterThan(abs(apart), most))) return 0.0;
-    return 0.25 * dot(tent_mean(apart.x, max(reaches * width.x, 1e-3)), tent_mean(apart.y, max(reaches * width.y, 1e-3)));
+    return 0.25 * dot(tent_mean(apart.x, max(SQUARES * width.x, 1e-3)), tent_mean(apart.y, max(SQUARES * width.y, 1e-3)));
+}
+
+// Distance of a place from the part, in distances at which the largest square ends.
+float texel_distance(vec2 apart, vec2 width) {
+    vec2 ends = abs(apart) / (1.0 + SQUARES.w * width);
+    return max(ends.x, ends.y);
 }
 
 // Squared distance of a group or node from direction `d` of the map, and square of the distance from which on it counts as one light.
@@ -103,9 +108,9 @@ vec3 suns_reflection(vec3 d, float alpha) {
             vec2 apart = place - sun.position_range.xy;
             apart.x -= grid.x * round(apart.x / grid.x);
             // The squares of `texel_share` end where the lobe still has a tail.
-            vec2 width = 2.0 * alpha / size, ends = abs(apart) / (1.0 + 3.36 * width);
-            float narrow = texel_share(apart, width) / (size.x * size.y), tail = smoothstep(0.6, 1.0, max(ends.x, ends.y));
-            share = mix(narrow, share, max(wide, tail));
+            vec2 width = 2.0 * alpha / size;
+            float lobe = max(wide, smoothstep(0.6, 1.0, texel_distance(apart, width)));
+            if (lobe < 1.0) share = mix(texel_share(apart, width) / (size.x * size.y), share, lobe);
         }
         sum += share * sun.color_scale.rgb;
     }

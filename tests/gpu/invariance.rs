@@ -4,33 +4,12 @@ use glam::DMat3;
 use gpc::camera::Camera;
 use gpc::render::{Detection, Headless, Rendered, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
-use gpc::scene::{AlphaMode, Material};
+use gpc::scene::AlphaMode;
 
 use crate::devices::{few_texel_elements, within};
 use crate::meshes::{Depths, Random, delaunay, fan};
+use crate::soup::soup;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
-
-/// A stage of `count` random triangles in sixteen colours; `blend` of them are translucent. Sums of these colours over
-/// samples are exact, so that the order of summation, which follows the IDs, has no effect.
-fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
-    let mut random = Random::new(seed);
-    let mut channel = || random.below(65) as f32 / 64.0;
-    let mut materials: Vec<Material> =
-        (0..16).map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque)).collect();
-    materials.push(flat([0.25, 0.5, 0.75, 0.5], AlphaMode::Blend));
-    let mut stage = Stage::new(materials);
-    let mut random = Random::new(!seed);
-    for index in 0..count {
-        let middle = size.map(|side| random.range(-0.5, 0.5) * f64::from(side));
-        let corners = [0; 3].map(|_| {
-            let place = middle.map(|middle| middle + random.range(-20.0, 20.0));
-            seen_at(place, random.range(1.0, 9.0), size[1])
-        });
-        let material = if index + blend < count { index % 16 } else { 16 };
-        stage.add(material, corners);
-    }
-    stage
-}
 
 fn shuffle<T>(items: &mut [T], seed: u64) {
     let mut random = Random::new(seed);

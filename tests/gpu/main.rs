@@ -45,6 +45,8 @@ mod shade;
 #[path = "../common/shared.rs"]
 mod shared;
 mod soundness;
+#[path = "../../src/bin/gpc/cli/bench/measurement/stress/soup.rs"]
+mod soup;
 mod stage;
 mod stop;
 mod stroke;

@@ -184,11 +184,8 @@ fn scene(n: &mut Numbers) -> (Scene, Pose) {
             instances: vec![instance(0, DAffine3::IDENTITY), instance(1, placed())],
             ..PosedGeometry::default()
         },
-        materials: Vec::new(),
         lights: vec![light(LightKind::Point), light(LightKind::Spot { inner_angle: 0.0, outer_angle: 1.0 })],
-        environment: None,
-        cameras: Vec::new(),
-        warnings: Vec::new(),
+        ..Pose::default()
     };
     (scene, pose)
 }

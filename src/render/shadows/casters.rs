@@ -48,14 +48,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     let mut casting = Scene::from_materials(materials);
     casting.images = images;
     casting.textures = scene.textures.clone();
-    let pose = Pose {
-        geometry,
-        materials: Vec::new(),
-        lights: pose.lights.clone(),
-        environment: None,
-        cameras: Vec::new(),
-        warnings: Vec::new(),
-    };
+    let pose = Pose { geometry, lights: pose.lights.clone(), ..Pose::default() };
     (casting, pose)
 }
 

@@ -41,7 +41,7 @@ pub struct PoseRequest {
 }
 
 /// A scene at one moment, in world space.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Pose {
     /// Triangles of the scene.
     pub geometry: PosedGeometry,

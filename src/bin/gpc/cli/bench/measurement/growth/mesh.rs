@@ -1,6 +1,6 @@
 //! Grids of triangles for the scenes of growth.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use gpc::scene::{DrawClass, DrawRange, Material, Pose, PosedGeometry, Scene, VertexStreams};
 
 /// Mesh that is being built; all its triangles have the same material.
@@ -50,23 +50,13 @@ impl Mesh {
             class: DrawClass::OpaqueDoubleSided,
         }];
         let geometry = PosedGeometry {
-            origin: DVec3::ZERO,
             positions: self.positions,
             streams: VertexStreams { normals: self.normals, colors: self.colors, ..VertexStreams::default() },
             triangles: self.triangles,
             draws,
-            instances: Vec::new(),
-            strokes: Vec::new(),
-            edges: Vec::new(),
+            ..PosedGeometry::default()
         };
-        let pose = Pose {
-            geometry,
-            materials: Vec::new(),
-            environment: None,
-            lights: Vec::new(),
-            cameras: Vec::new(),
-            warnings: Vec::new(),
-        };
+        let pose = Pose { geometry, ..Pose::default() };
         (Scene::from_materials(vec![material]), pose)
     }
 }

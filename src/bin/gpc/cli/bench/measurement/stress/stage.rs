@@ -119,33 +119,22 @@ impl Stage {
         };
         let white = self.triangles.iter().all(|t| t.color == [1.0; 4]);
         let geometry = PosedGeometry {
-            origin: DVec3::ZERO,
             positions: self.triangles.iter().flat_map(|t| t.corners).collect(),
             streams: VertexStreams {
                 normals: self.triangles.iter().flat_map(|t| [normal(t); 3]).collect(),
-                tangents: Vec::new(),
-                scales: Vec::new(),
                 uvs: match self.texture {
                     Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
                     None => Vec::new(),
                 },
                 // Without colours the renderer uses white, which is exactly 1.
                 colors: if white { Vec::new() } else { each(&|t, _| t.color) },
+                ..VertexStreams::default()
             },
             triangles: (0..self.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
             draws,
-            instances: Vec::new(),
-            strokes: Vec::new(),
-            edges: Vec::new(),
+            ..PosedGeometry::default()
         };
-        let pose = Pose {
-            geometry,
-            materials: Vec::new(),
-            environment: None,
-            lights: Vec::new(),
-            cameras: Vec::new(),
-            warnings: Vec::new(),
-        };
+        let pose = Pose { geometry, ..Pose::default() };
         (scene, pose)
     }
 
