@@ -72,8 +72,7 @@ impl Request {
         let default = if method == MethodKind::Msaa { 4 } else { 64 };
         let mut settings =
             Settings::new(size[0], size[1]).method(method.with_samples(samples.unwrap_or(default))).scene(scene);
-        let filter = PixelFilter::from(filter);
-        settings = settings.pixel_filter(filter.with_radius(radius.unwrap_or(filter.radius)));
+        settings = settings.pixel_filter(PixelFilter::new(filter, radius));
         if contrast.is_some() {
             settings = settings.map_superpixels(|options| options.contrast(contrast));
         }

@@ -89,7 +89,7 @@ impl Default for PixelFilter {
 
 impl From<FilterShape> for PixelFilter {
     fn from(shape: FilterShape) -> Self {
-        Self { shape, radius: shape.default_radius() }
+        Self::new(shape, None)
     }
 }
 
@@ -127,6 +127,12 @@ impl PixelFilter {
     pub const LEAST_RADIUS: f64 = 0.5;
     /// Largest radius, in pixels.
     pub const MOST_RADIUS: f64 = 2.5;
+
+    /// The filter of a shape, with a radius in pixels; `None` is [the shape's default](FilterShape::default_radius).
+    #[must_use]
+    pub fn new(shape: FilterShape, radius: Option<f64>) -> Self {
+        Self { shape, radius: radius.unwrap_or_else(|| shape.default_radius()) }
+    }
 
     /// This filter with another radius in pixels.
     #[must_use]

@@ -62,8 +62,7 @@ pub struct RenderArgs {
 impl RenderArgs {
     /// The pixel filter that is asked for.
     pub fn pixel_filter(&self) -> PixelFilter {
-        let filter = PixelFilter::from(self.filter);
-        filter.with_radius(self.filter_radius.unwrap_or(filter.radius))
+        PixelFilter::new(self.filter, self.filter_radius)
     }
 }
 
