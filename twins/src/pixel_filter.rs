@@ -42,41 +42,49 @@ pub fn filtered(
 ) -> Vec<[f64; 4]> {
     let [columns, rows] = size.map(|side| side * steps);
     let at = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
+    let [across_weights, along_weights] = size.map(|side| weights(side, (shape, radius), steps));
     // First along rows, then along columns.
     let across: Vec<Vec<[f64; 4]>> = (0..rows)
         .map(|row| {
             let lights: Vec<_> = (0..columns).map(|column| light([at(column), at(row)])).collect();
-            averages(size[0], (shape, radius), steps, &lights)
+            averages(&across_weights, &lights)
         })
         .collect();
     let by_column: Vec<Vec<[f64; 4]>> = (0..size[0] as usize)
         .map(|x| {
             let lights: Vec<_> = across.iter().map(|row| row[x]).collect();
-            averages(size[1], (shape, radius), steps, &lights)
+            averages(&along_weights, &lights)
         })
         .collect();
     let pixels = (0..size[1] as usize).flat_map(|y| by_column.iter().map(move |column| column[y]));
     pixels.map(possible).collect()
 }
 
-/// Averages of a line of light for each of its `pixels` pixels.
-fn averages(pixels: u32, (shape, radius): (FilterShape, f64), steps: u32, lights: &[[f64; 4]]) -> Vec<[f64; 4]> {
+/// The first place that each of `pixels` pixels of an axis sees, and the weights of this place and those after it. There are `steps`
+/// places a pixel.
+fn weights(pixels: u32, (shape, radius): (FilterShape, f64), steps: u32) -> Vec<(usize, Vec<f64>)> {
+    let steps = f64::from(steps);
     (0..pixels)
         .map(|pixel| {
             let centre = f64::from(pixel) + 0.5;
-            let first = ((centre - radius) * f64::from(steps)).floor().max(0.0) as usize;
-            let end = (((centre + radius) * f64::from(steps)).ceil() as usize).min(lights.len());
-            let (mut sum, mut total) = ([0.0; 4], 0.0);
-            for (place, light) in lights.iter().enumerate().take(end).skip(first) {
-                let weight = value(shape, radius, (place as f64 + 0.5) / f64::from(steps) - centre);
-                total += weight;
-                for (sum, light) in sum.iter_mut().zip(light) {
-                    *sum += weight * light;
-                }
-            }
-            sum.map(|sum| sum / total)
+            let first = ((centre - radius) * steps).floor().max(0.0) as usize;
+            let end = ((centre + radius) * steps).ceil().min(f64::from(pixels) * steps) as usize;
+            let own: Vec<f64> =
+                (first..end).map(|place| value(shape, radius, (place as f64 + 0.5) / steps - centre)).collect();
+            let total: f64 = own.iter().sum();
+            (first, own.into_iter().map(|weight| weight / total).collect())
         })
         .collect()
+}
+
+/// Averages of a line of light by the weights of each pixel.
+fn averages(weights: &[(usize, Vec<f64>)], lights: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    let average = |(first, own): &(usize, Vec<f64>)| {
+        own.iter()
+            .zip(&lights[*first..])
+            .fold([0.0; 4], |sum, (weight, light)| [0, 1, 2, 3].map(|channel| sum[channel] + weight * light[channel]))
+    };
+    weights.iter().map(average).collect()
 }
 
 fn possible([r, g, b, alpha]: [f64; 4]) -> [f64; 4] {
