@@ -112,7 +112,7 @@ for kind in "${kinds[@]}"; do
                 --repeat 3 --budget 2
             ;;
         hosts)
-            sizes=240x135,480x270,960x540,1280x720
+            sizes=240x135,480x270,960x540,1280x720,1920x1080
             make install PREFIX="$work/gpc" >"$work/log"
             export PKG_CONFIG_PATH="$work/gpc/lib/pkgconfig" LD_LIBRARY_PATH="$work/gpc/lib"
             read -ra flags <<<"$(pkg-config --cflags --libs gpc vulkan)"
