@@ -64,11 +64,12 @@ void add_spread(inout Spread s, uint fragment, float weight, vec4 c) {
 // is the spread of the background, if samples see it, and otherwise an error of rounding, which shows the mean.
 void write_spread_of(uvec2 pixel, Spread s, vec4 mean, vec4 missing, float share) {
     if (any(greaterThanEqual(pixel, frame.size))) return;
-    uint at = 4u * (pixel.y * frame.size.x + pixel.x);
-    [[unroll]] for (uint channel = 0u; channel < 4u; channel++) {
-        float spread[8], each = share / max(mean[channel], 1e-30);
-        [[unroll]] for (uint i = 0u; i < 8u; i++) spread[i] = (s.light[i][channel] - s.samples[i] * missing[channel]) * each;
-        spreads_out[at + channel] = pack_spread(spread);
+    uint at = SPREAD_VECTORS * (pixel.y * frame.size.x + pixel.x);
+    vec4 each = share / max(mean, vec4(1e-30));
+    [[unroll]] for (uint v = 0u; v < SPREAD_VECTORS; v++) {
+        vec4 low = (s.light[2u * v] - s.samples[2u * v] * missing) * each;
+        vec4 high = (s.light[2u * v + 1u] - s.samples[2u * v + 1u] * missing) * each;
+        spreads_out[at + v] = uvec4(packSnorm2x16(low.rg), packSnorm2x16(low.ba), packSnorm2x16(high.rg), packSnorm2x16(high.ba));
     }
 }
 #endif

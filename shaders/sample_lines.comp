@@ -82,7 +82,6 @@ struct Slot {
     uint fragments;           // number of fragments that it makes
     uint count;             // number of its samples
     uint place;             // place in the middle of its samples
-    uvec4 spread;           // their spread, see spread.glsl
 };
 
 Slot slots[HELD];
@@ -503,7 +502,7 @@ bool find_owners(inout Cell cell) {
         shown[r] = 0u;
         open_[r] = 0u;
     }
-    [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u, uvec4(0u));
+    [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u);
     State s = State(0u, 3.4e38, false, false, false, false, 0u, vec4(0.0), 0.0, 0.0);
     Key limit = Key(~0u, 0u);       // candidates up to this key are done
     bool directed = false;
@@ -572,11 +571,8 @@ uint count_fragments(Cell cell) {
             fragments_ = (own & 0xffffu) + min(own >> 16, 1u);
         }
         uint place = place_of_bits(sums, cell.columns, false);
-        uvec4 spread = uvec4(0u);
-        if (SPREAD != SPREAD_NONE) spread = spread_of_bits(bits, count_of(sums), cell.columns);
         [[unroll]] for (uint h = 0u; h < HELD; h++) {
             bool here = slot == h * TEAM + member() && slot < used;
-            if (SPREAD != SPREAD_NONE) slots[h].spread = here ? spread : slots[h].spread;
             slots[h].count = here ? count_of(sums) : slots[h].count;
             slots[h].place = here ? place : slots[h].place;
             slots[h].fragments = here ? fragments_ : slots[h].fragments;
@@ -598,8 +594,19 @@ void write_singles(Cell cell, uint singles, uint base) {
         uint bit = 1u << (h * TEAM + member()), before = uint(bitCount(singles & (bit - 1u)));
         if ((singles & bit) != 0u) {
             fragments_out[base + before] = uvec4(cell.id, slots[h].id, slots[h].place, weight_of(slots[h].count));
-            if (SPREAD != SPREAD_NONE) write_spread(base + before, slots[h].spread);
         }
+    }
+    if (SPREAD != SPREAD_NONE) {
+        uint pending = singles, at = base;
+        do {
+            bool exists = pending != 0u;
+            uint slot = exists ? uint(findLSB(pending)) : 0u, count = slots[0].count, bits[WORDS];
+            [[unroll]] for (uint h = 1u; h < HELD; h++) count = slot / TEAM == h ? slots[h].count : count;
+            [[unroll]] for (uint r = 0u; r < WORDS; r++) bits[r] = owned_by(slot + 1u, r);
+            write_spread_of_bits(exists, at, bits, of_member(count, slot % TEAM), cell.columns);
+            pending &= pending - 1u;
+            at++;
+        } while (pending != 0u);
     }
 }
 
@@ -629,11 +636,9 @@ uint write_parts(Cell cell, bool exists, uint slot, uint base) {
     sums = team_add(sums);
     bool writes = (member() & sharing_lanes(grid)) == 0u;
     own = writes ? own : 0u;
-    uvec4 spread = uvec4(0u);
-    if (SPREAD != SPREAD_NONE) spread = spread_of_bits(rest, count_of(sums), cell.columns);
+    if (SPREAD != SPREAD_NONE) write_spread_of_bits(sums.x != 0u, base, rest, count_of(sums), cell.columns);
     if (member() == 0u && sums.x != 0u) {
         fragments_out[base] = uvec4(cell.id, id, place_of_bits(sums, cell.columns, wide), weight_of(count_of(sums)));
-        if (SPREAD != SPREAD_NONE) write_spread(base, spread);
     }
     uint of_rest = sums.x != 0u ? 1u : 0u, at = base + of_rest + team_before(own), all = of_rest + team_add(own);
     uint steps = team_max(own), step = 0u;

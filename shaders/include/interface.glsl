@@ -383,6 +383,8 @@
 #define SPREAD_NONE 0u
 #define SPREAD_SQUARE 1u
 #define SPREAD_ABSOLUTE 2u
+// Texels of a superpixel's spread.
+#define SPREAD_VECTORS 4u
 
 // Formats that `encode` writes: premultiplied sRGB codes, premultiplied light, sRGB codes and straight alpha as in image files.
 #define ENCODE_RGBA8_SRGB 0u

@@ -3393,6 +3393,7 @@ pub const SCATTER_ORDER: u32 = 6;
 pub const SPREAD_NONE: u32 = 0;
 pub const SPREAD_SQUARE: u32 = 1;
 pub const SPREAD_ABSOLUTE: u32 = 2;
+pub const SPREAD_VECTORS: u32 = 4;
 pub const ENCODE_RGBA8_SRGB: u32 = 0;
 pub const ENCODE_RGBA16F: u32 = 1;
 pub const ENCODE_STRAIGHT_RGBA8: u32 = 2;

@@ -3,7 +3,7 @@
 
 use super::ResourceSizes;
 use crate::engine::data::{Argument, Counter};
-use crate::engine::spirv::{LOAD_WORDS, frame_set};
+use crate::engine::spirv::{LOAD_WORDS, SPREAD_VECTORS, frame_set};
 use crate::vulkan::{Binding, Limits, MemoryUse, VulkanError};
 use ash::vk;
 
@@ -251,7 +251,7 @@ impl Data {
                 .with(vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER),
             Self::Spreads => {
                 let pixels = if sizes.spreads { colors } else { 0 };
-                Row::new("spread of superpixels", UINT4, 4 * pixels)
+                Row::new("spread of superpixels", UINT4, u64::from(SPREAD_VECTORS) * pixels)
                     .texels_at(frame_set::SPREADS)
                     .at(frame_set::SPREADS_OUT)
             }
