@@ -3,7 +3,7 @@
 // The colours of fragments are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, fragments, shaded. Writes: color and, if asked for, display, marks and spreads.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
-// LOCATIONS: cells are locations, and colours are stored by the index of a location.
+// LOCATIONS: cells are locations, and colours and spreads are stored by the index of a location.
 // FILTERED, a variant: the spread of each superpixel is stored for `pixel_filter`.
 // LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours. With BY_LINES this is so only
 // of the cells that `sample_lines` left.
@@ -63,8 +63,8 @@ void add_spread(inout Spread s, uint fragment, float weight, vec4 c) {
 // Stores the spread of a pixel of this `mean`. The samples' own spreads should add up to that of the cell, which is 0. What is missing
 // is the spread of the background, if samples see it, and otherwise an error of rounding, which shows the mean.
 void write_spread_of(uvec2 pixel, Spread s, vec4 mean, vec4 missing, float share) {
-    if (any(greaterThanEqual(pixel, frame.size))) return;
-    uint at = SPREAD_VECTORS * (pixel.y * frame.size.x + pixel.x);
+    if (!LOCATIONS && any(greaterThanEqual(pixel, frame.size))) return;
+    uint at = SPREAD_VECTORS * (LOCATIONS ? pixel.x : pixel.y * frame.size.x + pixel.x);
     vec4 each = share / max(mean, vec4(1e-30));
     [[unroll]] for (uint v = 0u; v < SPREAD_VECTORS; v++) {
         vec4 low = (s.light[2u * v] - s.samples[2u * v] * missing) * each;

@@ -338,9 +338,9 @@ impl Renderer {
     /// Samples the scene at any locations of the camera's image plane, which has `plane` = (width, height) pixels.
     ///
     /// `locations` of shape (height, width, 2) make an image: (u, v) of each pixel, with (0, 0) at the plane's upper left corner; NaN
-    /// leaves a pixel empty. Locations of shape (N, 2) are superpixels of their own, and the result is (N, 4). `jacobians` (..., 2, 2)
-    /// have the change of (u, v) from one column (first column) and one row (second column) of the result to the next. Without them,
-    /// images take differences of neighbours, and lists one pixel of the plane.
+    /// leaves a pixel empty. Locations of shape (N, 2) are superpixels of their own, averaged by the box filter alone, and the result is
+    /// (N, 4). `jacobians` (..., 2, 2) have the change of (u, v) from one column (first column) and one row (second column) of the
+    /// result to the next. Without them, images take differences of neighbours, and lists one pixel of the plane.
     #[pyo3(signature = (locations, plane, camera=None, *, jacobians=None, **options))]
     fn sample<'py>(
         &self,

@@ -21,8 +21,10 @@ pub enum RenderError {
     /// Region in a request for locations: only the pixels of an image have regions.
     #[error("a region is a part of an image's pixels; of locations, hand over those that are wanted")]
     LocationRegion,
-    /// Pixel filter in a request for an image of locations.
-    #[error("a {shape} filter reaches beyond the pixel, and locations are no pixels; they are averaged by a box alone")]
+    /// Pixel filter in a request for a list of locations that make no image.
+    #[error(
+        "a {shape} filter reaches beyond the pixel, and the locations of a list have no neighbours; take the box, or an image"
+    )]
     LocationFilter {
         /// Shape of the filter that was asked for.
         shape: FilterShape,

@@ -58,7 +58,7 @@ pub struct Settings {
     pub region: Option<PixelRect>,
     /// Method of antialiasing.
     pub method: Method,
-    /// Filter by which pixels are averaged. Only images of pixels have one; images at locations have the box.
+    /// Filter by which pixels are averaged, also those of images at locations.
     pub pixel_filter: PixelFilter,
     /// Whether to output depth, ID, normal and number of samples of every pixel too.
     pub attributes: bool,

@@ -1,10 +1,12 @@
 //! Pixel filters, compared with the twin.
 
+use gpc::camera::SampleLocation;
 use gpc::render::{Detection, Headless, Method, MethodKind, PixelRect, Reference, Rendered, Settings, Shading};
 use gpc::sampling::{FilterShape, Pattern, PixelFilter};
 use gpc::scene::{AlphaMode, Material};
 use twins::pixel_filter::filtered;
 
+use crate::locations::{pinhole, planar};
 use crate::scenes::{ball_over_checker, layered};
 use crate::stage::{Stage, flat, on_gpu, seen_at};
 
@@ -266,7 +268,60 @@ fn impossible_filters_are_refused() {
             let error = gpu.prepare(&prepared, &settings(filter)).err().unwrap();
             assert!(error.is_usage() && error.to_string().contains("radius"), "{error}");
         }
-        let error = gpu.render_locations(&prepared, &[], &settings(FilterShape::Tent)).err().unwrap();
-        assert!(error.is_usage() && error.to_string().contains("tent"), "{error}");
+        let filter = PixelFilter::from(FilterShape::Tent).with_radius(3.0);
+        let error = gpu.render_locations(&prepared, &[], &settings(filter)).err().unwrap();
+        assert!(error.is_usage() && error.to_string().contains("radius"), "{error}");
+    });
+}
+
+/// Locations whose output is the image mirrored at its diagonal.
+fn turned([columns, rows]: [u32; 2]) -> Vec<SampleLocation> {
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+    cells
+        .zip(0..)
+        .map(|([column, row], output)| SampleLocation {
+            uv: [f64::from(row) + 0.5, f64::from(column) + 0.5],
+            jacobian: [[0.0, 1.0], [1.0, 0.0]],
+            output,
+        })
+        .collect()
+}
+
+#[test]
+fn images_of_locations_are_filtered_as_the_twin_does() {
+    on_gpu(|gpu| {
+        let all = triangles(AlphaMode::Blend);
+        let scene = stage_of(&all).upload(gpu);
+        let size = [SIZE[1], SIZE[0]];
+        for (name, method, most) in [
+            ("every cell", MethodKind::Ssaa.with_samples(256), [0.004, 0.03]),
+            ("detected superpixels", MethodKind::Superpixel.with_samples(64), [0.004, 0.04]),
+        ] {
+            for shape in SHAPES {
+                let settings = settings(shape).size(size).method(method.clone());
+                let image = gpu.render_locations(&scene, &[(pinhole(SIZE), turned(size))], &settings).unwrap();
+                let expected =
+                    filtered(size, (shape, shape.default_radius()), 60, |[x, y]| light(&all, [0.0; 4], [y, x]));
+                assert_near(&image, &expected, most, &format!("{name}, {shape}"));
+            }
+        }
+    });
+}
+
+/// Memory divides the locations into other runs, whose positions are rounded differently: colours differ by 0.003 with the box, too.
+#[test]
+fn images_of_locations_in_parts_are_the_same() {
+    on_gpu(|gpu| {
+        let size = [700, 500];
+        let settings = settings(FilterShape::Mitchell).size(size);
+        let scene = stage_of(&triangles(AlphaMode::Opaque)).upload(gpu);
+        let rig = [(pinhole(size), planar(size))];
+        let whole = gpu.render_locations(&scene, &rig, &settings).unwrap();
+        // Bands have fewer rows.
+        let limit = whole.statistics.memory_bytes / 2;
+        let parts = gpu.render_locations(&scene, &rig, &settings.max_memory(Some(limit))).unwrap();
+        let pairs = whole.colors.as_flattened().iter().zip(parts.colors.as_flattened());
+        let farthest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(farthest < 0.005, "colours differ by {farthest}");
     });
 }

@@ -131,6 +131,7 @@ impl Work {
             attributes: false,
             shadow_words: 0,
             lent: true,
+            spread: None,
         };
         let region = padded(options.size);
         let sizes = cells.sizes(layout, content, &settings.cells, list.capacity, region, capacity);

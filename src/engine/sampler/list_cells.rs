@@ -4,12 +4,13 @@ use super::{Sampler, SamplerContext, Source, averaging};
 use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
 use crate::engine::passes::resolve::ResolveTarget;
-use crate::engine::passes::{Distribute, points};
+use crate::engine::passes::{Distribute, SampleOptions, points};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
     MOST_CANDIDATES, MOST_FRAGMENTS, MOST_PAIRS, fragments_of_superpixel, most_fragments,
 };
 use crate::engine::sampler::{Capacity, CellOptions, EngineError};
+use crate::sampling::Bend;
 use crate::vulkan::Descriptor;
 
 /// Kind of the cells of a list, and the results that are computed for them.
@@ -22,6 +23,8 @@ pub(crate) struct ListCells {
     pub shadow_words: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
+    /// For a pixel filter, the function by which the spread of cells is described; `None` if it is not stored.
+    pub spread: Option<Bend>,
 }
 
 impl ListCells {
@@ -76,7 +79,8 @@ impl ListCells {
             Cells::Points => 1,
             Cells::Superpixels | Cells::Pixels => u64::from(options.samples),
         };
-        let layered = if scene.has_blend() { capacity.layered(of_location).min(most_fragments(limits)) } else { 0 };
+        let most_fragments = most_fragments(limits) / if self.spread.is_some() { 2 } else { 1 };
+        let layered = if scene.has_blend() { capacity.layered(of_location).min(most_fragments) } else { 0 };
         ResourceSizes {
             locations: Some(locations),
             survivor_capacity: scene.triangle_slots(),
@@ -85,6 +89,7 @@ impl ListCells {
             fragment_capacity: fragments.clamp(1 << 16, MOST_FRAGMENTS).max(layered) as u32,
             shadow_words: self.shadow_words,
             attributes: self.attributes,
+            spreads: self.spread.is_some(),
             ..ResourceSizes::new(region, scene.bin_count(), limits)
         }
     }
@@ -105,7 +110,7 @@ impl ListCells {
         let SamplerContext { layout, scene, settings, ref output, .. } = *context;
         let sizes = self.cell_sizes(layout, &settings.cells);
         let samples = if self.cells.are_points() { sizes.in_cell } else { settings.cells.samples };
-        let options = context.sample_options(self.cells, samples);
+        let options = SampleOptions { spread: self.spread, ..context.sample_options(self.cells, samples) };
         let source = || {
             // SAFETY: guaranteed by the caller.
             let distribute = unsafe { Distribute::of_lent(layout, self.cells, sizes, resources, locations) }?;

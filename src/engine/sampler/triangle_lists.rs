@@ -21,7 +21,8 @@ const PAIRS_OF_TILE: u64 = 8;
 const FEWEST_PAIRS: u64 = 1 << 14;
 
 /// Kind of the cells for which the passes are made. A tile has one cell, which stands for all places that are looked up.
-const PLACES: ListCells = ListCells { cells: Cells::Points, attributes: false, shadow_words: 0, lent: true };
+const PLACES: ListCells =
+    ListCells { cells: Cells::Points, attributes: false, shadow_words: 0, lent: true, spread: None };
 
 /// Load of a tile: see `shaders/include/load.glsl`. A list may have any length.
 const LOAD: spirv::SchedulePush = spirv::SchedulePush {

@@ -169,6 +169,7 @@ impl Headless {
         let settings = ListSettings {
             sampler: scene_settings.sampler(CellOptions::new(1), settings.filter()),
             scene: scene_settings,
+            spread: None,
         };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let width = detector.settings.size[0];

@@ -1,5 +1,6 @@
 //! Images whose pixels are sampled at given locations: once each, and then as superpixels where the image aliases.
 
+use super::sampler::CellSpread;
 use super::{LocationError, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::sampler::color::display_code;
@@ -19,6 +20,8 @@ pub(super) struct OutputImage {
     pub codes: Vec<u32>,
     /// Bits of the lights in whose shadow each location lies.
     pub shadows: Vec<u32>,
+    /// How the light of superpixels is spread over their cells, for a pixel filter; otherwise empty.
+    pub spreads: Vec<CellSpread>,
 }
 
 impl Headless {
@@ -29,12 +32,12 @@ impl Headless {
     /// Every location is sampled once. Locations are then sampled as superpixels if neighbours in the *output* alias,
     /// also across pinholes, or if a triangle narrower than their cell crosses it without covering the location.
     /// `ssaa` samples every location by a grid and shades each sample. Pixels without a location show the background.
-    /// If several locations belong to a pixel, the last one counts.
+    /// If several locations belong to a pixel, the last one counts. A pixel filter averages neighbours in the output.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
     /// [`RenderError::LocationMethod`] if the method is `msaa` or accumulates, [`RenderError::LocationRegion`] if the settings have a
-    /// region, [`RenderError::LocationFilter`] if they have a pixel filter other than the box; otherwise as [`Headless::render`].
+    /// region; otherwise as [`Headless::render`].
     pub fn render_locations(
         &mut self,
         scene: &PreparedScene,
@@ -59,9 +62,6 @@ impl Headless {
         }
         if settings.region.is_some() {
             return Err(RenderError::LocationRegion);
-        }
-        if !settings.pixel_filter.is_box() {
-            return Err(RenderError::LocationFilter { shape: settings.pixel_filter.shape });
         }
         let count = u64::from(size[0]) * u64::from(size[1]);
         for (index, location) in rig.iter().flat_map(|(_, locations)| locations).enumerate() {
@@ -88,6 +88,9 @@ impl Headless {
         } else if samples_cells {
             statistics.append(self.sample_aliasing(scene, rig, &settings, &mut image)?);
         }
+        if !settings.pixel_filter.is_box() {
+            statistics.append(self.filter_cells(scene, &settings, &mut image)?);
+        }
         Ok(Rendered {
             size,
             colors: image.colors,
@@ -105,12 +108,18 @@ impl Headless {
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let cells = settings.superpixels().cells;
+        let filter = settings.pixel_filter;
+        let spread = (!filter.is_box()).then(|| filter.bend());
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            let resolved = self.sample_superpixels(scene, pinhole, locations, &cells, &settings.scene)?;
+            let (resolved, spreads) =
+                self.sample_spread_superpixels(scene, pinhole, locations, &cells, &settings.scene, spread)?;
             statistics.append(resolved.statistics);
             for (location, color) in locations.iter().zip(&resolved.values) {
                 image.resolve(location.output as usize, *color, cells.samples);
+            }
+            for (location, spread) in locations.iter().zip(spreads) {
+                image.spreads[location.output as usize] = spread;
             }
         }
         Ok(statistics)
@@ -136,6 +145,7 @@ impl OutputImage {
             blend_ids: vec![0; count],
             codes: vec![display_code(background); count],
             shadows: vec![0; count],
+            spreads: vec![CellSpread::default(); if settings.pixel_filter.is_box() { 0 } else { count }],
         }
     }
 

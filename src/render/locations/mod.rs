@@ -7,6 +7,7 @@
 mod crossings;
 mod detection;
 mod error;
+mod filter;
 mod image;
 mod partition;
 mod plan;
@@ -23,9 +24,10 @@ use crate::engine::data::Cells;
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{Capacity, SamplerSettings};
+use crate::sampling::Bend;
 use partition::Partition;
 use plan::LocationPlan;
-use sampler::{LocationSampler, LocationValues};
+use sampler::{CellSpread, LocationSampler, LocationValues};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -58,6 +60,8 @@ type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
 struct ListSettings {
     scene: SceneSettings,
     sampler: SamplerSettings,
+    /// For a pixel filter, the function by which the spread of cells is described.
+    spread: Option<Bend>,
 }
 
 impl ListSettings {
@@ -120,8 +124,11 @@ impl Headless {
         settings: &SceneSettings,
         filter: TextureFilter,
     ) -> Result<Sampled<PointSample>, RenderError> {
-        let settings =
-            &ListSettings { scene: settings.clone(), sampler: settings.sampler(CellOptions::new(1), filter) };
+        let settings = &ListSettings {
+            scene: settings.clone(),
+            sampler: settings.sampler(CellOptions::new(1), filter),
+            spread: None,
+        };
         let partition = Partition::new(locations, Cells::Points)?;
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
@@ -158,15 +165,34 @@ impl Headless {
         cells: &CellOptions,
         settings: &SceneSettings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
+        let (resolved, _) = self.sample_spread_superpixels(scene, pinhole, locations, cells, settings, None)?;
+        Ok(resolved)
+    }
+
+    /// As [`Self::sample_superpixels`]. Also returns how the light of each location is spread over its cell, described by
+    /// the function `spread`, unless that is `None`.
+    fn sample_spread_superpixels(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        locations: &[SampleLocation],
+        cells: &CellOptions,
+        settings: &SceneSettings,
+        spread: Option<Bend>,
+    ) -> Result<(Sampled<[f32; 4]>, Vec<CellSpread>), RenderError> {
         let cells = settings.shadowed(cells.clone());
         let filter = TextureFilter::of_cells(settings.footprint, cells.shading);
-        let settings = &ListSettings { scene: settings.clone(), sampler: settings.sampler(cells, filter) };
+        let settings = &ListSettings { scene: settings.clone(), sampler: settings.sampler(cells, filter), spread };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
+        let mut spreads = Vec::new();
         let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
             partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
+            if spread.is_some() {
+                partition.put(&run.places, &mut spreads, |i| run.seen.spreads[i]);
+            }
         })?;
-        Ok(Sampled { values, statistics })
+        Ok((Sampled { values, statistics }, spreads))
     }
 
     /// Samples locations run by run, in the partition's order, and passes the values of each run to `take`.

@@ -64,8 +64,14 @@ impl LocationPlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let region = region(windows);
             let words = casters.map_or(0, |casters| casters.shadow_words());
-            let sizes =
-                list_cells(cells, words).sizes(layout, scene, &settings.sampler.cells, most as u32, region, capacity);
+            let sizes = list_cells(cells, words, settings.spread).sizes(
+                layout,
+                scene,
+                &settings.sampler.cells,
+                most as u32,
+                region,
+                capacity,
+            );
             let shadows = |casters| settings.shadows(layout, casters, capacity, places);
             let of_shadows = casters.map_or(0, |casters| shadows(casters).bytes());
             let held = sizes.planned_bytes() + FrameGeometry::bytes(scene) + of_shadows;

@@ -6,19 +6,21 @@ use super::run::{ListRun, RunMemory};
 use crate::engine::data::{Cells, Data, ListedLocation, Offsets};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{ListCells, Sampler, SamplerRun, Shortfall};
+use crate::engine::spirv::SPREAD_VECTORS;
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{ShadeSource, shade};
 use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
 use crate::render::{RenderError, Statistics};
+use crate::sampling::Bend;
 use crate::vulkan::{PassTime, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Cells of a list with `shadow_words` words of shadows for each place.
-pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
-    ListCells { cells, attributes: cells == Cells::Points, shadow_words, lent: false }
+/// Cells of a list with `shadow_words` words of shadows for each place, whose `spread` is stored for a pixel filter.
+pub(super) fn list_cells(cells: Cells, shadow_words: u32, spread: Option<Bend>) -> ListCells {
+    ListCells { cells, attributes: cells == Cells::Points, shadow_words, lent: false, spread }
 }
 
 /// Pipelines and memory for sampling runs of locations of one scene.
@@ -35,7 +37,12 @@ pub(super) struct LocationValues<'a> {
     pub colors: &'a [[f32; 4]],
     /// Output of `shaders/points.comp`; empty for superpixels.
     pub attributes: &'a [[[u32; 4]; 2]],
+    /// How the light of superpixels is spread over their cells; empty without a pixel filter.
+    pub spreads: &'a [CellSpread],
 }
+
+/// How the light of a superpixel is spread over its cell; `shaders/include/spread.glsl` has the layout.
+pub(super) type CellSpread = [[u32; 4]; SPREAD_VECTORS as usize];
 
 impl LocationSampler {
     /// Makes the pipelines, and memory for the runs of a plan.
@@ -47,7 +54,7 @@ impl LocationSampler {
     ) -> Result<Self, RenderError> {
         let LocationPlan { cells, places, sizes, capacity, .. } = plan;
         let scene = &*prepared.gpu_scene;
-        let listed = list_cells(*cells, sizes.shadow_words);
+        let listed = list_cells(*cells, sizes.shadow_words, settings.spread);
         let (offsets, count) = listed.offsets(layout, &settings.sampler.cells)?;
         let offsets = Offsets { all: &offsets, count };
         let run = RunMemory::new(layout, prepared, settings, plan, offsets)?;
@@ -139,6 +146,10 @@ impl LocationSampler {
             colors: resources.buffer(Data::Color).read(locations)?,
             attributes: match resources.sizes().attributes {
                 true => resources.buffer(Data::Attributes).read(locations)?,
+                false => &[],
+            },
+            spreads: match resources.sizes().spreads {
+                true => resources.buffer(Data::Spreads).read(locations)?,
                 false => &[],
             },
         })

@@ -2,6 +2,7 @@
 
 use super::exit::Usage;
 use super::render;
+use super::render::args::FilterArgs;
 use super::render::image::ImageArgs;
 use super::report::ReportArgs;
 use super::stage::RenderSetup;
@@ -32,6 +33,8 @@ pub struct PanoramaArgs {
     projection: PanoramaProjection,
 
     #[command(flatten)]
+    filter: FilterArgs,
+    #[command(flatten)]
     image: ImageArgs,
     #[command(flatten)]
     pub report: ReportArgs,
@@ -56,7 +59,8 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let fov = image.camera.fov.take().unwrap_or(widest);
     let refuse = |error: PanoramaError| Usage(error.to_string());
     let panorama = Panorama::new(args.projection, fov, image.size).map_err(refuse)?;
-    let mut stage = RenderSetup::open(&args.scene, &image, image.settings(format))?;
+    let settings = image.settings(format).pixel_filter(args.filter.filter()?);
+    let mut stage = RenderSetup::open(&args.scene, &image, settings)?;
     let locations = panorama.locations(&stage.camera).map_err(refuse)?;
     let shot = stage.render(locations.size(), locations.rig())?;
     stage.finish()?;

@@ -194,7 +194,7 @@ impl Data {
         let list = sizes.locations.unwrap_or_default();
         let tiles = u64::from(sizes.tiles());
         let tiles_of_list = if sizes.locations.is_some() { tiles } else { 0 };
-        // The host reads the colours of its own locations after each run.
+        // The host reads the colours and spreads of its own locations after each run.
         let is_read = sizes.locations.is_some_and(|list| !list.lent);
         let output = if is_read { MemoryUse::Readback } else { MemoryUse::Device };
         let conditional = match sizes.skips_rounds {
@@ -254,6 +254,7 @@ impl Data {
                 Row::new("spread of superpixels", UINT4, u64::from(SPREAD_VECTORS) * pixels)
                     .texels_at(frame_set::SPREADS)
                     .at(frame_set::SPREADS_OUT)
+                    .within(output)
             }
             Self::FilterWeights => {
                 Row::new("weights of a pixel filter", WORD, sizes.filter_weights).at(frame_set::FILTER_WEIGHTS)

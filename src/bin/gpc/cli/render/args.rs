@@ -1,6 +1,7 @@
 //! The options of `gpc render`.
 
 use super::image::ImageArgs;
+use crate::cli::exit::Usage;
 use crate::cli::report::ReportArgs;
 use crate::cli::values::{self, Shard};
 use clap::{Args, ValueEnum};
@@ -30,18 +31,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, help_heading = "Image", hide_short_help = true)]
     pub region: Option<PixelRect>,
 
-    /// Filter by which a pixel is averaged, around its centre
-    ///
-    /// It averages display-linear light, as all averages here. All but box reach into the pixels around, and so show no beads along
-    /// wires and edges.
-    #[arg(long, value_name = "FILTER", default_value = "box", help_heading = "Antialiasing", hide_short_help = true)]
-    pub filter: FilterShape,
-    /// Distance in pixels from a pixel's centre at which its filter ends, from 0.5 to 2.5 [default: 1 for tent, 1.5 for
-    /// blackman-harris, 2 for gaussian and mitchell]
-    #[arg(long, value_name = "PX", allow_negative_numbers = true, value_parser = values::finite, help_heading = "Antialiasing",
-        hide_short_help = true)]
-    pub filter_radius: Option<f64>,
-
+    #[command(flatten)]
+    pub filter: FilterArgs,
     #[command(flatten)]
     pub image: ImageArgs,
     #[command(flatten)]
@@ -59,10 +50,28 @@ pub struct RenderArgs {
     pub report: ReportArgs,
 }
 
-impl RenderArgs {
+/// How pixels are averaged.
+#[derive(Args, Clone)]
+#[command(next_help_heading = "Antialiasing")]
+pub struct FilterArgs {
+    /// Filter by which a pixel is averaged, around its centre
+    ///
+    /// It averages display-linear light, as all averages here. All but box reach into the pixels around, and so show no beads along
+    /// wires and edges.
+    #[arg(long, value_name = "FILTER", default_value = "box", hide_short_help = true)]
+    filter: FilterShape,
+    /// Distance in pixels from a pixel's centre at which its filter ends, from 0.5 to 2.5 [default: 1 for tent, 1.5 for
+    /// blackman-harris, 2 for gaussian and mitchell]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true, value_parser = values::finite, hide_short_help = true)]
+    filter_radius: Option<f64>,
+}
+
+impl FilterArgs {
     /// The pixel filter that is asked for.
-    pub fn pixel_filter(&self) -> PixelFilter {
-        PixelFilter::new(self.filter, self.filter_radius)
+    pub fn filter(&self) -> Result<PixelFilter, Usage> {
+        let filter = PixelFilter::new(self.filter, self.filter_radius);
+        filter.check().map_err(|error| Usage(format!("--filter-radius: {error}")))?;
+        Ok(filter)
     }
 }
 

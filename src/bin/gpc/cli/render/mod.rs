@@ -156,9 +156,8 @@ fn warn<P: PartialEq>(colors: &[P], view: &NamedView, film: &Film<'_>, aspect: f
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
-    let settings =
-        args.image.settings(format).region(args.region).pixel_filter(args.pixel_filter()).time_rounds(args.time_rounds);
-    settings.pixel_filter.check().map_err(|error| Usage(format!("--filter-radius: {error}")))?;
+    let filter = args.filter.filter()?;
+    let settings = args.image.settings(format).region(args.region).pixel_filter(filter).time_rounds(args.time_rounds);
     if let Some(region) = args.region {
         region.end(settings.size)?;
     }

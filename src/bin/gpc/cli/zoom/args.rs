@@ -1,6 +1,7 @@
 //! The options of `gpc zoom`.
 
 use crate::cli::exit::Usage;
+use crate::cli::render::args::FilterArgs;
 use crate::cli::render::image::ImageArgs;
 use crate::cli::report::ReportArgs;
 use crate::cli::values;
@@ -26,6 +27,8 @@ pub struct ZoomArgs {
 
     #[command(flatten)]
     pub regions: RegionArgs,
+    #[command(flatten)]
+    pub filter: FilterArgs,
     #[command(flatten)]
     pub image: ImageArgs,
     #[command(flatten)]

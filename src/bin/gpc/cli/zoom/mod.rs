@@ -110,6 +110,9 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     if !args.image.aov.is_empty() {
         usage!("--aov: a photograph holds nothing but colours");
     }
+    if !args.filter.filter()?.is_box() {
+        usage!("--filter: the pixels of a photograph are filtered already; only scenes take a filter");
+    }
     let photograph = Photograph::from(&output::read(&args.input)?);
     let size = photograph.size();
     check_places(map, size)?;
@@ -136,7 +139,8 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
             check_window(index, &region.window())?;
         }
     }
-    let mut stage = RenderSetup::open(&args.input, &args.image, args.image.settings(format))?;
+    let settings = args.image.settings(format).pixel_filter(args.filter.filter()?);
+    let mut stage = RenderSetup::open(&args.input, &args.image, settings)?;
     let pinhole = stage.pinhole()?;
     let set = SamplingSet::mapped(size, map)?;
     let statistics = set.statistics();
