@@ -97,6 +97,7 @@ const VARIANTS: &[Variant] = &[
     ("resolve", "resolve.comp", &[]),
     ("resolve_drawn", "resolve.comp", &[("DRAWN", "")]),
     ("resolve_filtered", "resolve.comp", &[("FILTERED", "")]),
+    ("resolve_drawn_filtered", "resolve.comp", &[("DRAWN", ""), ("FILTERED", "")]),
     ("points", "points.comp", &[]),
     ("box_filter", "box_filter.comp", &[]),
     ("pixel_filter", "pixel_filter.comp", &[]),

@@ -280,6 +280,31 @@ typedef uint32_t GpcDetection;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// Filter by which pixels are averaged; docs/filters.md compares them.
+enum GpcFilter
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The pixel: no pixel depends on others.
+    GPC_FILTER_BOX = 0,
+    // A triangle. The default radius is 1 pixel.
+    GPC_FILTER_TENT = 1,
+    // A Gaussian whose standard deviation is a quarter of the radius. The default radius is 2 pixels.
+    GPC_FILTER_GAUSSIAN = 2,
+    // The spline of Mitchell and Netravali, which has negative lobes. The default radius is 2 pixels.
+    GPC_FILTER_MITCHELL = 3,
+    // The window of Blackman and Harris with four terms. The default radius is 1.5 pixels.
+    GPC_FILTER_BLACKMAN_HARRIS = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcFilter GpcFilter;
+#else
+typedef uint32_t GpcFilter;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // What frames of one device share: layouts, and the pipelines made so far.
 typedef struct GpcAntialiaser GpcAntialiaser;
 
@@ -777,6 +802,14 @@ typedef struct GpcOptions {
     VkBool32 keep_alpha;
     // 0.
     uint32_t reserved;
+    // Filter by which pixels are averaged: a GpcFilter. With filters other than GPC_FILTER_BOX, the library draws all pixels of
+    // the frame: each is an average of the superpixels and of the application's pixels around it, also where the application has
+    // drawn what the library does not know. Pixels beyond the frame's edge have no weight. Alpha is filtered as a channel of its
+    // own, and limited to 0 to 1. Lists have GPC_FILTER_BOX only.
+    uint32_t filter;
+    // Distance from the pixel's centre at which the filter ends, along x and along y: 0.5 to 2.5 pixels, or 0 for the default of
+    // `filter`. With GPC_FILTER_BOX, 0 or 0.5.
+    float filter_radius;
 } GpcOptions;
 
 // State of an image, as in VkImageMemoryBarrier2.
@@ -1153,7 +1186,7 @@ GpcResult gpc_init_list_outcome(struct GpcListOutcome *outcome, size_t size);
 // Makes the pipelines and memory to sample a list of locations. With one sample, each location is sampled at its own
 // position; with more, as a superpixel around it. `width` and `height` are the size of the image in whose pixels
 // locations are given. A list has no neighbouring pixels, so that the options `detection`, `contrast`, `growths`,
-// `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect.
+// `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect, and `filter` has to be GPC_FILTER_BOX.
 //
 // Threads: any; several lists may be created at once.
 // Lifetime: the lent buffers and views outlive the list. The structs are read during the call only.

@@ -14,6 +14,7 @@ layout(constant_id = PIXEL_FILTER_CONSTANT_REACH) const uint REACH = 1u;        
 layout(constant_id = PIXEL_FILTER_CONSTANT_SUPERSAMPLED) const bool SUPERSAMPLED = false;   // an output pixel has several pixels
 layout(constant_id = PIXEL_FILTER_CONSTANT_SUPERPIXELS) const bool SUPERPIXELS = false;
 layout(constant_id = PIXEL_FILTER_CONSTANT_GROWN) const bool GROWN = false;       // masks hold only what `grow` added last
+layout(constant_id = PIXEL_FILTER_CONSTANT_PREMULTIPLIED) const bool PREMULTIPLIED = false;     // colours are multiplied by alpha
 // The bits of floats, for pixels at a distance of 0, 1 and 2 along an axis: their weights, and the factors of x (for pixels to the right)
 // and of the bent function by which the spread of superpixels is weighed.
 layout(constant_id = PIXEL_FILTER_CONSTANT_WEIGHT_0) const uint WEIGHT_0 = 0u;
@@ -155,8 +156,9 @@ vec4 sum_of_samples(ivec2 pixel, int side, out float total) {
 
 // Stores the average of a pixel.
 void write(ivec2 pixel, int width, vec4 average) {
-    // Negative lobes: alpha is brought to 0 to 1 without changing the colour, and light that is still negative becomes 0.
-    average *= average.a > 1.0 ? 1.0 / average.a : average.a > 0.0 ? 1.0 : 0.0;
+    // Negative lobes: alpha is brought to 0 to 1, without changing a colour that is PREMULTIPLIED. Light that is still negative becomes 0.
+    if (PREMULTIPLIED) average *= average.a > 1.0 ? 1.0 / average.a : average.a > 0.0 ? 1.0 : 0.0;
+    else average.a = min(average.a, 1.0);
     imageStore(filtered, pixel.y * width + pixel.x, max(average, vec4(0.0)));
 }
 

@@ -4,7 +4,7 @@
 // Reads: tile_lists, tiles, masks, headers, fragments, shaded. Writes: color and, if asked for, display, marks and spreads.
 // DRAWN, a variant: samples that see no triangle show what the host has drawn in its image, not the background.
 // LOCATIONS: cells are locations, and colours and spreads are stored by the index of a location.
-// FILTERED, a variant: the spread of each superpixel is stored for `pixel_filter`.
+// FILTERED, a variant, also of DRAWN: the spread of each superpixel is stored for `pixel_filter`.
 // LAYERED: a header lists the leaves of lists of layers, of which `composite` has computed the colours. With BY_LINES this is so only
 // of the cells that `sample_lines` left.
 #version 460

@@ -178,7 +178,7 @@ pub unsafe extern "C" fn gpc_init_list_outcome(outcome: *mut GpcListOutcome, siz
 /// Makes the pipelines and memory to sample a list of locations. With one sample, each location is sampled at its own
 /// position; with more, as a superpixel around it. `width` and `height` are the size of the image in whose pixels
 /// locations are given. A list has no neighbouring pixels, so that the options `detection`, `contrast`, `growths`,
-/// `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect.
+/// `thin`, `flat_background`, `high_dynamic_range` and `shade_all` have no effect, and `filter` has to be GPC_FILTER_BOX.
 ///
 /// Threads: any; several lists may be created at once.
 /// Lifetime: the lent buffers and views outlive the list. The structs are read during the call only.
@@ -198,7 +198,9 @@ pub unsafe extern "C" fn gpc_list_create(
             let antialiaser = object(antialiaser, "antialiaser")?;
             let geometry = read(geometry)?.geometry()?;
             let locations = read(locations)?.list();
-            let options = read(options)?.options()?;
+            let options = read(options)?;
+            options.check_filter_of_list()?;
+            let options = options.options()?;
             antialiaser.inner.prepare_list(&geometry, &locations, &ListOptions::from(&options))
         }?;
         Ok(GpcList { inner })

@@ -4,7 +4,7 @@ use super::error::{Error, GpcResult};
 use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes, unused};
 use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
-use crate::sampling::Pattern;
+use crate::sampling::{FilterShape, Pattern, PixelFilter};
 use ash::vk;
 use std::ffi::c_void;
 
@@ -55,6 +55,22 @@ pub enum GpcDetection {
     Exact = 2,
     /// No condition: every pixel is a superpixel. For measurements.
     Every = 3,
+}
+
+/// Filter by which pixels are averaged; docs/filters.md compares them.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcFilter {
+    /// The pixel: no pixel depends on others.
+    Box = 0,
+    /// A triangle. The default radius is 1 pixel.
+    Tent = 1,
+    /// A Gaussian whose standard deviation is a quarter of the radius. The default radius is 2 pixels.
+    Gaussian = 2,
+    /// The spline of Mitchell and Netravali, which has negative lobes. The default radius is 2 pixels.
+    Mitchell = 3,
+    /// The window of Blackman and Harris with four terms. The default radius is 1.5 pixels.
+    BlackmanHarris = 4,
 }
 
 /// Value of GpcOptions.contrast for the default threshold: 6, or 1 from 128 samples on.
@@ -137,12 +153,20 @@ pub struct GpcOptions {
     pub keep_alpha: vk::Bool32,
     /// 0.
     pub reserved: u32,
+    /// Filter by which pixels are averaged: a GpcFilter. With filters other than GPC_FILTER_BOX, the library draws all pixels of
+    /// the frame: each is an average of the superpixels and of the application's pixels around it, also where the application has
+    /// drawn what the library does not know. Pixels beyond the frame's edge have no weight. Alpha is filtered as a channel of its
+    /// own, and limited to 0 to 1. Lists have GPC_FILTER_BOX only.
+    pub filter: u32,
+    /// Distance from the pixel's centre at which the filter ends, along x and along y: 0.5 to 2.5 pixels, or 0 for the default of
+    /// `filter`. With GPC_FILTER_BOX, 0 or 0.5.
+    pub filter_radius: f32,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
 unsafe impl Element for GpcOptions {
     const NAME: &'static str = "GpcOptions";
-    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory, reserved);
+    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory, reserved, filter_radius);
 
     fn defaults() -> Self {
         let defaults = Options::new(0, 0);
@@ -226,6 +250,7 @@ impl GpcOptions {
             background: has_background.then_some(self.background),
             flat_background: flag("GpcOptions.flat_background", self.flat_background)?,
             high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,
+            pixel_filter: self.pixel_filter()?,
             keep_alpha: flag("GpcOptions.keep_alpha", self.keep_alpha)?,
             sharp: flag("GpcOptions.sharp", self.sharp)?,
             shade_all: flag("GpcOptions.shade_all", self.shade_all)?,
@@ -233,6 +258,25 @@ impl GpcOptions {
             fixed_memory: flag("GpcOptions.fixed_memory", self.fixed_memory)?,
             max_rounds: (self.max_rounds != 0).then_some(self.max_rounds),
         })
+    }
+
+    fn pixel_filter(&self) -> Result<PixelFilter, Error> {
+        let shapes = [
+            (GpcFilter::Box as u32, "GPC_FILTER_BOX", FilterShape::Box),
+            (GpcFilter::Tent as u32, "GPC_FILTER_TENT", FilterShape::Tent),
+            (GpcFilter::Gaussian as u32, "GPC_FILTER_GAUSSIAN", FilterShape::Gaussian),
+            (GpcFilter::Mitchell as u32, "GPC_FILTER_MITCHELL", FilterShape::Mitchell),
+            (GpcFilter::BlackmanHarris as u32, "GPC_FILTER_BLACKMAN_HARRIS", FilterShape::BlackmanHarris),
+        ];
+        let shape = choice("GpcOptions.filter", self.filter, &shapes)?;
+        let radius = (self.filter_radius != 0.0).then_some(f64::from(self.filter_radius));
+        Ok(PixelFilter::new(shape, radius))
+    }
+
+    /// Checks that the filter is the box, the only one that lists have.
+    pub(super) fn check_filter_of_list(&self) -> Result<(), Error> {
+        let only = [(GpcFilter::Box as u32, "GPC_FILTER_BOX", ())];
+        choice("GpcOptions.filter of a list", self.filter, &only)
     }
 
     /// # Safety

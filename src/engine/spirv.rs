@@ -1605,6 +1605,7 @@ pub struct PixelFilter {
     pub bend_0: u32,
     pub bend_1: u32,
     pub bend_2: u32,
+    pub premultiplied: bool,
 }
 
 impl Default for PixelFilter {
@@ -1622,6 +1623,7 @@ impl Default for PixelFilter {
             bend_0: 0,
             bend_1: 0,
             bend_2: 0,
+            premultiplied: false,
         }
     }
 }
@@ -1660,6 +1662,7 @@ impl Specialized for PixelFilter {
             .with(9, self.bend_0)
             .with(10, self.bend_1)
             .with(11, self.bend_2)
+            .flag(12, self.premultiplied)
     }
 }
 

@@ -500,6 +500,10 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     GpcList *other = NULL;
     ANSWERS(gpc_list_create(antialiaser, geometry, &lent, &wrong, &other), GPC_RESULT_VALUE,
             "GpcOptions.growths is 9; it can be 0 to 8, or GPC_GROWTHS_OF_SAMPLES");
+    wrong.growths = options->growths;
+    wrong.filter = GPC_FILTER_TENT;
+    ANSWERS(gpc_list_create(antialiaser, geometry, &lent, &wrong, &other), GPC_RESULT_VALUE,
+            "GpcOptions.filter of a list is 1; it can be GPC_FILTER_BOX (0)");
 
 #define RECORD_LIST(count) (scenery.location_count = (count), gpc_list_record(list, commands, &scenery, shade_nothing, &calls))
     MUST((VkResult)gpc_init_list_scenery(&scenery, sizeof scenery));
@@ -747,6 +751,15 @@ static void frames(void) {
     options.reserved = 1;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.reserved is 1; it can be 0");
     options.reserved = 0;
+    options.filter = 5;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.filter is 5; it can be GPC_FILTER_BOX (0), GPC_FILTER_TENT (1), GPC_FILTER_GAUSSIAN (2)");
+    options.filter = GPC_FILTER_MITCHELL;
+    options.filter_radius = 3.0f;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "a mitchell filter of radius 3: the radius must be from 0.5 to 2.5 pixels");
+    options.filter = GPC_FILTER_BOX;
+    options.filter_radius = 1.0f;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "a box filter of radius 1");
+    options.filter_radius = 0.0f;
     geometry.indirect_draws_count = 1;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcImageKinds.ids with GpcGeometry.indirect_draws: the library has to draw the IDs");
     geometry.indirect_draws_count = 0;
@@ -764,6 +777,12 @@ static void frames(void) {
     MUST((VkResult)CREATE);
     EXPECT(gpc_frame_memory_bytes(frame) > 0, "the memory of a frame");
     EXPECT(gpc_frame_shared_memory_bytes(frame) > 0 && gpc_frame_shared_memory_bytes(NULL) == 0, "the memory that frames share");
+    GpcFrame *filtered = NULL;
+    options.filter = GPC_FILTER_BLACKMAN_HARRIS;
+    MUST((VkResult)gpc_frame_create(antialiaser, &geometry, &kinds, &options, &filtered));
+    EXPECT(gpc_frame_memory_bytes(filtered) > gpc_frame_memory_bytes(frame), "a filter takes memory");
+    gpc_frame_destroy(filtered);
+    options.filter = GPC_FILTER_BOX;
     ANSWERS(gpc_frame_resize(NULL, SIDE, SIDE), GPC_RESULT_NULL, "frame is NULL");
     ANSWERS(gpc_frame_resize(frame, SIDE, 0), GPC_RESULT_VALUE, "an image of 64 x 0 pixels");
     MUST((VkResult)gpc_frame_resize(frame, SIDE, SIDE));

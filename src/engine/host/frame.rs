@@ -10,8 +10,10 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::viewport::{ClipPlane, Viewport};
 use super::{Draw, Geometry, HostError, ImageKinds, Images, IndirectCounts, LentImage, Member, Options, Shared};
-use crate::engine::data::{FrameUniform, HostImage, IdViews, Offsets, ResourceRequest, ShownIds};
+use crate::engine::data::{Data, FrameUniform, HostImage, IdViews, Offsets, ResourceRequest, ShownIds};
+use crate::engine::passes::pixel_filter::{self, Alpha, Superpixels};
 use crate::engine::passes::{Patch, Patched, RasterTargets};
+use crate::engine::pipelines::Pass;
 use crate::engine::sampler::Capacity;
 use crate::engine::sampler::footprint::{Footprints, TextureFilter};
 use crate::engine::sampler::plan::Plan;
@@ -85,6 +87,8 @@ struct Work {
     base: Base,
     /// The host's image of colours, where these are read.
     image: Option<Arc<HostImage>>,
+    /// The pixel filter, unless it is the box.
+    filter: Option<Pass>,
     patch: Patch,
     visibility_set: DescriptorSets,
     scratch: Arc<FrameScratch>,
@@ -138,7 +142,7 @@ impl Work {
         let cells = PixelCells {
             behind: drawn.clone().filter(|_| options.shows_drawn()),
             blend_ids: false,
-            ..PixelCells::superpixels(&superpixels)
+            ..PixelCells::superpixels(&superpixels).filtered(&options.pixel_filter)
         };
         let cells = PixelCells {
             depth_of_image: if kinds.ids { lending.geometry.clip.depth_of_image() } else { cells.depth_of_image },
@@ -150,7 +154,11 @@ impl Work {
         }
         // SAFETY: the set goes with the frame, as does what it shows.
         let visibility_set = unsafe { lending.visibility_set(shared, job.resources(), None) }?;
-        let patched = match (options.shade_all, sampler.growths()) {
+        let filters_pixels = !options.pixel_filter.is_box();
+        let among = if sampler.growths() > 0 { Superpixels::Grown } else { Superpixels::Detected };
+        // A host need not keep opacity in alpha.
+        let filter = || pixel_filter::pass(layout, &options.pixel_filter, false, among, Alpha::Apart);
+        let patched = match (options.shade_all || filters_pixels, sampler.growths()) {
             (true, _) => Patched::All,
             (false, 0) => Patched::Superpixels,
             (false, _) => Patched::Grown,
@@ -160,6 +168,7 @@ impl Work {
             patch: Patch::new(layout, kinds.color_format, kinds.color_encoded, options.keep_alpha, patched)?,
             sampling: Sampling { job, sampler },
             image: drawn,
+            filter: filters_pixels.then(filter).transpose()?,
             visibility_set,
             scratch,
         })
@@ -398,7 +407,16 @@ impl Frame {
             resources.record_begin(recorder, set, &uniform);
         }
         let run = SamplerRun { resources, set, uniform: &uniform, locations: 0, index: 0 };
+        if work.filter.is_some() {
+            // Superpixels that are left over have no spread.
+            recorder.clear(resources.buffer(Data::Spreads));
+        }
         sampler.record(recorder, &run, &shading);
+        if let Some(filter) = &work.filter {
+            let [width, height] = uniform.size;
+            filter.record_for(recorder, 8 * uniform.tiles[0] * uniform.tiles[1]);
+            resources.record_keep_filtered(recorder, width * height);
+        }
         images.record_draw(recorder, &self.kinds);
         let part = images.part(self.options.size);
         if self.kinds.color_copied {

@@ -42,6 +42,10 @@ pub struct Options {
     pub flat_background: bool,
     /// Whether the image holds radiance that is tone-mapped later; detection then compares tone-mapped colours.
     pub high_dynamic_range: bool,
+    /// Filter by which pixels are averaged. With filters other than the box, the library draws all pixels of the frame: each is an
+    /// average of the superpixels and of the host's pixels around it, also where the host has drawn what the library does not know.
+    /// Pixels beyond the frame's edge have no weight. Alpha is filtered as a channel of its own, and limited to 0 to 1.
+    pub pixel_filter: PixelFilter,
     /// Whether the alpha of the colour image stays as it is. Otherwise each pixel that the library draws gets the mean
     /// opacity of its samples: 1 where a triangle that is not blended is seen, whatever the shading stores, and the drawn
     /// alpha, or that of the background, where none is. With [`Self::shade_all`], the image has to hold something before.
@@ -82,6 +86,7 @@ impl Options {
             background: None,
             flat_background: false,
             high_dynamic_range: false,
+            pixel_filter: PixelFilter::BOX,
             keep_alpha: false,
             sharp: true,
             shade_all: false,
@@ -113,7 +118,7 @@ impl Options {
             size: self.size,
             region: None,
             method,
-            filter: PixelFilter::BOX,
+            filter: self.pixel_filter,
             attributes: false,
             max_memory: self.max_memory,
         }
@@ -128,7 +133,7 @@ impl Options {
     }
 }
 
-/// Options of sampling a host's lists of locations.
+/// Options of sampling a host's lists of locations. A list has no neighbouring pixels, and therefore no pixel filter.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ListOptions {
@@ -222,6 +227,7 @@ setters! {
         background: Option<[f32; 3]> = "the background as linear light; `None` for transparent",
         flat_background: bool = "whether the background is visible wherever there is no triangle",
         high_dynamic_range: bool = "whether the image holds radiance that is tone-mapped later",
+        pixel_filter: PixelFilter = "the filter by which pixels are averaged",
         keep_alpha: bool = "whether the alpha of the colour image stays as it is",
         sharp: bool = "whether textures are filtered over the area that each sample represents",
         shade_all: bool = "whether the host's shading computes the colours of all pixels",

@@ -29,6 +29,7 @@ pub(crate) mod groups;
 pub(crate) mod grow;
 pub(crate) mod indirect;
 mod patch;
+pub(crate) mod pixel_filter;
 pub(crate) mod points;
 mod raster;
 pub(crate) mod resolve;

@@ -23,7 +23,7 @@ pub(crate) enum ResolveTarget {
 /// `target` is the later pass that reads more than the colours, and `output` holds the colour constants of
 /// `shaders/include/color.glsl`. Samples that see no triangle take the colour of the host's image `behind`, or of
 /// the background if it is `None`. Layers are composited only over the background, so `behind` must be `None` for
-/// scenes that may have layers. It must also be `None` if the spread of visibility samples is stored.
+/// scenes that may have layers.
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
@@ -45,7 +45,8 @@ pub(crate) fn pass(
             ..of_list(layout, list, blocks.block, target, output)
         };
         let code = match (behind, options.spread) {
-            (Some(_), _) => spirv::RESOLVE_DRAWN,
+            (Some(_), None) => spirv::RESOLVE_DRAWN,
+            (Some(_), Some(_)) => spirv::RESOLVE_DRAWN_FILTERED,
             (None, Some(_)) => spirv::RESOLVE_FILTERED,
             (None, None) => spirv::RESOLVE,
         };

@@ -2,11 +2,11 @@
 
 use crate::engine::data::{Cells, Content};
 use crate::engine::passes::detect::DetectMode;
+use crate::engine::passes::pixel_filter::{self, Alpha, Superpixels};
 use crate::engine::passes::{FragmentRate, Raster, resolve, sort};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{Job, PixelCells, Sampler, fragment_rate};
 use crate::render::data::GpuScene;
-use crate::render::passes::pixel_filter::{self, Superpixels};
 use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
 use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
@@ -111,7 +111,7 @@ impl Passes {
                     (true, false) => Superpixels::Detected,
                     (true, true) => Superpixels::Grown,
                 };
-                pixel_filter::pass(layout, &pixel_filter, side > 1, among).map(Some)
+                pixel_filter::pass(layout, &pixel_filter, side > 1, among, Alpha::Premultiplied).map(Some)
             }
         };
         let multisampling = || -> Result<_, RenderError> {

@@ -5,11 +5,11 @@ use super::image::OutputImage;
 use super::sampler::CellSpread;
 use crate::engine::data::tiles::{mask_bit, tile_count};
 use crate::engine::data::{Data, Offsets, ResourceRequest, ResourceSizes, ShownIds};
+use crate::engine::passes::pixel_filter::{self, Alpha, Superpixels};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::engine::sampler::{Capacity, Job, JobRecording};
-use crate::render::passes::pixel_filter::{self, Superpixels};
 use crate::render::{Headless, PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse};
 use ash::vk;
@@ -89,7 +89,13 @@ impl CellFilter {
         Ok(Self {
             width: settings.size[0],
             settings: settings.clone(),
-            filter: pixel_filter::pass(layout, &settings.pixel_filter, false, Superpixels::Detected)?,
+            filter: pixel_filter::pass(
+                layout,
+                &settings.pixel_filter,
+                false,
+                Superpixels::Detected,
+                Alpha::Premultiplied,
+            )?,
             cells: upload,
             filtered,
             job: Job::new(layout, memory, &settings.sampler(), Capacity::default(), &request)?,

@@ -8,7 +8,6 @@ pub(crate) mod encode;
 pub(crate) mod multisample;
 pub(crate) mod neighbours;
 mod occlude;
-pub(crate) mod pixel_filter;
 mod pose;
 pub mod prefilter;
 mod receivers;

@@ -11,7 +11,7 @@ use twins::behind::behind;
 
 /// Linear premultiplied colour that the host draws where no triangle is: a sky that changes from pixel to pixel, above
 /// a floor with waves.
-fn backdrop([x, y]: [f64; 2]) -> [f32; 4] {
+pub fn backdrop([x, y]: [f64; 2]) -> [f32; 4] {
     let [u, v] = [x / f64::from(SIZE[0]), y / f64::from(SIZE[1])];
     let wave = 0.5 + 0.5 * (0.35 * x).sin() * (0.27 * y).cos();
     let ground = (4.0 * v - 2.0).clamp(0.0, 1.0);
@@ -22,7 +22,7 @@ fn backdrop([x, y]: [f64; 2]) -> [f32; 4] {
 }
 
 /// Image that the host draws of the world in front of the backdrop.
-fn drawn(world: &World) -> Drawn {
+pub fn drawn_before(world: &World) -> Drawn {
     let mut drawn = world.drawn();
     for (pixel, (color, id)) in drawn.colors.iter_mut().zip(&drawn.ids).enumerate() {
         if *id == 0 {
@@ -42,7 +42,7 @@ fn centre(pixel: usize) -> [f64; 2] {
 fn samples_that_see_no_triangle_show_the_twins_colour() {
     on_gpu(|gpu| {
         let world = World::new();
-        let (machine, drawn) = (Machine::new(gpu, &world), drawn(&world));
+        let (machine, drawn) = (Machine::new(gpu, &world), drawn_before(&world));
         let given = [0.7, 0.1, 0.4];
         let way = Way { corner: [13, 5], ..PLACED };
         let see = |way: &Way, background, flat_background| {
@@ -118,10 +118,10 @@ fn with_overlay(mut colors: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
 }
 
 #[test]
-fn backdrops_are_antialiased_as_by_brute_force() {
+pub fn backdrops_are_antialiased_as_by_brute_force() {
     on_gpu(|gpu| {
         let world = World::new();
-        let (machine, drawn) = (Machine::new(gpu, &world), drawn(&world));
+        let (machine, drawn) = (Machine::new(gpu, &world), drawn_before(&world));
         let [truth, brute] = [32, 8].map(|side| with_overlay(brute_force(&world, side)));
         let see = |flat_background| {
             let options = Options::new(SIZE[0], SIZE[1]).flat_background(flat_background);

@@ -55,7 +55,7 @@ fn quads() -> [([[f32; 3]; 4], f32); 3] {
 
 const CORNERS: [[f32; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
 
-fn stage(sampler: Sampler) -> Stage {
+pub fn stage(sampler: Sampler) -> Stage {
     let mask = AlphaMode::Mask { cutoff: CUTOFF };
     let mut stage = Stage::new(vec![flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque), textured(mask)]);
     let image = Image { width: SIDE, height: SIDE, pixels: texels() };

@@ -18,6 +18,7 @@ mod lent;
 mod list;
 mod machine;
 mod mask;
+mod pixel_filter;
 mod room;
 mod rounds;
 mod targets;

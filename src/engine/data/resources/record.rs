@@ -96,7 +96,7 @@ impl Resources {
         }
     }
 
-    /// Records replacing the supersampled pixels by the first `pixels` pixels of the box filter.
+    /// Records replacing colours by the first `pixels` pixels of a filter.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
         let (from, to) = (self.buffer(Data::Filtered), self.buffer(Data::Color));
         recorder.copy(from, 16 * u64::from(pixels), to, 0);

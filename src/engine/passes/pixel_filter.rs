@@ -16,6 +16,15 @@ pub(crate) enum Superpixels {
     Grown,
 }
 
+/// Alpha of the colours that are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Alpha {
+    /// Colours are multiplied by it.
+    Premultiplied,
+    /// It may be anything, and does not change how light is filtered.
+    Apart,
+}
+
 /// Filters each pixel of the region, which has several rendered pixels if `supersampled` is set.
 ///
 /// # Errors
@@ -25,6 +34,7 @@ pub(crate) fn pass(
     filter: &PixelFilter,
     supersampled: bool,
     superpixels: Superpixels,
+    alpha: Alpha,
 ) -> Result<Pass, VulkanError> {
     let fits = filter.fits();
     let reach = filter.reach();
@@ -38,6 +48,7 @@ pub(crate) fn pass(
         supersampled,
         superpixels: superpixels != Superpixels::None,
         grown: superpixels == Superpixels::Grown,
+        premultiplied: alpha == Alpha::Premultiplied,
         weight_0: bits(0, 0),
         weight_1: bits(1, 0),
         weight_2: bits(2, 0),
