@@ -44,11 +44,11 @@ vec4 tent_mean(float x, vec4 reach) {
     return (tent_area(x + reach) - tent_area(x - reach)) / (2.0 * reach);
 }
 
-// The same average for a single part, whose light is interpolated to the parts beside it, over a lobe that is about as narrow. The lobe
-// is taken for the mean of four squares, whose sides are quantiles of it. `apart` is in columns and rows, and `width` the radius of
-// the lobe in them.
+// Quantiles of a narrow lobe: half the sides of four squares, whose mean is about the lobe.
 const vec4 SQUARES = vec4(0.655, 1.11, 1.72, 3.36);
 
+// The same average for a single part, whose light is interpolated to the parts beside it, over a lobe that is about as narrow. The lobe
+// is taken for the mean of SQUARES. `apart` is in columns and rows, and `width` the radius of the lobe in them.
 float texel_share(vec2 apart, vec2 width) {
     return 0.25 * dot(tent_mean(apart.x, max(SQUARES * width.x, 1e-3)), tent_mean(apart.y, max(SQUARES * width.y, 1e-3)));
 }

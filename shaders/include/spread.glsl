@@ -6,8 +6,8 @@
 #define SPREAD_GLSL
 #include "interface.glsl"
 
-// Superpixels have SPREAD_VECTORS vectors: two words for each function, with the means of the four channels in 16 bits each. This is what
-// is stored for fragments: the means over their samples.
+// A superpixel has SPREAD_VECTORS vectors: two words for each function, with the means of its four channels in 16 bits each. A fragment
+// has one vector: the means over its samples, in 16 bits each.
 uvec4 pack_spread(float spread[8]) {
     return uvec4(packSnorm2x16(vec2(spread[0], spread[1])), packSnorm2x16(vec2(spread[2], spread[3])),
         packSnorm2x16(vec2(spread[4], spread[5])), packSnorm2x16(vec2(spread[6], spread[7])));
@@ -20,6 +20,5 @@ void unpack_spread(uvec4 packed, out float spread[8]) {
         spread[2u * i + 1u] = pair.y;
     }
 }
-
 
 #endif

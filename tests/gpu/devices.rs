@@ -6,7 +6,7 @@ use gpc::scene::{AlphaMode, Material, MeshInstance};
 use gpc::vulkan::{Limits, Teams, VulkanError};
 
 use crate::detect::mosaic;
-use crate::scenes::layered;
+use crate::scenes::{ball_over_checker, layered};
 use crate::stage::{Stage, as_cpu, as_gpu, camera, everywhere, flat, on_gpu, open, run};
 
 /// Runs a test on a device with lower limits; fails if the validation layer reports a message.
@@ -39,10 +39,11 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
     let cases = [
         settings(&Pattern::Lines, 64, Shading::Part),
         settings(&Pattern::Lines, 1024, Shading::Part),
+        settings(&Pattern::Sobol, 8, Shading::Part),
         settings(&Pattern::Sobol, 64, Shading::Part),
         settings(&Pattern::Sobol, 16, Shading::Sample),
     ];
-    let stages = [layered(), mosaic(5, SIZE)];
+    let stages = [ball_over_checker(), layered(), mosaic(5, SIZE)];
     let mut images = Vec::new();
     on_gpu(|gpu| {
         for stage in &stages {
@@ -70,19 +71,20 @@ fn several_teams_in_a_subgroup_make_the_same_image() {
 #[test]
 fn single_cells_make_the_same_image() {
     let test = |several: &mut Headless, single: &mut Headless| {
-        let stage = layered();
-        for (pattern, samples) in [
-            (Pattern::Lines, 4),
-            (Pattern::Lines, 64),
-            (Pattern::Lines, 256),
-            (Pattern::Lines, 1024),
-            (Pattern::Sobol, 16),
-            (Pattern::Sobol, 256),
-        ] {
-            let settings = everywhere([64, 48], pattern.clone(), samples);
-            let expected = stage.render(several, &settings);
-            let found = stage.render(single, &settings);
-            assert!(found.colors == expected.colors, "{pattern:?}, {samples} samples");
+        for stage in [ball_over_checker(), layered()] {
+            for (pattern, samples) in [
+                (Pattern::Lines, 4),
+                (Pattern::Lines, 64),
+                (Pattern::Lines, 256),
+                (Pattern::Lines, 1024),
+                (Pattern::Sobol, 16),
+                (Pattern::Sobol, 256),
+            ] {
+                let settings = everywhere([64, 48], pattern.clone(), samples);
+                let expected = stage.render(several, &settings);
+                let found = stage.render(single, &settings);
+                assert!(found.colors == expected.colors, "{pattern:?}, {samples} samples");
+            }
         }
     };
     within(as_cpu, |several| within(as_gpu, |single| test(several, single)));

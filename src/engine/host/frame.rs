@@ -414,7 +414,7 @@ impl Frame {
         sampler.record(recorder, &run, &shading);
         if let Some(filter) = &work.filter {
             let [width, height] = uniform.size;
-            filter.record_for(recorder, 8 * uniform.tiles[0] * uniform.tiles[1]);
+            filter.record_for(recorder, pixel_filter::columns(uniform.tiles[0] * uniform.tiles[1]));
             resources.record_keep_filtered(recorder, width * height);
         }
         images.record_draw(recorder, &self.kinds);

@@ -62,6 +62,11 @@ pub(crate) fn pass(
     Ok(Pass::named(spirv::PixelFilter::INTERFACE).dispatch(dispatch))
 }
 
+/// Number of work items for rendered pixels that are not supersampled: the columns of `tiles` tiles.
+pub(crate) fn columns(tiles: u32) -> u32 {
+    8 * tiles
+}
+
 /// The weights that the pass reads for `side` x `side` rendered pixels in an output pixel.
 pub(crate) fn weights(filter: &PixelFilter, side: u32) -> Vec<f32> {
     filter.weights(side).into_iter().map(|weight| weight as f32).collect()

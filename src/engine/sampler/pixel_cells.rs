@@ -71,7 +71,7 @@ impl PixelCells {
 
     /// These cells, for a pixel filter.
     pub fn filtered(self, filter: &PixelFilter) -> Self {
-        Self { spread: (!filter.is_box()).then(|| filter.bend()), reach: filter.reach(), ..self }
+        Self { spread: filter.spread(), reach: filter.reach(), ..self }
     }
 
     /// Makes a sampler for these cells.

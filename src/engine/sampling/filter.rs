@@ -134,6 +134,11 @@ impl PixelFilter {
         Self { shape, radius: radius.unwrap_or_else(|| shape.default_radius()) }
     }
 
+    /// The function by which the spread of superpixels is described; `None` for the box, which needs no spread.
+    pub(crate) fn spread(&self) -> Option<Bend> {
+        (!self.is_box()).then(|| self.bend())
+    }
+
     /// This filter with another radius in pixels.
     #[must_use]
     pub fn with_radius(self, radius: f64) -> Self {

@@ -183,8 +183,7 @@ impl FrameRecording<'_> {
                 let weights = pixel_filter::weights(&self.settings.pixel_filter, side);
                 recorder.update(resources.buffer(Data::FilterWeights), 0, bytemuck::cast_slice(&weights));
             }
-            // `pixel_filter` processes columns of tiles, unless pixels are supersampled.
-            filter.record_for(recorder, if side > 1 { filtered } else { 8 * tiles });
+            filter.record_for(recorder, if side > 1 { filtered } else { pixel_filter::columns(tiles) });
             resources.record_keep_filtered(recorder, filtered);
         }
         if let Some((encoding, encode)) = &passes.encode {

@@ -155,8 +155,7 @@ impl CellFilter {
             // SAFETY: both buffers have room for the cells of these rows, were created for copies, and outlive the execution.
             unsafe { recorder.copy_raw(cells.raw, resources.buffer(to).raw, &[region]) };
         }
-        // `pixel_filter` processes columns of tiles.
-        filter.record_for(recorder, 8 * tile_count(size) as u32);
+        filter.record_for(recorder, pixel_filter::columns(tile_count(size) as u32));
         recorder.copy(resources.buffer(Data::Filtered), u64::from(count) * COLOR as u64, filtered, 0);
         recording.end();
     }

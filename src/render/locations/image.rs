@@ -108,8 +108,7 @@ impl Headless {
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let cells = settings.superpixels().cells;
-        let filter = settings.pixel_filter;
-        let spread = (!filter.is_box()).then(|| filter.bend());
+        let spread = settings.pixel_filter.spread();
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
             let (resolved, spreads) =

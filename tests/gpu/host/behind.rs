@@ -118,7 +118,7 @@ fn with_overlay(mut colors: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
 }
 
 #[test]
-pub fn backdrops_are_antialiased_as_by_brute_force() {
+fn backdrops_are_antialiased_as_by_brute_force() {
     on_gpu(|gpu| {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), drawn_before(&world));

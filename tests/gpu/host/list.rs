@@ -1,5 +1,6 @@
 //! Lists of locations that a host lends, instead of an image's pixels.
 
+use super::farthest;
 use super::machine::{Base, Machine};
 use super::world::{PLACED, SIZE, SKY, Way, World};
 use crate::meshes::Random;
@@ -21,12 +22,6 @@ pub fn pixels() -> Vec<Location> {
 
 fn options(samples: u32) -> Options {
     Options::new(SIZE[0], SIZE[1]).samples(samples).detection(Detection::Every)
-}
-
-fn farthest(some: &[[f32; 4]], others: &[[f32; 4]]) -> f32 {
-    assert_eq!(some.len(), others.len());
-    let pairs = some.as_flattened().iter().zip(others.as_flattened());
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
 /// A list of all pixels equals a picture of the library in which all pixels are superpixels. Shading in parts gives

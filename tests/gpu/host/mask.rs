@@ -1,5 +1,6 @@
 //! Alpha maps of a host, compared with scenes of files that have the same maps.
 
+use super::farthest;
 use super::machine::{Base, Machine};
 use super::world::{Drawn, Map, Mesh, PLACED, Part, SIZE, Way, World};
 use crate::stage::{NEAR, Stage, flat, ids, on_gpu, once, seen_at, textured};
@@ -163,10 +164,4 @@ fn alpha_maps_are_tested_as_those_of_files() {
             }
         }
     });
-}
-
-/// Largest difference of any channel.
-fn farthest(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
-    let channels = a.as_flattened().iter().zip(b.as_flattened());
-    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }

@@ -24,3 +24,10 @@ mod rounds;
 mod targets;
 mod viewport;
 mod world;
+
+/// Largest difference of any channel.
+fn farthest(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
+    assert_eq!(a.len(), b.len());
+    let channels = a.as_flattened().iter().zip(b.as_flattened());
+    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}

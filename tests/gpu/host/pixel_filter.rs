@@ -1,6 +1,7 @@
 //! Pixel filters of a host's frames.
 
 use super::behind::{backdrop, drawn_before};
+use super::farthest;
 use super::machine::{AROUND, Base, Machine};
 use super::mask;
 use super::world::{Drawn, PLACED, SIZE, SKY, Way, World};
@@ -13,13 +14,6 @@ use gpc::scene::Sampler;
 use twins::pixel_filter::filtered;
 
 const SHAPES: [FilterShape; 2] = [FilterShape::BlackmanHarris, FilterShape::Mitchell];
-
-/// Largest difference of any channel.
-fn farthest(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
-    assert_eq!(a.len(), b.len());
-    let channels = a.as_flattened().iter().zip(b.as_flattened());
-    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-}
 
 /// A filtered frame shows what the same scene of a file does, whoever draws IDs.
 #[test]

@@ -88,7 +88,7 @@ fn jacobians_place_sub_samples() {
         for (pattern, samples, sets, count) in [
             (Pattern::Sobol, 16, points(16), 2000),
             (Pattern::Lines, 64, rows_or_columns(8), 200),
-            (Pattern::Lines, 256, rows_or_columns(32), 60),
+            (Pattern::Lines, 256, rows_or_columns(32), 200),
         ] {
             let locations = sheared(&mut random, count);
             let settings =

@@ -33,9 +33,9 @@ pub struct PanoramaArgs {
     projection: PanoramaProjection,
 
     #[command(flatten)]
-    filter: FilterArgs,
-    #[command(flatten)]
     image: ImageArgs,
+    #[command(flatten)]
+    filter: FilterArgs,
     #[command(flatten)]
     pub report: ReportArgs,
 }

@@ -28,9 +28,9 @@ pub struct ZoomArgs {
     #[command(flatten)]
     pub regions: RegionArgs,
     #[command(flatten)]
-    pub filter: FilterArgs,
-    #[command(flatten)]
     pub image: ImageArgs,
+    #[command(flatten)]
+    pub filter: FilterArgs,
     #[command(flatten)]
     pub report: ReportArgs,
 }
