@@ -33,7 +33,7 @@ names! {
     MethodKind {
         None "none" "One sample a pixel",
         Superpixel "superpixel" "Many samples where the image aliases, one elsewhere",
-        Ssaa "ssaa" "Brute force: everything at k x k times the resolution",
+        Ssaa "ssaa" "Brute force: a grid of k x k samples in every pixel",
         Msaa "msaa" "The device's own multisampling",
         Accumulate "accumulate" "The mean of N frames, whose cameras are moved within the pixel by a Sobol sequence",
         Rotated "rotated" "As accumulate, by the points of a rotated grid",
@@ -51,7 +51,7 @@ names! {
         Exact "exact" "Pixels with a neighbour that shows another triangle, whatever the colours",
     }
     Footprint {
-        Sample "sample" "The part of the pixel that one shading stands for",
+        Sample "sample" "The part of the pixel that is shaded at once",
         Pixel "pixel" "The whole pixel, as always with none and msaa",
     }
     Shading {

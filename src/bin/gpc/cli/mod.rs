@@ -76,8 +76,8 @@ enum Command {
     Render(Box<render::args::RenderArgs>),
     /// Enlarge regions of a scene or photograph within the rest of the image
     ///
-    /// A transition joins each enlarged region to the rest without a gap (focus plus context). In a scene, each pixel is sampled exactly
-    /// where it looks, and antialiased. In a photograph, colours are interpolated between its pixels, and the options of size, light, view
+    /// A transition joins each enlarged region to the rest without a gap (focus plus context). In a scene, each pixel is sampled at its
+    /// own location and antialiased. In a photograph, colours are interpolated between its pixels, and the options of size, light, view
     /// and antialiasing have no effect.
     ///
     /// Positions are in pixels of the output image, and (0, 0) is its upper left corner. For several regions, repeat --center, --radius
@@ -86,8 +86,8 @@ enum Command {
     Zoom(Box<zoom::ZoomArgs>),
     /// Turn an image of gpc zoom back into an ordinary view, without the scene
     ///
-    /// The PNG that gpc zoom wrote stores its regions. The result shows one of them: the rectangle around the region, with as many pixels
-    /// as it has in the zoomed image, as if the camera had looked at nothing else.
+    /// The PNG that gpc zoom wrote stores its regions. The result is an ordinary view of the rectangle around one of them, with as many
+    /// pixels as this rectangle has in the zoomed image.
     Unzoom(unzoom::UnzoomArgs),
     /// Sample a scene at the locations in a table
     ///
@@ -106,7 +106,7 @@ enum Command {
     Sample(Box<sample::SampleArgs>),
     /// Render what is around the camera, up to 360 x 180 degrees
     ///
-    /// Each pixel is sampled exactly where it looks, and antialiased; no image is resampled. The camera looks at the middle of the image.
+    /// Each pixel is sampled in its own direction and antialiased; no image is resampled. The camera looks at the middle of the image.
     Panorama(Box<panorama::PanoramaArgs>),
     /// Render the frames of projectors that together show one picture on a wall
     ///
@@ -136,9 +136,9 @@ enum Command {
     /// supersampling with thousands of samples a pixel, each of which reads textures over 1/64 of a pixel's width. References are
     /// kept on disk for the next run.
     ///
-    /// --geometry, --motion, --variants, --growth and --stress measure more, as their descriptions say. DIR then holds results.json, results.csv and
-    /// report.html, and motion.csv, variants.csv or growth.csv with these options. All files are written again after each scene. The
-    /// lines at the head of a CSV begin with # and say where its figures come from.
+    /// --geometry, --growth, --variants, --choices, --motion and --stress measure more, as their descriptions say. DIR then holds
+    /// results.json, report.html and a CSV for each table, such as results.csv. All files are written again after each scene. The lines at
+    /// the head of a CSV begin with # and say where its figures come from.
     Bench(Box<bench::BenchArgs>),
     /// List the Vulkan devices and what they lack
     ///

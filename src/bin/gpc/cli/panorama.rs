@@ -18,7 +18,7 @@ use std::process::ExitCode;
 #[command(
     mut_arg("size", |arg| arg.default_value("1280x640")),
     mut_arg("fov", |arg| arg
-        .help("Field of view in degrees along the width of the image, at most 360; of a fisheye across its circle [default: 360; fisheye 180]")
+        .help("Field of view in degrees, at most 360: across the width of the image, or across the circle of a fisheye [default: 360; fisheye 180]")
         .value_parser(super::values::positive))
 )]
 pub struct PanoramaArgs {

@@ -43,7 +43,7 @@ pub struct BenchArgs {
     /// Also time the methods in made-up scenes whose number of triangles, pixels, superpixels or layers grows
     #[arg(long)]
     pub growth: bool,
-    /// Also time the variants of the camera in each scene: planar, offset, superpixel and random sets, and a panorama
+    /// Also time the variants of the camera in each scene: planar, offset, superpixel and random sets of locations, and a panorama
     #[arg(long)]
     pub variants: bool,
     /// Also measure superpixels of 64 samples in each scene with other values of --contrast and --shading

@@ -33,8 +33,8 @@ pub struct ProjectArgs {
     /// Width and height in pixels of the projectors that a .csv describes; once for all, or once for each
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     projector_size: Vec<[u32; 2]>,
-    /// Largest error of a correspondence in pixels of the picture, compared with where the others would put it; those with a
-    /// larger error are ignored
+    /// Largest distance of a correspondence from the place that the others predict for it, in pixels of the picture; correspondences
+    /// farther away are ignored
     #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
     tolerance: f64,
     /// Seed of the random choices while correspondences are fitted; the same seed gives the same frames

@@ -54,14 +54,13 @@ pub struct RenderArgs {
 #[derive(Args, Clone)]
 #[command(next_help_heading = "Antialiasing")]
 pub struct FilterArgs {
-    /// Filter by which a pixel is averaged, around its centre
+    /// Pixel filter: how much each place around a pixel's centre counts in its colour
     ///
-    /// It averages display-linear light, as all averages here. All but box reach into the pixels around, and so show no beads along
-    /// wires and edges.
+    /// All filters except box reach into the pixels around, so that wires and edges show no beads.
     #[arg(long, value_name = "FILTER", default_value = "box", hide_short_help = true)]
     filter: FilterShape,
-    /// Distance in pixels from a pixel's centre at which its filter ends, from 0.5 to 2.5 [default: 1 for tent, 1.5 for
-    /// blackman-harris, 2 for gaussian and mitchell]
+    /// Distance in pixels from a pixel's centre at which its filter ends, from 0.5 to 2.5; always 0.5 for box [default: 1 for tent, 1.5
+    /// for blackman-harris, 2 for gaussian and mitchell]
     #[arg(long, value_name = "PX", allow_negative_numbers = true, value_parser = values::finite, hide_short_help = true)]
     filter_radius: Option<f64>,
 }
@@ -84,10 +83,10 @@ pub struct SamplingArgs {
     pub aa: MethodKind,
     /// Samples a pixel; for superpixel, the effort in each pixel that aliases [default: 64; 4 for msaa]
     ///
-    /// superpixel takes 1 to 1024. At 64, it looks for triangles at 512 places of a pixel that aliases, and computes light at 8 to 32
-    /// places where colours vary; at 256, at 2048 and 32 to 128; at 1024, at 4096 and 64 to 256. ssaa takes a square number up to
-    /// 1024, accumulate and rotated any number up to that, and all three look and compute light at as many places in every pixel.
-    /// msaa takes what the device supports.
+    /// superpixel takes 1 to 1024. With 64, it looks for triangles at 512 places of a pixel that aliases. Where colours vary, it computes
+    /// light at 8 to 32 places. With 256, these are 2048 places and 32 to 128; with 1024, 4096 places and 64 to 256. ssaa takes square
+    /// numbers up to 1024. accumulate and rotated take any number up to 1024. These three look for triangles and compute light at N places
+    /// of every pixel. msaa takes what the device supports.
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// A pixel contrasts with a neighbour if they differ by more than this, in 8-bit sRGB codes [default: 6; 1 from 128
