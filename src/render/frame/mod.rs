@@ -59,12 +59,13 @@ impl SceneFrame {
         layout: &Arc<FrameLayout>,
         scene: &Arc<GpuScene>,
         casters: Option<&Arc<Casters>>,
-        settings: &Settings,
+        asked: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
         reserved: u64,
     ) -> Result<Self, RenderError> {
-        let settings = &settings.clone().with_shadowed_samples();
+        // Only passes and memory depend on how samples are shaded.
+        let settings = &asked.clone().with_shadowed_samples();
         let sampler = settings.sampler();
         let casters = match settings.scene.shadows {
             Shadows::None => None,
@@ -123,7 +124,7 @@ impl SceneFrame {
             targets,
             geometry,
             look,
-            settings: settings.clone(),
+            settings: asked.clone(),
             plan,
             job,
         })

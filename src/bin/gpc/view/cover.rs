@@ -1,4 +1,4 @@
-//! Cover: a picture that is shown instead of the frames, for zoom lenses, overlays, shadows or a photograph.
+//! Cover: a picture that is shown instead of the frames, for zoom lenses, overlays, an environment or a photograph.
 
 use super::lens::Lenses;
 use super::overlay::Overlay;
@@ -17,8 +17,6 @@ pub struct Cover {
     /// Whether the lenses' transitions are coloured.
     pub tints: bool,
     pub overlay: Option<Overlay>,
-    /// Whether pictures have shadows; frames have none.
-    pub has_shadows: bool,
     /// Whether pictures show the environment as background; frames don't.
     pub shows_environment: bool,
     /// Whether a photograph is shown, so that there are no frames.
@@ -45,14 +43,14 @@ pub struct Arrival {
 }
 
 impl Cover {
-    /// Cover over frames. The arguments say whether its pictures have shadows and show the environment.
-    pub fn new(has_shadows: bool, shows_environment: bool) -> Self {
-        Self { has_shadows, shows_environment, ..Self::default() }
+    /// Cover over frames. `shows_environment` says whether its pictures show the environment.
+    pub fn new(shows_environment: bool) -> Self {
+        Self { shows_environment, ..Self::default() }
     }
 
     /// Cover without lenses and overlays, over frames or a photograph.
     pub fn cleared(&self, is_photo: bool) -> Self {
-        Self { is_photo, ..Self::new(self.has_shadows, self.shows_environment) }
+        Self { is_photo, ..Self::new(self.shows_environment) }
     }
 
     /// Kind of picture that a scene needs as its cover, if it needs one.
@@ -60,7 +58,7 @@ impl Cover {
         match (self.overlay, self.lenses.map()) {
             (Some(overlay), _) => Some(Subject::Overlay(overlay)),
             (None, Some(map)) => Some(Subject::Zoom(map, self.tints)),
-            (None, None) => (self.has_shadows || self.shows_environment).then_some(Subject::Still),
+            (None, None) => self.shows_environment.then_some(Subject::Still),
         }
     }
 
@@ -182,13 +180,11 @@ mod tests {
 
     #[test]
     fn pictures_of_what_frames_have_not_take_their_place() {
-        for (has_shadows, shows_environment) in [(true, false), (false, true)] {
-            let mut cover = Cover::new(has_shadows, shows_environment);
-            assert!(matches!(cover.subject(), Some(Subject::Still)));
-            cover.lenses.add(DVec2::ZERO, 100.0);
-            assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
-            assert!(matches!(cover.cleared(false).subject(), Some(Subject::Still)));
-        }
+        let mut cover = Cover::new(true);
+        assert!(matches!(cover.subject(), Some(Subject::Still)));
+        cover.lenses.add(DVec2::ZERO, 100.0);
+        assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
+        assert!(matches!(cover.cleared(false).subject(), Some(Subject::Still)));
         assert!(!Cover::default().is_wanted());
     }
 }

@@ -7,7 +7,7 @@ use super::preparer::{Preparer, Ticket};
 use super::schedule::{PictureSchedule, PictureWork, Took};
 use ash::vk;
 use gpc::camera::Camera;
-use gpc::render::{EngineError, PixelRect, PreparedScene, RenderError, SceneFrame, Settings, Shadows, Statistics};
+use gpc::render::{EngineError, PixelRect, PreparedScene, RenderError, SceneFrame, Settings, Statistics};
 use gpc::scene::Moment;
 use std::sync::{Arc, Weak};
 use std::time::Instant;
@@ -264,14 +264,12 @@ impl Layer {
     }
 
     fn settings(&self, work: &PictureWork) -> Settings {
-        let settings = match work {
+        match work {
             PictureWork::Draft { samples } => self.look.draft(*samples),
             PictureWork::Band { samples, rows } => self.look.at(
                 *samples,
                 Some(PixelRect { corner: [0, rows.start], size: [self.look.settings.size[0], rows.end - rows.start] }),
             ),
-        };
-        // Frames leave shadows out, which would take too long. The worker's pictures have them.
-        settings.shadows(Shadows::None)
+        }
     }
 }

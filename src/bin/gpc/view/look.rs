@@ -1,6 +1,6 @@
 //! Antialiasing settings of a picture, which keys and panel change.
 
-use gpc::render::{Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading, SuperpixelOptions};
+use gpc::render::{Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading, Shadows, SuperpixelOptions};
 
 /// Samples a pixel of a picture at rest, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
@@ -51,11 +51,11 @@ impl Look {
         }
     }
 
-    /// Settings of a picture while something moves. Superpixels lie along edges only, each triangle in them is shaded
-    /// once, and textures are filtered as in other pixels; this takes less than half of the time. With one sample a
-    /// pixel, superpixels would cost time without any gain, so that there are none.
+    /// Settings of a picture while something moves. There are no shadows. Superpixels lie along edges only, each triangle
+    /// in them is shaded once, and textures are filtered as in other pixels; this takes less than half of the time. With
+    /// one sample a pixel, superpixels would cost time without any gain, so that there are none.
     pub fn draft(&self, samples: u32) -> Settings {
-        let settings = self.at(samples, None);
+        let settings = self.at(samples, None).shadows(Shadows::None);
         match settings.method.clone() {
             Method::Superpixel(_) if samples == 1 => settings.method(Method::None),
             Method::Superpixel(options) => {
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn drafts_of_superpixels_are_cheaper_and_others_are_as_asked_for() {
+    fn drafts_of_superpixels_are_cheaper_and_others_only_lack_shadows() {
         let mut look = look(SuperpixelOptions::new(64).contrast(Some(40)));
         let Method::Superpixel(draft) = look.draft(16).method else {
             panic!("no superpixels");
@@ -132,6 +132,8 @@ mod tests {
         assert_eq!(look.draft(1).method, Method::None);
         look.set_method(MethodKind::Msaa);
         assert_eq!(look.draft(4), look.at(4, None));
+        look.settings = look.settings.clone().shadows(Shadows::Exact);
+        assert_eq!(look.draft(4), look.at(4, None).shadows(Shadows::None));
     }
 
     #[test]

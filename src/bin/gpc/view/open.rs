@@ -48,10 +48,10 @@ impl Viewer {
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
         let appearance = self.appearance.clone();
-        let max_memory = self.looks[0].settings.scene.max_memory;
+        let settings = self.looks[0].settings.scene.clone();
         self.loaders.retain(|loader| !loader.is_finished());
         self.loaders.push(std::thread::spawn(move || {
-            let opened = source.open(engine, &appearance, max_memory, &progress);
+            let opened = source.open(engine, &appearance, &settings, &progress);
             // An error means that the window is closed and that the result is no longer needed.
             let _ = proxy.send_event(Event::Opened(number, Box::new(opened)));
         }));

@@ -21,7 +21,7 @@ const ROW_STEP: u32 = 4;
 /// been measured.
 const STEP_COST: f64 = 2.0;
 /// Passes over the scene's triangles, which take as long for one row as for all.
-const OF_TRIANGLES: [&str; 4] = ["pose", "stroke", "thin", "cull"];
+const OF_TRIANGLES: [&str; 5] = ["pose", "stroke", "thin", "cull", "shadows"];
 /// Numbers of samples while something moves, the largest first.
 const DRAFTS: [u32; 5] = [16, 8, 4, 2, 1];
 /// Numbers of samples between a draft and the number asked for.

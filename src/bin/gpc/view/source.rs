@@ -5,7 +5,7 @@ use super::navigate::Bounds;
 use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
 use glam::DVec3;
-use gpc::render::{PreparedScene, SceneRequest};
+use gpc::render::{PreparedScene, SceneRequest, SceneSettings};
 use gpc::scene::{AnimationInfo, Edges, Environment, Motion, Pose, PoseRequest, PosedGeometry, Scene, SceneCamera};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -73,12 +73,12 @@ impl SceneSource {
         Self { path, variant: None, request: PoseRequest::default() }
     }
 
-    /// Reads a scene and prepares it for the device, or reads a photograph.
+    /// Reads a scene and prepares it for pictures with these settings, or reads a photograph.
     pub fn open(
         &self,
         engine: Arc<Engine>,
         appearance: &Appearance,
-        max_memory: Option<u64>,
+        settings: &SceneSettings,
         progress: &Progress,
     ) -> anyhow::Result<Opened> {
         let is_photo = gpc::output::is_image(&self.path);
@@ -106,7 +106,10 @@ impl SceneSource {
             (pose, Some(motion))
         };
         progress.begin(LoadStep::Prepare)?;
-        let request = SceneRequest::new(&loaded.scene, &pose).moving(motion.as_ref()).within(max_memory);
+        let request = SceneRequest::new(&loaded.scene, &pose)
+            .moving(motion.as_ref())
+            .shadowed(settings.shadows)
+            .within(settings.max_memory);
         let prepared = renderer.prepare_scene(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings).chain(&appearance.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();

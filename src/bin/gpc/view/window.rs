@@ -23,7 +23,7 @@ use super::standpoint::{Standpoint, Start};
 use super::watch::Watch;
 use super::worker::{Made, PictureWorker};
 use super::{NoDisplay, Options, ending};
-use gpc::render::{HeadlessOptions, Shadows};
+use gpc::render::HeadlessOptions;
 use gpc::scene::{Moment, SceneCamera};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -121,8 +121,7 @@ impl Viewer {
             // An error means that the window is closed and that the result is no longer needed.
             let _ = deliver.send_event(Event::Made(made));
         });
-        let has_shadows = options.look.settings.scene.shadows == Shadows::Exact;
-        let cover = Cover::new(has_shadows, options.shows_environment);
+        let cover = Cover::new(options.shows_environment);
         let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
         let mut source = options.source;
         for path in std::iter::once(&source.path).chain(&options.others) {
