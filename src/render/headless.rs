@@ -1,13 +1,13 @@
-//! Renderer with a device of its own, for images without a window.
+//! Renderer that submits its commands and waits for them, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
 use super::{EngineError, Method, Pixel, RenderError, SceneFrame, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::render::data::GpuScene;
-use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, SharedQueue, VulkanError};
 use ash::vk;
 use glam::DVec2;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Options for opening a device.
 #[derive(Clone, Debug, Default)]
@@ -48,14 +48,17 @@ pub struct Rendered<P = [f32; 4]> {
     pub statistics: Statistics,
 }
 
-/// Renderer with a device and a queue of its own.
+/// Renderer that submits its commands and waits for them: in a device that it opens ([`Self::new`]), or in the device of
+/// a host ([`Self::with_queue`]).
 pub struct Headless {
     pub(super) renderer: Renderer,
     gpu: Arc<Gpu>,
-    queue: vk::Queue,
+    queue: SharedQueue,
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     fence: vk::Fence,
+    /// Whether commands were submitted and are not known to have run.
+    is_pending: bool,
     output: Option<ReadBack>,
     is_unwanted: Option<Box<dyn Fn() -> bool + Send + Sync>>,
 }
@@ -148,10 +151,29 @@ impl Headless {
         let instance = Instance::new(InstanceOptions { validation: options.validation })?;
         // SAFETY: guaranteed by the caller.
         let gpu = unsafe { instance.create_gpu_within(options.device.as_deref(), lower) }?;
-        let renderer = Renderer::in_gpu(gpu.clone())?;
-        // SAFETY: the device was created with this queue family; `Drop` destroys handles that were made before a
-        // failure.
+        // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { gpu.device.get_device_queue(gpu.queue_family, 0) };
+        // SAFETY: the queue belongs to the renderer's device, and nobody else has it.
+        unsafe { Self::with_queue(Renderer::in_gpu(gpu)?, Arc::new(Mutex::new(queue))) }
+    }
+
+    /// Renders in the device of a renderer, which may be a host's. Scenes that the renderer has prepared can be shown once
+    /// they are uploaded, and scenes that [`Self::upload`] has uploaded can be shown by the renderer's frames.
+    ///
+    /// The queue is locked while commands are handed to the driver, not while the device executes them. So the host can
+    /// submit in between from another thread, and waits at most for the commands of one submission. [`Self::stop_when`]
+    /// says how long these are.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the driver refuses a command pool or a fence.
+    ///
+    /// # Safety
+    /// - The queue belongs to the renderer's device and queue family.
+    /// - Nobody uses the queue without holding its lock.
+    /// - A host's device satisfies what [`Renderer::new`] requires as long as this object and everything that it
+    ///   prepares exist.
+    pub unsafe fn with_queue(renderer: Renderer, queue: SharedQueue) -> Result<Self, VulkanError> {
+        let gpu = renderer.gpu().clone();
         let mut headless = Self {
             renderer,
             gpu: gpu.clone(),
@@ -159,10 +181,11 @@ impl Headless {
             pool: vk::CommandPool::null(),
             commands: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
+            is_pending: false,
             output: None,
             is_unwanted: None,
         };
-        // SAFETY: plain creations on a live device.
+        // SAFETY: plain creations on a live device; `Drop` destroys handles that were made before a failure.
         unsafe {
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(gpu.queue_family)
@@ -188,8 +211,12 @@ impl Headless {
     }
 
     /// Sets a function that is asked before each submission whether the result is no longer wanted. If the function
-    /// returns true, the call ends with [`RenderError::Stopped`]. Once the function is set, superpixels at locations
-    /// are sampled in shorter runs. The function may change its answer at any time, from another thread.
+    /// returns true, the call ends with [`RenderError::Stopped`]. The function may change its answer at any time, from
+    /// another thread.
+    ///
+    /// Once the function is set, superpixels at locations are sampled in shorter runs, of at most 2^20 samples a submission.
+    /// Other submissions sample up to 2^18 locations once each, search up to 2^20 cells of an image for superpixels,
+    /// upload a scene, or render a frame. Settings with a region make frames short.
     pub fn stop_when(&mut self, is_unwanted: impl Fn() -> bool + Send + Sync + 'static) {
         self.is_unwanted = Some(Box::new(is_unwanted));
     }
@@ -199,7 +226,7 @@ impl Headless {
         self.is_unwanted.is_some()
     }
 
-    /// Messages of the validation layer so far; empty without it.
+    /// Messages of the validation layer so far; empty without it, and in a host's device.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
         self.gpu.instance().map(|instance| instance.validation_messages()).unwrap_or_default()
@@ -381,9 +408,10 @@ impl Headless {
         if self.is_unwanted.as_ref().is_some_and(|asked| asked()) {
             return Err(RenderError::Stopped);
         }
+        self.wait()?;
         let device = &self.gpu.device;
-        // SAFETY: this object owns command buffer and fence, which are idle between calls; this thread alone uses the
-        // queue.
+        // SAFETY: this object owns command buffer and fence, which are idle after waiting. The queue is that of
+        // `with_queue`, and is locked while it is used.
         unsafe {
             let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
             device.begin_command_buffer(self.commands, &begin).map_err(VulkanError::of("vkBeginCommandBuffer"))?;
@@ -392,9 +420,23 @@ impl Headless {
             device.end_command_buffer(self.commands).map_err(VulkanError::of("vkEndCommandBuffer"))?;
             let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
             let submits = [vk::SubmitInfo2::default().command_buffer_infos(&commands)];
-            device.queue_submit2(self.queue, &submits, self.fence).map_err(VulkanError::of("vkQueueSubmit2"))?;
-            device.wait_for_fences(&[self.fence], true, u64::MAX).map_err(VulkanError::of("vkWaitForFences"))?;
-            device.reset_fences(&[self.fence]).map_err(VulkanError::of("vkResetFences"))?;
+            let queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
+            device.queue_submit2(*queue, &submits, self.fence).map_err(VulkanError::of("vkQueueSubmit2"))?;
+        }
+        self.is_pending = true;
+        Ok(self.wait()?)
+    }
+
+    /// Waits until submitted commands have run.
+    fn wait(&mut self) -> Result<(), VulkanError> {
+        if self.is_pending {
+            let device = &self.gpu.device;
+            // SAFETY: the fence belongs to the last submission, and is reset once that has run.
+            unsafe {
+                device.wait_for_fences(&[self.fence], true, u64::MAX).map_err(VulkanError::of("vkWaitForFences"))?;
+                device.reset_fences(&[self.fence]).map_err(VulkanError::of("vkResetFences"))?;
+            }
+            self.is_pending = false;
         }
         Ok(())
     }
@@ -417,9 +459,10 @@ unsafe fn make_visible_to_host(device: &ash::Device, commands: vk::CommandBuffer
 
 impl Drop for Headless {
     fn drop(&mut self) {
-        // SAFETY: every submission was waited for; the device is destroyed after its objects.
+        // An error can be ignored: the commands of a lost device are no longer executed.
+        let _ = self.wait();
+        // SAFETY: the commands have run; the device is destroyed after its objects.
         unsafe {
-            let _ = self.gpu.device.device_wait_idle();
             self.gpu.device.destroy_fence(self.fence, None);
             self.gpu.device.destroy_command_pool(self.pool, None);
         }

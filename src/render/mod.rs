@@ -1,7 +1,7 @@
 //! Rendering: makes an image from a scene and a camera.
 //!
-//! [`Renderer`] works in a host's device and command buffers; [`Headless`] has a device of its own and is built on
-//! [`Renderer`].
+//! [`Renderer`] works in a host's device and command buffers. [`Headless`] is built on [`Renderer`]: it submits the
+//! commands and waits for them, in a device that it opens or in a host's device.
 
 mod accumulate;
 mod backdrop;

@@ -12,10 +12,13 @@ use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Renderer in a host's device, or in one of its own ([`Headless`](crate::render::Headless)).
+/// Renderer in a host's device, or in a device that the library opened.
 ///
 /// Everything that can fail happens in `prepare_scene` and `prepare`. Recording a frame only writes commands: it does
-/// not submit, wait or allocate.
+/// not submit, wait or allocate. [`Headless`](crate::render::Headless) submits and waits.
+///
+/// A clone works in the same device, has the same pipelines, and shows scenes that the original has prepared.
+#[derive(Clone)]
 pub struct Renderer {
     pub(super) layout: Arc<FrameLayout>,
     gpu: Arc<Gpu>,
@@ -126,7 +129,8 @@ impl Renderer {
     /// [`VulkanError::Missing`] lists everything that the device lacks.
     ///
     /// # Safety
-    /// - The host's handles are alive, belong together and outlive the renderer and everything that it prepares.
+    /// - The host's handles are alive, belong together and outlive the renderer, its clones and everything that they
+    ///   prepare.
     /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
     pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
         // SAFETY: guaranteed by the caller.

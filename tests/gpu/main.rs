@@ -44,6 +44,7 @@ mod schedule;
 mod shade;
 #[path = "../common/shared.rs"]
 mod shared;
+mod shared_queue;
 mod soundness;
 #[path = "../../src/bin/gpc/cli/bench/measurement/stress/soup.rs"]
 mod soup;

@@ -211,6 +211,50 @@ fn an_environment_is_seen_behind_the_scene_at_rest() {
     viewer.close();
 }
 
+/// A floor under a triangle, with a light above them: the triangle's shadow falls on the floor.
+fn lit_scene() -> Vec<u8> {
+    let mut builder = Builder::new();
+    let floor = [[-4.0, 0.0, 4.0], [4.0, 0.0, 4.0], [4.0, 0.0, -4.0], [-4.0, 0.0, -4.0]];
+    let over = [[-1.0, 1.0, 0.5], [1.0, 1.0, 0.5], [0.0, 1.0, -1.5]];
+    for (corners, indices) in [(&floor[..], &[0, 1, 2, 0, 2, 3][..]), (&over, &[0, 1, 2])] {
+        let positions = builder.floats(corners);
+        let indices = builder.indices(indices);
+        let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
+        builder.node_with(primitive, json!({}));
+    }
+    builder.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = json!([{"type": "directional", "intensity": 5}]);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    builder
+        .push("nodes", json!({"rotation": [-half, 0, 0, half], "extensions": {"KHR_lights_punctual": {"light": 0}}}));
+    builder.glb()
+}
+
+#[test]
+fn shadows_are_seen_at_rest_and_in_lenses() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    std::fs::write(folder.path().join("lit.glb"), lit_scene()).unwrap();
+    let options = "lit.glb --size 320x200 --samples 16 --shadows exact --eye=0,3,5 --target=0,0,0 --fov 45";
+    let arguments: Vec<_> = options.split(' ').collect();
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    let command = viewer.command();
+    assert!(command.contains(&"--shadows=exact".to_owned()), "{command:?}");
+    let shadowed = render(folder.path(), &command, "shadowed.png");
+    let without: Vec<_> = command.into_iter().filter(|word| !word.starts_with("--shadows")).collect();
+    assert_ne!(render(folder.path(), &without, "without.png"), shadowed);
+    assert_shows(&display, [320, 200], &shadowed);
+    assert_writes(&mut viewer, folder.path(), &shadowed);
+    // The lens is made of the same scene, and moves without a new upload.
+    display.input(&["mousemove", "160", "120", "key", "z", "mousemove", "600", "400"]);
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    assert_eq!(command[0], "zoom");
+    assert_shows(&display, [320, 200], &render(folder.path(), &command, "zoom.png"));
+    viewer.close();
+}
+
 #[test]
 fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
@@ -524,8 +568,8 @@ fn closing_waits_for_no_load_and_no_compiler() {
 
 #[test]
 fn closing_stops_pictures_that_are_made() {
-    // Each scene takes many seconds.
-    let (fence, spheres) = (asset("fence.glb"), asset("spheres.glb"));
+    // The scene takes many seconds.
+    let fence = asset("fence.glb");
     let size = ["--size", "640x480"];
     let said = close_amid_work(&[&[fence.as_str()][..], &size].concat(), |viewer, folder| {
         viewer.repeat_until("writing ", |display| display.input(&["key", "F12"]));
@@ -540,7 +584,7 @@ fn closing_stops_pictures_that_are_made() {
     });
     assert!(!said.iter().any(|line| line.contains("at rest")), "{said:#?}");
     let shadows = ["--shadows", "exact"];
-    let said = close_amid_work(&[&[spheres.as_str()][..], &size, &shadows].concat(), |_, _| {});
+    let said = close_amid_work(&[&[fence.as_str()][..], &size, &shadows].concat(), |_, _| {});
     assert!(!said.iter().any(|line| line.contains("at rest")), "{said:#?}");
 }
 
@@ -770,6 +814,16 @@ fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
     // The view is unchanged.
     assert_eq!(viewer.command(), command);
     assert_shows(&display, [320, 200], &render(folder.path(), &command, "again.png"));
+
+    // The lens is on the same device: it comes back with the window, whichever of them loses the device.
+    loss.once();
+    display.input(&["mousemove", "160", "100", "key", "z", "mousemove", "600", "400"]);
+    viewer.wait_for("everything is made again");
+    viewer.wait_for("shows ");
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    assert_eq!(command[0], "zoom");
+    assert_shows(&display, [320, 200], &render(folder.path(), &command, "zoom.png"));
 
     loss.always();
     viewer.key("n");

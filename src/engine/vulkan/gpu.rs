@@ -9,6 +9,10 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, CString};
 use std::sync::{Arc, Mutex};
 
+/// A queue that several owners use. Whoever uses the queue holds the lock, because Vulkan allows only one thread at a
+/// time to submit to a queue, to present with it or to wait for it.
+pub type SharedQueue = Arc<Mutex<vk::Queue>>;
+
 /// Vulkan objects of a host, in which the renderer works.
 #[non_exhaustive]
 pub struct Host {
@@ -126,7 +130,7 @@ pub struct Limits {
     pub max_storage_bytes: u64,
     /// Nanoseconds per timestamp step; 0 if the queue has no timestamps.
     pub timestamp_period: f32,
-    /// Largest number of samples in one submission, for a renderer that has its own device; every pixel counts as a
+    /// Largest number of samples in one submission, for a renderer that submits by itself; every pixel counts as a
     /// superpixel. Operating systems reset a GPU that works on a submission for seconds. CPU drivers have no limit.
     pub max_submitted_samples: u64,
     /// Supported numbers of samples for multisampled 8-bit colour and float depth.

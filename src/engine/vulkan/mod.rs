@@ -25,7 +25,7 @@ pub(crate) use commands::Recorder;
 pub(crate) use completion::Completion;
 pub(crate) use descriptor_set::{BoundDescriptor, Descriptor, DescriptorSets, Texels, read_image};
 pub use error::VulkanError;
-pub use gpu::{Gpu, Host, Limits, Teams};
+pub use gpu::{Gpu, Host, Limits, SharedQueue, Teams};
 pub use instance::{DeviceInfo, Instance, InstanceOptions};
 pub(crate) use interface::{Access, Binding, Compiled, Interface, Invocations, Specialized, Use};
 pub use memory::MemoryUse;

@@ -229,7 +229,7 @@ impl Viewer {
     }
 
     fn next_camera(&mut self) {
-        let count = self.canvas.stage().map_or(0, |stage| stage.cameras.len());
+        let count = self.canvas.stage().map_or(0, |stage| stage.pose.cameras.len());
         if count == 0 {
             self.notes.say("the scene has no cameras");
             return;
@@ -359,9 +359,9 @@ impl Viewer {
         if self.canvas.stage().is_none() {
             return;
         }
-        let samples = self.looks[self.layer_under_pointer()].samples();
+        let settings = self.looks[self.layer_under_pointer()].settings.clone();
         self.notes.say(format!("writing {}", path.display()));
-        self.order(0, samples, Subject::File(path, self.cover.lenses.map()));
+        self.order(0, settings, false, Subject::File(path, self.cover.lenses.map()));
     }
 
     /// Copies the command that makes the picture under the pointer to the clipboard.

@@ -8,7 +8,7 @@ use super::painter::{Painter, Painting};
 use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
 use super::preparer::{Prepared, Preparer};
 use super::presenter::{Presenter, SwapchainFit};
-use super::slot::{ReplacedObject, SLOTS, Slot};
+use super::slot::{SLOTS, Slot};
 use super::source::LoadedScene;
 use super::swapchain::{Acquired, Swapchain, Turn};
 use anyhow::bail;
@@ -51,10 +51,7 @@ pub struct Canvas {
     cover: Option<Picture>,
     /// Whether pictures get more samples at rest.
     pub refines: bool,
-    stage: Option<LoadedScene>,
-    is_uploaded: bool,
-    /// Whether the memory of the upload has still to be freed.
-    has_uploads: bool,
+    stage: Option<Arc<LoadedScene>>,
     painter: Painter,
     preparer: Preparer,
     presenter: Presenter,
@@ -88,8 +85,6 @@ impl Canvas {
             cover: None,
             refines: true,
             stage: None,
-            is_uploaded: false,
-            has_uploads: false,
             painter: Painter::new(device, swapchain.format)?,
             preparer,
             presenter: Presenter::new(device),
@@ -123,22 +118,17 @@ impl Canvas {
     }
 
     /// Scene that is shown.
-    pub fn stage(&self) -> Option<&LoadedScene> {
+    pub fn stage(&self) -> Option<&Arc<LoadedScene>> {
         self.stage.as_ref()
     }
 
     /// Shows another scene, or none.
-    pub fn set_stage(&mut self, stage: Option<LoadedScene>) {
+    pub fn set_stage(&mut self, stage: Option<Arc<LoadedScene>>) {
         let seen = self.take_pictures();
         let before = std::mem::replace(&mut self.before, seen);
-        self.keep(ReplacedObject::Pictures(before));
-        if let Some(stage) = std::mem::replace(&mut self.stage, stage) {
-            self.keep(ReplacedObject::LoadedScene(Box::new(stage)));
-        }
-        (self.is_uploaded, self.has_uploads) = (false, false);
-        for slot in &mut self.slots {
-            slot.uploads = false;
-        }
+        self.keep(before);
+        // Frames keep the scene before on the device while commands use it.
+        self.stage = stage;
     }
 
     /// The pictures.
@@ -157,7 +147,7 @@ impl Canvas {
         for (layer, picture) in self.layers.iter_mut().zip(before.by_ref()) {
             layer.set_before(picture);
         }
-        self.keep(ReplacedObject::Pictures(before.collect()));
+        self.keep(before.collect());
         Ok(())
     }
 
@@ -165,12 +155,12 @@ impl Canvas {
     fn take_pictures(&mut self) -> Vec<Picture> {
         let layers = std::mem::take(&mut self.layers);
         let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
-        self.keep(ReplacedObject::Pictures(others.into_iter().flatten().collect()));
+        self.keep(others.into_iter().flatten().collect());
         seen
     }
 
-    /// Keeps a replaced object until no commands use it.
-    fn keep(&mut self, kept: ReplacedObject) {
+    /// Keeps replaced pictures until no commands use them.
+    fn keep(&mut self, kept: Vec<Picture>) {
         let kept = Rc::new(kept);
         for slot in self.slots.iter_mut().filter(|slot| slot.is_busy()) {
             slot.kept.push(kept.clone());
@@ -189,7 +179,7 @@ impl Canvas {
     /// Sets the picture that is shown instead of all others, or removes it.
     pub fn set_cover(&mut self, cover: Option<Picture>) {
         if let Some(before) = std::mem::replace(&mut self.cover, cover) {
-            self.keep(ReplacedObject::Pictures(vec![before]));
+            self.keep(vec![before]);
         }
     }
 
@@ -217,7 +207,6 @@ impl Canvas {
                 outcome = outcome.and(self.finish(index));
             }
         }
-        self.discard_uploads();
         outcome.map(|()| any)
     }
 
@@ -315,12 +304,6 @@ impl Canvas {
             return Ok(());
         };
         let slot = &mut self.slots[self.turn];
-        if !self.is_uploaded {
-            // SAFETY: guaranteed by the caller; the stage is kept until the commands have run.
-            unsafe { stage.prepared.record_upload(commands) };
-            self.is_uploaded = true;
-            slot.uploads = true;
-        }
         let sight = Sight { scene: &stage.prepared, camera, moment: seen.moment };
         for layer in &mut self.layers {
             let is_begun = layer.has_again() || layer.is_waiting();
@@ -407,7 +390,6 @@ impl Canvas {
         let textures = std::mem::take(&mut slot.textures);
         let jobs = std::mem::take(&mut slot.jobs);
         slot.kept.clear();
-        self.has_uploads |= std::mem::take(&mut slot.uploads);
         self.painter.free(&textures)?;
         let mut outcome = Ok(());
         for job in jobs {
@@ -417,16 +399,6 @@ impl Canvas {
             }
         }
         Ok(outcome?)
-    }
-
-    /// Frees the memory of the upload, once no frame is being prepared.
-    fn discard_uploads(&mut self) {
-        let stage = self.stage.as_mut().filter(|_| self.has_uploads);
-        if let Some(prepared) = stage.and_then(|stage| Arc::get_mut(&mut stage.prepared)) {
-            // SAFETY: the commands that uploaded the stage have run; `has_uploads` is about this stage alone.
-            unsafe { prepared.discard_uploads() };
-            self.has_uploads = false;
-        }
     }
 
     /// Waits until the device is idle.

@@ -1,14 +1,12 @@
 //! Cover: a picture that is shown instead of the frames, for zoom lenses, overlays, an environment or a photograph.
 
 use super::lens::Lenses;
+use super::look::Look;
 use super::overlay::Overlay;
-use super::worker::Subject;
-use std::time::{Duration, Instant};
-
-/// Numbers of samples of the first pictures, before the number asked for.
-const STEPS: [u32; 2] = [4, 64];
-/// Time without changes before a picture with more samples is begun.
-const REST: Duration = Duration::from_millis(700);
+use super::samples::{REST, SampleSteps};
+use super::worker::{DraftTime, Subject};
+use gpc::render::Settings;
+use std::time::Instant;
 
 /// The cover to show, and the progress of making it.
 #[derive(Debug, Default)]
@@ -21,25 +19,36 @@ pub struct Cover {
     pub shows_environment: bool,
     /// Whether a photograph is shown, so that there are no frames.
     pub is_photo: bool,
+    /// Antialiasing of the pictures, and their numbers of samples; `None` before the first order.
+    refined: Option<(Look, SampleSteps)>,
     /// Number of the last order.
     number: u64,
-    /// Numbers of samples of the orders since the last change.
-    steps: Vec<u32>,
-    /// Index in `steps` of the last order.
-    step: usize,
-    /// Time at which to place the next order, if it has to wait.
+    /// Picture of the last order.
+    last: Option<CoverStep>,
+    /// Time of the last change.
+    changed: Option<Instant>,
+    /// Time at which to place the next order.
     due: Option<Instant>,
     /// Number of the first order since the view changed.
     first: u64,
     is_done: bool,
 }
 
-/// Decision about a picture that has arrived.
+/// A picture of the series that follows a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Arrival {
-    pub is_shown: bool,
-    /// Whether to order a picture with more samples at once.
-    pub refines: bool,
+enum CoverStep {
+    /// A quick picture with this number of samples.
+    Draft(u32),
+    /// A picture with the settings of the picture at rest and this number of samples.
+    Rest(u32),
+}
+
+/// An order for a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoverOrder {
+    pub number: u64,
+    pub settings: Settings,
+    pub is_draft: bool,
 }
 
 impl Cover {
@@ -72,48 +81,68 @@ impl Cover {
         !self.is_wanted() || self.is_done
     }
 
-    /// Number and samples of the first order after a change of the view or, if `view_changed` is false, of the lenses.
-    /// `asked` is the number of samples of the last order in the series.
-    pub fn begin(&mut self, view_changed: bool, asked: u32) -> (u64, u32) {
+    /// The first order after a change of the view or, if `view_changed` is false, of the lenses. The last order of the series
+    /// has the number of samples of `look`.
+    pub fn begin(&mut self, view_changed: bool, look: &Look, now: Instant) -> CoverOrder {
+        let known = self.refined.take().filter(|(known, _)| known == look);
+        let (_, samples) = self.refined.insert(known.unwrap_or_else(|| (look.clone(), SampleSteps::for_covers(look))));
         let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
-        let below = |samples: &u32| *samples < asked && !needs_all;
-        self.steps = STEPS.into_iter().filter(below).collect();
-        self.steps.push(asked);
-        self.step = 0;
-        let order = self.next_order();
+        let step = if needs_all { CoverStep::Rest(look.samples()) } else { CoverStep::Draft(samples.draft()) };
+        self.changed = Some(now);
+        let order = self.order(look, step);
         if view_changed {
             self.first = self.number;
         }
         order
     }
 
-    /// Number and samples of the next order.
-    pub fn refine(&mut self) -> (u64, u32) {
-        self.step += 1;
-        self.next_order()
+    /// The next order, if there is one.
+    pub fn refine(&mut self) -> Option<CoverOrder> {
+        let step = self.next()?;
+        let (look, samples) = self.refined.as_mut()?;
+        samples.rest();
+        let look = look.clone();
+        Some(self.order(&look, step))
     }
 
-    /// Time at which to place the next order, if it has to wait.
+    /// Time at which the next order is due, if there is one.
     pub fn due(&self) -> Option<Instant> {
         self.due
     }
 
-    /// Decides how a picture that has arrived is used; `number` is that of its order.
-    pub fn arrived(&mut self, number: u64, now: Instant) -> Arrival {
-        let is_last = number == self.number;
-        let next = self.steps.get(self.step + 1).filter(|_| is_last);
-        let waits = next.is_some_and(|samples| *samples > STEPS[1]);
-        self.due = waits.then(|| now + REST);
-        self.is_done = is_last && next.is_none();
-        Arrival { is_shown: number >= self.first && self.is_wanted(), refines: next.is_some() && !waits }
+    /// Takes note of a picture that has arrived; `number` is that of its order. Returns whether to show it.
+    pub fn arrived(&mut self, number: u64, draft: Option<DraftTime>, now: Instant) -> bool {
+        if let (Some((_, samples)), Some(draft)) = (&mut self.refined, draft) {
+            samples.learn(draft.samples, draft.ms, now);
+        }
+        if number == self.number {
+            let next = self.next();
+            self.is_done = next.is_none();
+            self.due = next.and(self.changed).map(|changed| now.max(changed + REST));
+        }
+        number >= self.first && self.is_wanted()
     }
 
-    fn next_order(&mut self) -> (u64, u32) {
+    /// Picture that follows the last order.
+    fn next(&self) -> Option<CoverStep> {
+        let (_, samples) = self.refined.as_ref()?;
+        let next = match self.last? {
+            CoverStep::Draft(draft) => samples.first(draft),
+            CoverStep::Rest(done) => samples.after(done),
+        };
+        next.map(CoverStep::Rest)
+    }
+
+    fn order(&mut self, look: &Look, step: CoverStep) -> CoverOrder {
         self.number += 1;
+        self.last = Some(step);
         self.is_done = false;
         self.due = None;
-        let samples = self.steps.get(self.step).copied().unwrap_or(1);
-        (self.number, samples)
+        let (settings, is_draft) = match step {
+            CoverStep::Draft(samples) => (look.draft(samples), true),
+            CoverStep::Rest(samples) => (look.at(samples, None), false),
+        };
+        CoverOrder { number: self.number, settings, is_draft }
     }
 }
 
@@ -121,6 +150,8 @@ impl Cover {
 mod tests {
     use super::*;
     use glam::DVec2;
+    use gpc::render::{MethodKind, SuperpixelOptions};
+    use std::time::Duration;
 
     fn cover() -> Cover {
         let mut cover = Cover::default();
@@ -128,54 +159,81 @@ mod tests {
         cover
     }
 
+    fn look(samples: u32) -> Look {
+        let options = SuperpixelOptions::new(samples);
+        Look::new(Settings::new(100, 100).method(options.clone()), options)
+    }
+
+    fn samples(order: &CoverOrder) -> (u32, bool) {
+        (order.settings.method.samples(), order.is_draft)
+    }
+
     #[test]
     fn pictures_are_refined_where_nothing_changes() {
         let now = Instant::now();
         let mut cover = cover();
-        let (first, samples) = cover.begin(true, 1024);
-        assert_eq!(samples, 4);
-        let arrival = cover.arrived(first, now);
-        assert!(arrival.is_shown && arrival.refines && !cover.is_done());
-        let (second, samples) = cover.refine();
-        assert_eq!(samples, 64);
-        // The order with the most samples has to wait.
-        let arrival = cover.arrived(second, now);
-        assert!(arrival.is_shown && !arrival.refines && !cover.is_done());
-        assert_eq!(cover.due(), Some(now + REST));
-        let (third, samples) = cover.refine();
-        assert_eq!((samples, cover.due()), (1024, None));
-        assert!(!cover.arrived(third, now).refines && cover.is_done());
+        let first = cover.begin(true, &look(256), now);
+        assert_eq!(samples(&first), (1, true));
+        assert_eq!(first.settings, look(256).draft(1));
+        // The pictures after a draft wait for a rest.
+        assert!(cover.arrived(first.number, Some(DraftTime { samples: 1, ms: 100.0 }), now));
+        assert_eq!((cover.due(), cover.is_done()), (Some(now + REST), false));
+        let second = cover.refine().unwrap();
+        assert_eq!((samples(&second), cover.due()), ((64, false), None));
+        let later = now + Duration::from_secs(1);
+        assert!(cover.arrived(second.number, None, later));
+        assert_eq!((cover.due(), cover.is_done()), (Some(later), false));
+        let third = cover.refine().unwrap();
+        assert_eq!(third.settings, look(256).at(256, None));
+        assert!(cover.arrived(third.number, None, later) && cover.is_done());
+        assert_eq!((cover.due(), cover.refine()), (None, None));
     }
 
     #[test]
-    fn few_samples_and_photographs_take_fewer_pictures() {
+    fn fast_drafts_get_more_samples() {
         let now = Instant::now();
         let mut cover = cover();
-        let (first, _) = cover.begin(true, 64);
-        assert!(cover.arrived(first, now).refines);
-        let (second, samples) = cover.refine();
-        assert_eq!(samples, 64);
-        assert!(!cover.arrived(second, now).refines && cover.is_done());
+        for (expected, ms) in [(1, 10.0), (2, 10.0), (4, 10.0), (8, 500.0), (8, 500.0), (4, 90.0), (4, 90.0)] {
+            let order = cover.begin(false, &look(256), now);
+            assert_eq!(samples(&order), (expected, true));
+            cover.arrived(order.number, Some(DraftTime { samples: expected, ms }), now);
+        }
+        // Another look has other drafts.
+        assert_eq!(samples(&cover.begin(false, &look(64), now)), (1, true));
+    }
+
+    #[test]
+    fn what_has_no_drafts_takes_one_picture() {
+        let now = Instant::now();
+        let mut cover = cover();
         cover.overlay = Some(Overlay::Error);
-        assert_eq!(cover.begin(false, 64).1, 64);
+        let only = cover.begin(false, &look(64), now);
+        assert_eq!(samples(&only), (64, false));
+        assert!(cover.arrived(only.number, None, now) && cover.is_done());
         let mut photo = cover.cleared(true);
-        let (first, _) = photo.begin(true, 1);
-        assert!(!photo.is_done() && photo.arrived(first, now).is_shown && photo.is_done());
+        let only = photo.begin(true, &look(64), now);
+        assert!(!photo.is_done() && photo.arrived(only.number, None, now) && photo.is_done());
+        // Without antialiasing the draft is the picture at rest.
+        let mut cover = cover.cleared(false);
+        cover.lenses.add(DVec2::ZERO, 100.0);
+        let mut once = look(64);
+        once.set_method(MethodKind::None);
+        let only = cover.begin(true, &once, now);
+        assert!(cover.arrived(only.number, Some(DraftTime { samples: 1, ms: 1.0 }), now) && cover.is_done());
     }
 
     #[test]
     fn older_lenses_are_shown_and_older_views_are_not() {
         let now = Instant::now();
         let mut cover = cover();
-        let (first, _) = cover.begin(true, 64);
-        let (moved_lens, _) = cover.begin(false, 64);
-        let arrival = cover.arrived(first, now);
-        assert!(arrival.is_shown && !arrival.refines);
-        let (moved_view, _) = cover.begin(true, 64);
-        assert!(!cover.arrived(moved_lens, now).is_shown);
-        assert!(cover.arrived(moved_view, now).is_shown);
+        let first = cover.begin(true, &look(64), now);
+        let moved_lens = cover.begin(false, &look(64), now);
+        assert!(cover.arrived(first.number, None, now) && cover.due().is_none());
+        let moved_view = cover.begin(true, &look(64), now);
+        assert!(!cover.arrived(moved_lens.number, None, now));
+        assert!(cover.arrived(moved_view.number, None, now));
         cover.lenses.remove();
-        assert!(!cover.arrived(moved_view, now).is_shown && cover.is_done());
+        assert!(!cover.arrived(moved_view.number, None, now) && cover.is_done());
     }
 
     #[test]

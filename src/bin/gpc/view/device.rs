@@ -2,7 +2,7 @@
 
 use anyhow::{Context, anyhow};
 use ash::vk;
-use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator, VulkanError};
+use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator, SharedQueue, VulkanError};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,7 @@ pub struct Device {
     pub queue_family: u32,
     conditional_rendering: bool,
     /// Queue for graphics and presentation; one thread uses it at a time.
-    queue: Mutex<vk::Queue>,
+    pub queue: SharedQueue,
     pub surface: vk::SurfaceKHR,
     pub surfaces: ash::khr::surface::Instance,
     pub swapchains: ash::khr::swapchain::Device,
@@ -126,7 +126,7 @@ impl Device {
             })
             .context("the allocator of device memory can't start")?;
             Ok(Self {
-                queue: Mutex::new(device.get_device_queue(queue_family, 0)),
+                queue: Arc::new(Mutex::new(device.get_device_queue(queue_family, 0))),
                 swapchains: ash::khr::swapchain::Device::new(&instance, &device),
                 handle: device,
                 physical,

@@ -1,7 +1,7 @@
 //! The renderer on the viewer's device.
 
 use super::device::Device;
-use gpc::render::Renderer;
+use gpc::render::{Headless, Renderer};
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
@@ -19,5 +19,12 @@ impl Engine {
         // everything that it prepared is gone.
         let renderer = unsafe { Renderer::new(device.host()) }?;
         Ok(Self { renderer, device })
+    }
+
+    /// Makes a renderer that submits to the window's queue and waits, for another thread than the window's. Its owner
+    /// drops it before the engine.
+    pub fn headless(&self) -> Result<Headless, VulkanError> {
+        // SAFETY: the queue is that of the renderer's device, and is locked wherever it is used.
+        unsafe { Headless::with_queue(self.renderer.clone(), self.device.queue.clone()) }
     }
 }

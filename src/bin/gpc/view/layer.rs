@@ -1,10 +1,11 @@
 //! A picture of the scene under one method of antialiasing, and the frames that refine it.
 
+use super::band::Took;
 use super::engine::Engine;
 use super::look::Look;
 use super::picture::Picture;
 use super::preparer::{Preparer, Ticket};
-use super::schedule::{PictureSchedule, PictureWork, Took};
+use super::schedule::{PictureSchedule, PictureWork};
 use ash::vk;
 use gpc::camera::Camera;
 use gpc::render::{EngineError, PixelRect, PreparedScene, RenderError, SceneFrame, Settings, Statistics};
@@ -115,7 +116,7 @@ impl Layer {
     /// If memory runs out.
     ///
     /// # Safety
-    /// `commands` is being recorded for the engine's device, after the upload of the scene. The job and this layer (or
+    /// `commands` is being recorded for the engine's device, to which the scene was uploaded. The job and this layer (or
     /// the pictures of [`Self::into_pictures`]) outlive the execution of the commands.
     pub unsafe fn record(
         &mut self,

@@ -5,6 +5,7 @@
 
 mod actions;
 mod app;
+mod band;
 mod canvas;
 mod command;
 mod compose;
@@ -36,6 +37,7 @@ mod pointer;
 mod preparer;
 mod presenter;
 mod progress;
+mod samples;
 mod schedule;
 mod slot;
 mod source;
@@ -74,7 +76,7 @@ pub struct Options {
     pub look: Look,
     /// Whether the scene's environment is the background while nothing moves.
     pub shows_environment: bool,
-    /// Options for opening the window's device and the one that writes files.
+    /// Options for opening the device.
     pub device: HeadlessOptions,
     /// Function that turns an error into a message.
     pub describe: fn(&anyhow::Error) -> String,

@@ -189,7 +189,7 @@ impl Viewer {
         let pinhole = camera.ok().and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
         let hit = pinhole
             .map(|pinhole| pinhole.ray(self.pointer.place()))
-            .and_then(|ray| pick::first_hit(&stage.geometry, &ray));
+            .and_then(|ray| pick::first_hit(&stage.pose.geometry, &ray));
         if let Some(point) = hit {
             self.go(|turntable| turntable.recentre(point));
         }

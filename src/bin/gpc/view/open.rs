@@ -1,6 +1,7 @@
 //! Loading of files in the background.
 
 use super::app::Event;
+use super::losses::is_lost;
 use super::photo::{Easel, Photo};
 use super::player::Player;
 use super::progress::Progress;
@@ -9,6 +10,7 @@ use super::standpoint::Standpoint;
 use super::watch::Watch;
 use super::window::Viewer;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A file that is being loaded.
@@ -85,6 +87,8 @@ impl Viewer {
         };
         let opened = match opened {
             Ok(opened) => opened,
+            // The device was lost since the request, and another one has to be opened.
+            Err(error) if is_lost(&error) => return Err(error),
             Err(error) => {
                 self.notes.fail(&error);
                 return Ok(());
@@ -103,7 +107,7 @@ impl Viewer {
         self.window.set_title(&format!("{} - gpc", loading.source.name()));
         log::debug!("shows {}", loading.source.path.display());
         match opened {
-            Opened::Scene(stage) => self.set_stage(*stage, loading.keeps_view),
+            Opened::Scene(stage) => self.set_stage(stage, loading.keeps_view),
             Opened::Photo(photo) => {
                 self.set_photo(photo, loading.keeps_view);
                 Ok(())
@@ -111,15 +115,15 @@ impl Viewer {
         }
     }
 
-    fn set_stage(&mut self, stage: LoadedScene, keeps_view: bool) -> anyhow::Result<()> {
+    fn set_stage(&mut self, stage: Arc<LoadedScene>, keeps_view: bool) -> anyhow::Result<()> {
         self.set_easel(None);
         if !keeps_view {
             let aspect = self.aspect();
             let start = self.start.take().unwrap_or_default();
-            let asked = start.standpoint(&stage.cameras, stage.bounds, aspect);
+            let asked = start.standpoint(&stage.pose.cameras, stage.bounds, aspect);
             self.standpoint = asked.unwrap_or_else(|error| {
                 self.notes.fail(&error.into());
-                Standpoint::first(&stage.cameras, stage.bounds, aspect)
+                Standpoint::first(&stage.pose.cameras, stage.bounds, aspect)
             });
             self.flight = None;
         }

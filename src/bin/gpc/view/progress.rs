@@ -20,7 +20,7 @@ impl LoadStep {
         match self {
             Self::Read => "reading the file",
             Self::Pose => "posing the scene",
-            Self::Prepare => "preparing it for the device",
+            Self::Prepare => "uploading it to the device",
         }
     }
 }

@@ -3,7 +3,6 @@
 use super::device::Device;
 use super::layer::Job;
 use super::picture::Picture;
-use super::source::LoadedScene;
 use ash::vk;
 use gpc::vulkan::VulkanError;
 use std::rc::Rc;
@@ -11,12 +10,6 @@ use std::sync::Arc;
 
 /// Largest number of command buffers in flight.
 pub const SLOTS: usize = 2;
-
-/// A replaced object that commands may still use.
-pub enum ReplacedObject {
-    LoadedScene(#[expect(dead_code, reason = "kept until it is dropped")] Box<LoadedScene>),
-    Pictures(#[expect(dead_code, reason = "kept until it is dropped")] Vec<Picture>),
-}
 
 /// A command buffer, and the objects that its commands use until they have run.
 pub struct Slot {
@@ -29,12 +22,10 @@ pub struct Slot {
     is_busy: bool,
     /// Work on pictures that the commands contain.
     pub jobs: Vec<Job>,
-    /// Replaced objects that the commands use.
-    pub kept: Vec<Rc<ReplacedObject>>,
+    /// Replaced pictures that the commands use.
+    pub kept: Vec<Rc<Vec<Picture>>>,
     /// Textures of the panel to free once these commands have run.
     pub textures: Vec<egui::TextureId>,
-    /// Whether the commands upload the scene.
-    pub uploads: bool,
 }
 
 impl Slot {
@@ -49,7 +40,6 @@ impl Slot {
             jobs: Vec::new(),
             kept: Vec::new(),
             textures: Vec::new(),
-            uploads: false,
         };
         let handle = &device.handle;
         // SAFETY: plain creations on a live device; `Drop` destroys what was made before a failure.

@@ -1,4 +1,4 @@
-//! Loading in a separate thread: reading a scene, posing it and allocating its device memory.
+//! Loading in a separate thread: reading a scene, posing it and uploading it to the device.
 
 use super::engine::Engine;
 use super::navigate::Bounds;
@@ -6,7 +6,7 @@ use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
 use glam::DVec3;
 use gpc::render::{PreparedScene, SceneRequest, SceneSettings};
-use gpc::scene::{AnimationInfo, Edges, Environment, Motion, Pose, PoseRequest, PosedGeometry, Scene, SceneCamera};
+use gpc::scene::{AnimationInfo, Edges, Environment, Motion, Pose, PoseRequest, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -33,26 +33,25 @@ pub struct Appearance {
 
 /// Contents of an opened file.
 pub enum Opened {
-    Scene(Box<LoadedScene>),
+    Scene(Arc<LoadedScene>),
     Photo(Photo),
 }
 
 /// A scene on the device, and the data about it that the window needs.
 pub struct LoadedScene {
     pub source: SceneSource,
-    pub scene: Arc<Scene>,
+    pub scene: Scene,
+    /// First pose that is shown.
+    pub pose: Pose,
     pub prepared: Arc<PreparedScene>,
     /// Motion of the scene, if it has animations.
     pub motion: Option<Motion>,
     pub animations: Vec<AnimationInfo>,
-    pub cameras: Vec<SceneCamera>,
-    /// Triangles for finding the one under the pointer.
-    pub geometry: PosedGeometry,
     pub bounds: Bounds,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,
     /// Engine whose device the scene uses; dropped after the scene.
-    _engine: Arc<Engine>,
+    pub engine: Arc<Engine>,
 }
 
 impl LoadedScene {
@@ -98,7 +97,6 @@ impl SceneSource {
         }
         progress.begin(LoadStep::Pose)?;
         let animations = loaded.scene.info().animations;
-        let renderer = &engine.renderer;
         let (pose, motion) = if animations.is_empty() {
             (loaded.scene.pose(&self.request)?, None)
         } else {
@@ -110,20 +108,19 @@ impl SceneSource {
             .moving(motion.as_ref())
             .shadowed(settings.shadows)
             .within(settings.max_memory);
-        let prepared = renderer.prepare_scene(request)?;
+        let prepared = engine.headless()?.upload(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings).chain(&appearance.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
-        Ok(Opened::Scene(Box::new(LoadedScene {
+        Ok(Opened::Scene(Arc::new(LoadedScene {
             source: self.clone(),
-            scene: Arc::new(loaded.scene),
+            scene: loaded.scene,
             bounds: bounds(&pose),
-            cameras: pose.cameras,
-            geometry: pose.geometry,
+            pose,
             motion,
             animations,
             prepared: Arc::new(prepared),
             warnings,
-            _engine: engine,
+            engine,
         })))
     }
 

@@ -101,7 +101,7 @@ pub struct Viewer {
     pub rests: bool,
     pub wants_to_quit: bool,
 
-    /// Options for opening devices.
+    /// Options for opening the device.
     device: HeadlessOptions,
     /// Messages of the validation layer about devices that are lost by now.
     messages: Vec<String>,
@@ -116,11 +116,7 @@ impl Viewer {
         let window = Arc::new(window);
         let canvas = canvas(&window, &options.device, &proxy)?;
         let interface = interface(&window);
-        let deliver = proxy.clone();
-        let worker = PictureWorker::new(options.device.clone(), move |made| {
-            // An error means that the window is closed and that the result is no longer needed.
-            let _ = deliver.send_event(Event::Made(made));
-        });
+        let worker = worker(&proxy);
         let cover = Cover::new(options.shows_environment);
         let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
         let mut source = options.source;
@@ -187,15 +183,20 @@ impl Viewer {
             Some(loading) => loading.keeps_view,
             None => self.shows_source(),
         };
-        // The old swapchain must be gone before the window gets another one.
-        drop(self.canvas);
+        let stopped = self.worker.stop_files();
+        // The old swapchain must be gone before the window gets another one, and nothing keeps the old device.
+        drop((self.canvas, self.worker));
         let mut view = Self {
             canvas: canvas(&self.window, &self.device, &self.proxy)?,
+            worker: worker(&self.proxy),
             interface: interface(&self.window),
             messages,
             moment: None,
             ..self
         };
+        for path in stopped {
+            view.notes.say(format!("stopped writing {}", path.display()));
+        }
         view.canvas.refines = !view.cover.is_wanted();
         view.source.request.time = view.time();
         view.notes.say("the device was lost; everything is made again");
@@ -241,13 +242,21 @@ impl Viewer {
                 self.worker.delivered(&path);
                 match written {
                     Ok(()) => self.notes.say(format!("wrote {}", path.display())),
-                    Err(error) => self.notes.fail(&error),
+                    Err(error) => self.note(&error),
                 }
             }
             Event::Made(Made::Pixels(number, Ok(pixels))) => self.show_made(number, &pixels)?,
-            Event::Made(Made::Pixels(_, Err(error))) => self.notes.fail(&error),
+            Event::Made(Made::Pixels(_, Err(error))) => self.note(&error),
         }
         Ok(())
+    }
+
+    /// Shows an error of the worker, unless the device is lost. The window notices that by itself when it is drawn, and this
+    /// may be the device before the present one.
+    fn note(&mut self, error: &anyhow::Error) {
+        if !is_lost(error) {
+            self.notes.fail(error);
+        }
     }
 
     /// Makes new pictures in the window's size.
@@ -432,7 +441,7 @@ impl Viewer {
     pub fn cameras(&self) -> &[SceneCamera] {
         match (&self.moment, self.canvas.stage()) {
             (Some(moment), _) => &moment.cameras,
-            (None, Some(stage)) => &stage.cameras,
+            (None, Some(stage)) => &stage.pose.cameras,
             (None, None) => &[],
         }
     }
@@ -503,6 +512,15 @@ fn canvas(window: &Arc<Window>, options: &HeadlessOptions, proxy: &EventLoopProx
         let _ = deliver.send_event(Event::Prepared(Box::new(prepared)));
     });
     Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
+}
+
+/// Starts the worker of a device.
+fn worker(proxy: &EventLoopProxy<Event>) -> PictureWorker {
+    let deliver = proxy.clone();
+    PictureWorker::new(move |made| {
+        // An error means that the window is closed and that the result is no longer needed.
+        let _ = deliver.send_event(Event::Made(made));
+    })
 }
 
 /// Makes a new context of the panel: a new device has none of the old one's textures.

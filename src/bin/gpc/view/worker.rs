@@ -1,14 +1,19 @@
-//! Pictures that frames can't show: zooms, values other than colours, photographs, and pictures for files. A separate
-//! thread with a device of its own makes them, so that the window never waits for them.
+//! Pictures that the window's frames can't show: zooms, values other than colours, photographs, and pictures for files. A
+//! separate thread makes them on the window's device.
+//!
+//! The thread shares the device's queue with the window, whose frames wait for at most one submission of the thread. A
+//! submission is a draft, which takes about as long as the window's own drafts; a band of rows; or one of the short runs
+//! over locations that [`Headless::stop_when`] describes.
 
-use super::losses::is_lost;
+use super::band::{BandHeights, ROW_STEP, Took};
+use super::engine::Engine;
 use super::overlay::{self, COUNT_SIDE, Overlay};
 use super::photo::PhotoView;
-use super::source::{SceneSource, bounds};
+use super::source::{LoadedScene, bounds};
 use super::standpoint::Standpoint;
 use super::stop::Stop;
 use super::tint::tinted;
-use anyhow::{Context, bail};
+use anyhow::Context;
 use glam::DVec2;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
@@ -17,21 +22,21 @@ use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
-    Shadows, Statistics,
+    Headless, Method, PixelRect, PreparedScene, RenderError, Rendered, SceneRequest, Settings, Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
-use gpc::scene::{Pose, PoseRequest, Scene};
+use gpc::scene::{Pose, PoseRequest};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::Instant;
 
-/// Rows that are rendered at once in pictures that take long; between two bands the picture can be stopped.
-const BAND: u32 = 32;
-/// Largest number of samples of a quick picture. A quick picture is finished and shown even if another one has been
-/// ordered meanwhile, so that lenses that move show something.
-const QUICK: u32 = 4;
+/// Rows of the first band of a picture that takes long. Later bands depend on the time that the earlier ones took. Between
+/// two bands the picture can be stopped.
+const FIRST_BAND: u32 = 32;
+// The rows of a band hold whole pixels of the count of triangles.
+const _: () = assert!(ROW_STEP.is_multiple_of(COUNT_SIDE));
 /// Smallest number of samples of the supersampled picture that serves as a reference.
 const REFERENCE_SAMPLES: u32 = 256;
 
@@ -66,12 +71,14 @@ pub enum Task {
 
 /// A picture of a scene: scene, standpoint and settings.
 pub struct SceneTask {
-    pub source: SceneSource,
-    pub scene: Arc<Scene>,
+    pub stage: Arc<LoadedScene>,
     /// Time of the animation in seconds.
     pub time: f64,
     pub standpoint: Standpoint,
     pub settings: Settings,
+    /// Whether the picture is a draft. A draft is finished and shown even if another picture has been ordered meanwhile, so
+    /// that lenses that move show something.
+    pub is_draft: bool,
     /// Whether the scene's environment is the background; pictures with enlarged regions have none.
     pub shows_environment: bool,
     pub subject: Subject,
@@ -92,9 +99,12 @@ impl Task {
 }
 
 impl SceneTask {
-    fn is_quick(&self) -> bool {
-        let needs_all = matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
-        self.settings.method.samples() <= QUICK && !needs_all
+    /// Whether the window's scene shows the task's moment. A scene that moves is prepared for its motion, so that the
+    /// images of frames may have other bytes than those of a pose; files need the bytes of the pose.
+    fn is_on_device(&self) -> bool {
+        let LoadedScene { source, motion, .. } = &*self.stage;
+        let is_file = matches!(self.subject, Subject::File(..));
+        motion.is_none() || (source.request.time == self.time && !is_file)
     }
 }
 
@@ -106,6 +116,16 @@ pub struct Pixels {
     pub codes: Vec<[u8; 4]>,
     /// Text about the picture.
     pub figures: Option<String>,
+    /// Time that a draft took.
+    pub draft: Option<DraftTime>,
+}
+
+/// Time that a draft took.
+#[derive(Clone, Copy, Debug)]
+pub struct DraftTime {
+    /// Samples a pixel.
+    pub samples: u32,
+    pub ms: f64,
 }
 
 impl Pixels {
@@ -115,7 +135,7 @@ impl Pixels {
             let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
             [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
         };
-        Self { size, codes: colors.iter().map(code).collect(), figures: None }
+        Self { size, codes: colors.iter().map(code).collect(), figures: None, draft: None }
     }
 
     /// Replaces each code by `change` of the code and the pixel's centre.
@@ -157,12 +177,10 @@ pub struct PictureWorker {
 }
 
 impl PictureWorker {
-    /// Starts the thread. The thread opens a device for the first order of a scene, and passes results to `deliver`.
-    pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
+    /// Starts the thread, which passes results to `deliver`. All scenes of its orders are on the same device.
+    pub fn new(deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
-        let thread = std::thread::spawn(move || {
-            Maker { shown: None, headless: None, options }.run(&received, deliver);
-        });
+        let thread = std::thread::spawn(move || Maker::default().run(&received, deliver));
         Self { orders: Some(orders), thread: Some(thread), picture: Stop::default(), files: Vec::new() }
     }
 
@@ -212,20 +230,27 @@ impl Drop for PictureWorker {
     }
 }
 
-/// State of the thread.
+/// State of the thread. Fields are dropped in their order: users of the device come before the device.
+#[derive(Default)]
 struct Maker {
-    /// The scene on the device; the first field, so that it is dropped before the device.
-    shown: Option<OpenScene>,
-    headless: Option<Headless>,
-    options: HeadlessOptions,
+    /// The pose that was shown last, if the window's scene did not show it.
+    posed: Option<PosedScene>,
+    headless: Option<(Headless, Arc<Engine>)>,
 }
 
 /// A pose on the device.
-struct OpenScene {
-    scene: Arc<Scene>,
+struct PosedScene {
+    stage: Arc<LoadedScene>,
     time: f64,
     pose: Pose,
     prepared: PreparedScene,
+}
+
+/// A pose that is on the device, and the renderer that shows it.
+struct Shown<'a> {
+    headless: &'a mut Headless,
+    pose: &'a Pose,
+    prepared: &'a PreparedScene,
 }
 
 impl Maker {
@@ -237,11 +262,6 @@ impl Maker {
             let made = self.make(&order);
             if made.error().is_some_and(is_stopped) {
                 continue;
-            }
-            if made.error().is_some_and(is_lost) {
-                // The next order opens another device.
-                self.shown = None;
-                self.headless = None;
             }
             deliver(made);
         }
@@ -264,6 +284,7 @@ impl Maker {
         if let Err(error) = self.listen(task, &order.stop) {
             return Made::Pixels(number, Err(error));
         }
+        let start = Instant::now();
         let pixels = match &task.subject {
             Subject::File(path, map) => {
                 return Made::File(path.clone(), self.write(task, path, map.as_ref()));
@@ -274,17 +295,21 @@ impl Maker {
             Subject::Overlay(Overlay::Triangles) => self.triangles(task),
             Subject::Overlay(Overlay::Error) => self.error(task),
         };
-        Made::Pixels(number, pixels)
+        let draft = task
+            .is_draft
+            .then(|| DraftTime { samples: task.settings.method.samples(), ms: 1e3 * start.elapsed().as_secs_f64() });
+        Made::Pixels(number, pixels.map(|pixels| Pixels { draft, ..pixels }))
     }
 
-    /// Opens the device, and lets it check during rendering whether the task is still wanted.
+    /// Has the renderer check between submissions whether the task is still wanted.
     fn listen(&mut self, task: &SceneTask, stop: &Stop) -> anyhow::Result<()> {
-        let headless = match &mut self.headless {
-            Some(headless) => headless,
-            none => none.insert(Headless::new(&self.options)?),
+        let engine = &task.stage.engine;
+        let (headless, _) = match &mut self.headless {
+            Some(open) => open,
+            none => none.insert((engine.headless()?, engine.clone())),
         };
-        let (stop, is_quick) = (stop.clone(), task.is_quick());
-        headless.stop_when(move || stop.is_unwanted() || (!is_quick && stop.is_superseded()));
+        let (stop, is_draft) = (stop.clone(), task.is_draft);
+        headless.stop_when(move || stop.is_unwanted() || (!is_draft && stop.is_superseded()));
         Ok(())
     }
 
@@ -305,12 +330,11 @@ impl Maker {
     fn scenery(&mut self, task: &SceneTask) -> anyhow::Result<Rendered> {
         let mut rendered = self.render(task, &task.settings)?;
         if task.shows_environment {
-            let (_, shown) = self.show(task)?;
-            let environment = shown
-                .pose
-                .environment(&task.scene)
+            let Shown { pose, .. } = self.show(task)?;
+            let environment = pose
+                .environment(&task.stage.scene)
                 .context("--background environment: there is none; name one by --environment FILE")?;
-            rendered.show_behind(environment, &camera(task, shown)?, &task.settings)?;
+            rendered.show_behind(environment, &camera(task, pose)?, &task.settings)?;
         }
         Ok(rendered)
     }
@@ -318,13 +342,11 @@ impl Maker {
     /// The scene with enlarged regions.
     fn enlarged(&mut self, task: &SceneTask, map: &ZoomMap) -> anyhow::Result<Rendered> {
         let size = task.settings.size;
-        let (headless, shown) = self.show(task)?;
-        let camera = camera(task, shown)?;
+        let Shown { headless, pose, prepared } = self.show(task)?;
+        let camera = camera(task, pose)?;
         let set = SamplingSet::mapped(size, map)?;
         let rig = [(Pinhole::from_camera(&camera, size)?, set.locations())];
-        let rendered = headless.render_locations(&shown.prepared, &rig, &task.settings)?;
-        check(headless)?;
-        Ok(rendered)
+        Ok(headless.render_locations(prepared, &rig, &task.settings)?)
     }
 
     fn zoom(&mut self, task: &SceneTask, map: &ZoomMap, tints: bool) -> anyhow::Result<Pixels> {
@@ -340,7 +362,8 @@ impl Maker {
         // The same colours as in files.
         let file = output::encode_aov(rendered.size, &aov)?;
         let image = image::load_from_memory(&file)?.to_rgba8();
-        Ok(Pixels { size: rendered.size, codes: image.pixels().map(|pixel| pixel.0).collect(), figures: None })
+        let codes = image.pixels().map(|pixel| pixel.0).collect();
+        Ok(Pixels { size: rendered.size, codes, figures: None, draft: None })
     }
 
     /// Picture of the number of triangles in each pixel, counted at a grid of samples.
@@ -356,7 +379,7 @@ impl Maker {
         let side = COUNT_SIDE as usize;
         let width = size[0] as usize * side;
         let mut codes = Vec::new();
-        self.render_bands(task, &finer, BAND * COUNT_SIDE, |band| {
+        self.render_bands(task, &finer, |band| {
             for row in band.attributes.chunks_exact(width * side) {
                 for column in 0..size[0] as usize {
                     let ids = (0..side * side).map(|sample| {
@@ -367,7 +390,7 @@ impl Maker {
                 }
             }
         })?;
-        Ok(Pixels { size, codes, figures: None })
+        Ok(Pixels { size, codes, figures: None, draft: None })
     }
 
     /// Picture of the differences from supersampling.
@@ -393,26 +416,32 @@ impl Maker {
                 found.rmse,
                 found.flip
             )),
+            draft: None,
         })
     }
 
-    /// Renders bands of `rows` rows from the top, and passes each to `take`.
+    /// Renders bands from the top, and passes each to `take`. The number of rows of a band is a multiple of 4; a draft is one
+    /// band.
     fn render_bands(
         &mut self,
         task: &SceneTask,
         settings: &Settings,
-        rows: u32,
         mut take: impl FnMut(Rendered),
     ) -> anyhow::Result<()> {
         let [width, height] = settings.size;
-        for first in (0..height).step_by(rows as usize) {
-            let region = PixelRect { corner: [0, first], size: [width, rows.min(height - first)] };
+        let mut heights = BandHeights::new(height, FIRST_BAND);
+        let mut first = 0;
+        while first < height {
+            let rows = if task.is_draft { 0..height } else { heights.band(first) };
+            first = rows.end;
+            let region = PixelRect { corner: [0, rows.start], size: [width, rows.end - rows.start] };
             let band = settings.clone().region(Some(region));
-            let (headless, shown) = self.show(task)?;
-            let camera = camera(task, shown)?;
-            let mut frame = headless.prepare(&shown.prepared, &band)?;
-            take(headless.render(&mut frame, &camera)?);
-            check(headless)?;
+            let Shown { headless, pose, prepared } = self.show(task)?;
+            let camera = camera(task, pose)?;
+            let mut frame = headless.prepare(prepared, &band)?;
+            let rendered = headless.render(&mut frame, &camera)?;
+            heights.learn(rows.end - rows.start, Took::of(&rendered.statistics));
+            take(rendered);
         }
         Ok(())
     }
@@ -424,8 +453,7 @@ impl Maker {
             attributes: Vec::new(),
             statistics: Statistics::default(),
         };
-        let rows = if settings.method.samples() <= QUICK { settings.size[1] } else { BAND };
-        self.render_bands(task, settings, rows, |band| {
+        self.render_bands(task, settings, |band| {
             whole.colors.extend(band.colors);
             whole.attributes.extend(band.attributes);
             whole.statistics.append(band.statistics);
@@ -433,22 +461,29 @@ impl Maker {
         Ok(whole)
     }
 
-    /// Uploads the task's scene and pose, unless they are on the device already.
-    fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &OpenScene)> {
-        let headless = self.headless.as_mut().context("there is no device")?;
-        let is_shown = |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
-        if !self.shown.as_ref().is_some_and(is_shown) {
-            // The memory of the pose before is freed first, so that this one can use it.
-            self.shown = None;
-            let pose = task.scene.pose(&PoseRequest { time: task.time, ..task.source.request.clone() })?;
-            let request = SceneRequest::new(&task.scene, &pose)
-                .shadowed(task.settings.scene.shadows)
-                .within(task.settings.scene.max_memory);
-            let prepared = headless.upload(request)?;
-            self.shown = Some(OpenScene { scene: task.scene.clone(), time: task.time, pose, prepared });
+    /// Uploads the task's pose, unless it is on the device already.
+    fn show<'a>(&'a mut self, task: &'a SceneTask) -> anyhow::Result<Shown<'a>> {
+        let (headless, _) = self.headless.as_mut().context("there is no device")?;
+        let stage = &task.stage;
+        if task.is_on_device() {
+            self.posed = None;
+            return Ok(Shown { headless, pose: &stage.pose, prepared: &stage.prepared });
         }
-        let shown = self.shown.as_ref().context("there is no scene")?;
-        Ok((headless, shown))
+        let is_shown = |posed: &PosedScene| Arc::ptr_eq(&posed.stage, stage) && posed.time == task.time;
+        // The memory of the pose before is freed first, so that this one can use it.
+        let posed = match self.posed.take().filter(is_shown) {
+            Some(posed) => posed,
+            None => {
+                let pose = stage.scene.pose(&PoseRequest { time: task.time, ..stage.source.request.clone() })?;
+                let request = SceneRequest::new(&stage.scene, &pose)
+                    .shadowed(task.settings.scene.shadows)
+                    .within(task.settings.scene.max_memory);
+                let prepared = headless.upload(request)?;
+                PosedScene { stage: stage.clone(), time: task.time, pose, prepared }
+            }
+        };
+        let PosedScene { pose, prepared, .. } = self.posed.insert(posed);
+        Ok(Shown { headless, pose, prepared })
     }
 }
 
@@ -465,23 +500,14 @@ fn write_png(path: &Path, size: [u32; 2], colors: &[[f32; 4]], map: Option<&Zoom
     Ok(output::write_atomically(path, &bytes)?)
 }
 
-fn camera(task: &SceneTask, shown: &OpenScene) -> anyhow::Result<gpc::camera::Camera> {
+fn camera(task: &SceneTask, pose: &Pose) -> anyhow::Result<gpc::camera::Camera> {
     let [width, height] = task.settings.size.map(f64::from);
-    let pose = &shown.pose;
     Ok(task.standpoint.camera(&pose.cameras, bounds(pose), width / height)?)
 }
 
 /// Whether an error means that the picture was stopped.
 fn is_stopped(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref::<RenderError>(), Some(RenderError::Stopped))
-}
-
-/// Fails if the validation layer is on and has reported a message.
-fn check(headless: &Headless) -> anyhow::Result<()> {
-    match headless.validation_messages().first() {
-        Some(message) => bail!("the validation layer says: {message}"),
-        None => Ok(()),
-    }
 }
 
 #[cfg(test)]
@@ -502,7 +528,7 @@ mod tests {
         let easel = Easel::new(Photo::open(&path("photo.png")).unwrap(), [1, 1]);
         let view = easel.view([1, 1], None, false, DVec2::ZERO);
         let (sender, made) = channel();
-        let mut worker = PictureWorker::new(HeadlessOptions::default(), move |made| {
+        let mut worker = PictureWorker::new(move |made| {
             let _ = sender.send(made);
         });
         for number in 1..20 {
