@@ -47,8 +47,8 @@ const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
 const HOST: &[Variant] =
     &[("samples", "samples.comp", &[]), ("corners", "corners.comp", &[]), ("filters", "filters.comp", &[])];
 
-/// The shader of the tests of teams.
-const TEAMS: &[Variant] = &[("teams", "teams.comp", &[])];
+/// Shaders of the tests of teams and of subgroups.
+const TEAMS: &[Variant] = &[("teams", "teams.comp", &[]), ("append", "append.comp", &[])];
 
 /// The shader with which a test reads what the host writes.
 const ROWS: &[Variant] = &[("rows", "rows.comp", &[])];

@@ -62,7 +62,7 @@ void make_pairs() {
             touched |= some && !(min(reach.x, min(reach.y, reach.z)) < 0.0) ? 1u << bit : 0u;
             busy &= busy - 1u;
         } while (busy != 0u);
-        uint slot = append_several(COUNTER_PAIRS, uint(bitCount(touched)));
+        uint slot = append(COUNTER_PAIRS, uint(bitCount(touched)));
         do {
             uint index = row * frame.tiles.x + 32u * run + (touched != 0u ? uint(findLSB(touched)) : uint(before));
             if (touched != 0u) {
@@ -78,7 +78,8 @@ void make_pairs() {
             touched &= touched - 1u;
         } while (touched != 0u);
         number += apart;
-    } while (number < count);
+        // All invocations of a subgroup append together, so that none leaves the loop before the others.
+    } while (subgroupAny(number < count));
 }
 
 void main() {

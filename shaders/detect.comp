@@ -50,7 +50,8 @@ Texel texel_at(ivec2 p) {
     t.id = id_at(p);
     t.blend = 0u;
     if (BLEND_IDS) t.blend = blend_at(p);
-    t.shadow = shadows_at(uint(place));
+    // Where a centre sees no triangle, nobody has written shadows.
+    t.shadow = t.id != 0u ? shadows_at(uint(place)) : 0u;
     uint color_code = MODE == DETECT_EXACT ? 0u : texelFetch(display, place).x;
     t.code = spread(color_code);
     t.alpha = int(color_code >> 24);

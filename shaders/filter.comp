@@ -1,5 +1,5 @@
 // filter: lists the triangles of a run that may cover a pixel's centre, in their order, so that `raster` draws no others. In a
-// dense mesh, most triangles face away or lie between centres, and CPU devices process triangles on one thread. A subgroup takes
+// dense mesh, most triangles face away or lie between centres, and CPU devices process triangles on one thread. A team takes
 // FILTER_TRIANGLES neighbouring triangles, and makes one draw of them.
 // Reads: the geometry. Writes: corners, indexed_draws.
 #version 460

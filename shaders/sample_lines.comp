@@ -257,7 +257,7 @@ uint find_touching(Taken taken, uint count) {
         }
         if (APART && !LOCATIONS) touching = team_or(touching);
         uint at = first + min(my_words, MOST_TOUCHING - 1u) * CELLS_AT_ONCE;
-        if (member() < CELLS_AT_ONCE) {
+        if (member() < CELLS_AT_ONCE && touching != 0u) {
             touched[at] = touching;
             touched_from[at] = from;
         }

@@ -81,7 +81,9 @@ vec3 suns_reflection(vec3 d, float alpha) {
         else sum += lobe_share(found.x, group.direction_kind.w, alpha) * group.color_scale.rgb;
     }
     vec2 grid = lights[first].offset.yz;
-    vec2 place = vec2(atan(d.x, -d.z) / (2.0 * PI) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / PI) * grid - 0.5;
+    // Straight up and down, all columns are equally near, and the angle of (0, 0) is undefined.
+    float column_angle = atan(d.x, d.x == 0.0 && d.z == 0.0 ? 1.0 : -d.z);
+    vec2 place = vec2(column_angle / (2.0 * PI) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / PI) * grid - 0.5;
     place.y = clamp(place.y, 0.0, grid.y - 1.0);
     uint node = 0u, end = 0u;
     while (node < end || near != 0u) {

@@ -105,8 +105,8 @@ layout(std430, set = SET_DATA, binding = BINDING_PAIRS_OUT) writeonly buffer Pai
 // - all superpixels before the last growth (`grow`)
 layout(std430, set = SET_DATA, binding = BINDING_MARKS) buffer Marks { uint marks[]; };
 
-// (n % width, n / width). Integer division is a loop on CPU devices. For quotients below 2^22 the quotient of floats is off by
-// one at the most, and is then corrected.
+// (n % width, n / width). Integer division is a loop on CPU devices. For quotients below 2^21 the quotient of floats is off by
+// one at the most, and is then corrected. Vulkan lets a division be off by 2.5 units in the last place.
 uvec2 split(uint n, uint width) {
     uint q = uint(float(n) * (1.0 / float(width)));
     int r = int(n - q * width);

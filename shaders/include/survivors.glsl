@@ -6,7 +6,7 @@
 // Lists the triangles `first` + 64 k of this invocation, for each k whose bit is set: in `bits.x` from the front, in `bits.y`
 // from the back. `counters_` are the lengths of both parts. All invocations of the subgroup call this together.
 void list_survivors(uint first, uvec2 bits, uvec2 counters_) {
-    uvec2 at = uvec2(append_several(counters_.x, uint(bitCount(bits.x))), append_several(counters_.y, uint(bitCount(bits.y))));
+    uvec2 at = uvec2(append(counters_.x, uint(bitCount(bits.x))), append(counters_.y, uint(bitCount(bits.y))));
     do {
         uvec2 t = first + uvec2(findLSB(bits)) * 64u;
         if (bits.x != 0u && at.x < frame.survivor_capacity) survivors[at.x] = t.x;

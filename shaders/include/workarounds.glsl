@@ -32,7 +32,8 @@
 //   DutchShip, 480 x 270, 64 samples: 75 ms with broadcasts in `sample_lines`, 37 ms with shuffles.
 // SHUFFLES_ALONE (NVIDIA 580.159.04): where a kernel that was optimised by ssa-rewrite of spirv-opt exchanges data by built-in reductions and
 //   scans of subgroups within loops, the driver loses some of it, in other places in each run. `sample_lines` with subgroups of 32 lost
-//   candidates of 1,291 of 9,241 cells of SauerbratenZdm2. So teams (team.glsl) exchange data by shuffles alone.
+//   candidates of 1,291 of 9,241 cells of SauerbratenZdm2. So teams (team.glsl) exchange data by shuffles alone, and so
+//   do invocations that append to a list (append.glsl).
 #ifndef WORKAROUNDS_GLSL
 #define WORKAROUNDS_GLSL
 

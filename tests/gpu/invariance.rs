@@ -1,13 +1,14 @@
 //! Changes that must not change an image: repetition, the order of triangles and vertices, and memory.
 
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 use gpc::camera::Camera;
-use gpc::render::{Detection, Headless, Rendered, SceneRequest, Settings, Shading};
+use gpc::render::{Detection, Headless, Rendered, SceneRequest, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
-use gpc::scene::AlphaMode;
+use gpc::scene::{AlphaMode, Light, LightKind};
 
 use crate::devices::{few_texel_elements, within};
 use crate::meshes::{Depths, Random, delaunay, fan};
+use crate::scenes::ball_over_checker;
 use crate::soup::soup;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
 
@@ -55,6 +56,11 @@ fn runs_give_the_same_bytes() {
     });
 }
 
+/// A camera that looks the other way.
+fn away() -> Camera {
+    Camera { axes: DMat3::from_rotation_y(std::f64::consts::PI) * camera().axes, ..camera() }
+}
+
 /// A frame object shows the same image, which takes several rounds, whether or not it showed an empty scene before.
 #[test]
 fn earlier_frames_do_not_matter() {
@@ -68,13 +74,35 @@ fn earlier_frames_do_not_matter() {
             gpu.render(&mut frame, &camera()).unwrap()
         };
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
-        let away = Camera { axes: DMat3::from_rotation_y(std::f64::consts::PI) * camera().axes, ..camera() };
-        let nothing = gpu.render(&mut frame, &away).unwrap();
+        let nothing = gpu.render(&mut frame, &away()).unwrap();
         assert_eq!(nothing.statistics.superpixels, 0);
         let found = gpu.render(&mut frame, &camera()).unwrap();
         // One round for the superpixels and one for their growth would be the minimum.
         assert!(found.statistics.rounds > 2, "{}", found.statistics.rounds);
         assert_same(&expected, &found, "after a frame of less");
+    });
+}
+
+/// Shadows of an earlier frame do not matter in pixels in which no centre sees a triangle any more.
+#[test]
+fn shadows_of_earlier_frames_do_not_matter() {
+    on_gpu(|gpu| {
+        let settings = Settings::new(160, 96).shadows(Shadows::Exact);
+        let settings = settings.map_superpixels(|options| options.detection(Detection::Exact));
+        let (scene, mut pose) = ball_over_checker().build();
+        pose.lights = vec![Light {
+            kind: LightKind::Directional,
+            position: DVec3::ZERO,
+            direction: DVec3::new(-0.3, -1.0, -0.4).normalize(),
+            color: [1.0; 3],
+            range: None,
+        }];
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact)).unwrap();
+        let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+        let shadowed = gpu.render(&mut frame, &camera()).unwrap();
+        assert!(shadowed.statistics.superpixels > 500);
+        let nothing = gpu.render(&mut frame, &away()).unwrap();
+        assert_eq!(nothing.statistics.superpixels, 0);
     });
 }
 

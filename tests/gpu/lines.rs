@@ -1,6 +1,7 @@
 //! Samples on lines, compared with the exact twin and with closed forms.
 
 use std::f64::consts::TAU;
+use std::process::Command;
 
 use gpc::render::{Headless, Settings, Shading};
 use gpc::sampling::Pattern;
@@ -171,6 +172,50 @@ fn shares_add_up_to_one() {
                 assert!(alpha <= 1.0 + 1e-6 && (red + green + blue - alpha).abs() < 1e-6, "pixel {pixel}: {color:?}");
             }
         }
+    });
+}
+
+/// A cell that 64 candidates touch, each of them in another word of the tile's list, sees the last one, too, although more words
+/// follow. The order of lists is known if lavapipe has one thread.
+#[test]
+fn the_last_of_many_words_is_seen() {
+    const THREADS: &str = "LP_NUM_THREADS";
+    if std::env::var(THREADS).as_deref() != Ok("1") {
+        let child = Command::new(std::env::current_exe().unwrap())
+            .args(["lines::the_last_of_many_words_is_seen", "--exact", "--nocapture"])
+            .env(THREADS, "1")
+            .output()
+            .unwrap();
+        let [said, errors] = [&child.stdout, &child.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+        assert!(child.status.success() && said.contains("1 passed"), "{said}{errors}");
+        return;
+    }
+    let mut material = flat([1.0; 4], AlphaMode::Opaque);
+    material.double_sided = true;
+    let mut stage = Stage::new(vec![material]);
+    // `cull` lists 512 triangles so: triangles 0, 64, ... 448, then 1, 65, ... 449, and so on. So every 32nd entry of the list is one of
+    // the first 64 triangles of 512, whose number is a multiple of 4.
+    const LAST: u32 = 3 * 512 + 60;
+    for triangle in 0..5 * 512 {
+        let touches = triangle < 4 * 512 && triangle % 512 < 64 && triangle % 4 == 0;
+        let (middle, size, distance) = match (touches, triangle) {
+            (true, LAST) => ([0.5, 0.5], 2.0, 2.0),
+            (true, _) => ([0.5, 0.5], 0.1, 4.0),
+            (false, _) => ([6.5, 2.5], 0.1, 4.0),
+        };
+        let corners = [[-1.0, -1.0], [2.0, -1.0], [-1.0, 2.0]];
+        stage.add(0, corners.map(|[x, y]| seen_at([middle[0] + size * x, middle[1] + size * y], distance, SIZE[1])));
+    }
+    stage.color_by_code();
+    on_gpu(|gpu| {
+        let image = stage.render(gpu, &on_lines(64));
+        let seen = (0..image.colors.len()).find(|pixel| centre(*pixel, SIZE) == [0.5, 0.5]).unwrap();
+        let [red, green, blue] = code(LAST + 1);
+        let found = image.colors[seen];
+        let differs = found.iter().zip([red, green, blue, 1.0]).any(|(found, expected)| (found - expected).abs() > 0.01);
+        assert!(!differs, "{found:?} instead of {:?}", code(LAST + 1));
+        // Only the cell that all other triangles touch is left to points.
+        assert_eq!(image.statistics.resampled, 1);
     });
 }
 

@@ -1,4 +1,4 @@
-//! Operations of teams (`shaders/include/team.glsl`), compared with scalar twins.
+//! Operations of teams (`shaders/include/team.glsl`) and of subgroups (`append.glsl`), compared with scalar twins.
 
 use std::process::Command;
 use std::sync::Arc;
@@ -57,15 +57,25 @@ fn expected(given: &[u32], members: usize) -> Vec<[u32; RESULTS]> {
         .collect()
 }
 
-/// What the shader writes for teams of `members` in subgroups of `subgroup` invocations.
-fn found(gpu: &Arc<Gpu>, given: &[u32], members: u32, subgroup: u32) -> Vec<[u32; RESULTS]> {
+/// Subgroups and workgroups of a dispatch.
+struct Groups {
+    subgroup: u32,
+    workgroup: u32,
+    /// Number of members of a team.
+    members: u32,
+}
+
+/// What a shader of `tests/gpu/teams/shaders` leaves in a buffer of `words` words, which are 0 at first. `given` has a value for each
+/// invocation.
+fn written(gpu: &Arc<Gpu>, code: &[u8], given: &[u32], words: usize, groups: &Groups) -> Vec<u32> {
+    let Groups { subgroup, workgroup, members } = *groups;
     // SAFETY: the commands that use objects in this memory are waited for.
     let memory = unsafe { memory(gpu, None) };
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let mut values = memory.buffer("given", 4 * given.len() as u64, storage, MemoryUse::Upload).unwrap();
     values.bytes_mut()[..4 * given.len()].copy_from_slice(bytemuck::cast_slice(given));
-    let bytes = (4 * RESULTS * given.len()) as u64;
-    let made = memory.buffer("found", bytes, storage, MemoryUse::Readback).unwrap();
+    let mut made = memory.buffer("found", 4 * words as u64, storage, MemoryUse::Readback).unwrap();
+    made.bytes_mut().fill(0);
     let device = gpu.device();
     // SAFETY: the handles are of one device, and are destroyed after the commands have run.
     unsafe {
@@ -96,12 +106,11 @@ fn found(gpu: &Arc<Gpu>, given: &[u32], members: u32, subgroup: u32) -> Vec<[u32
         device.update_descriptor_sets(&writes, &[]);
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&set_layouts);
         let layout = device.create_pipeline_layout(&info, None).unwrap();
-        let code = include_bytes!("teams/shaders/spirv/teams.spv");
-        let words = ash::util::read_spv(&mut std::io::Cursor::new(code)).unwrap();
-        let info = vk::ShaderModuleCreateInfo::default().code(&words);
+        let code = ash::util::read_spv(&mut std::io::Cursor::new(code)).unwrap();
+        let info = vk::ShaderModuleCreateInfo::default().code(&code);
         let module = device.create_shader_module(&info, None).unwrap();
-        // The size of workgroups, the members of a team and the teams of a workgroup, which is one subgroup.
-        let data = [subgroup, members, subgroup / members].map(u32::to_ne_bytes).concat();
+        // The size of workgroups, the members of a team and the teams of a workgroup.
+        let data = [workgroup, members, workgroup / members].map(u32::to_ne_bytes).concat();
         let map = [(0, 0), (1, 4), (24, 8)].map(|(constant_id, offset)| vk::SpecializationMapEntry {
             constant_id,
             offset,
@@ -124,7 +133,7 @@ fn found(gpu: &Arc<Gpu>, given: &[u32], members: u32, subgroup: u32) -> Vec<[u32
             let point = vk::PipelineBindPoint::COMPUTE;
             device.cmd_bind_pipeline(commands, point, pipeline);
             device.cmd_bind_descriptor_sets(commands, point, layout, 0, &sets, &[]);
-            device.cmd_dispatch(commands, given.len() as u32 / subgroup, 1, 1);
+            device.cmd_dispatch(commands, given.len() as u32 / workgroup, 1, 1);
         });
         device.destroy_pipeline(pipeline, None);
         device.destroy_shader_module(module, None);
@@ -132,7 +141,15 @@ fn found(gpu: &Arc<Gpu>, given: &[u32], members: u32, subgroup: u32) -> Vec<[u32
         device.destroy_descriptor_pool(pool, None);
         device.destroy_descriptor_set_layout(set_layouts[0], None);
     }
-    made.read(given.len()).unwrap().to_vec()
+    made.read(words).unwrap().to_vec()
+}
+
+/// What the shader writes for teams of `members` in workgroups of one subgroup.
+fn found(gpu: &Arc<Gpu>, given: &[u32], members: u32, subgroup: u32) -> Vec<[u32; RESULTS]> {
+    let code = include_bytes!("teams/shaders/spirv/teams.spv");
+    let groups = Groups { subgroup, workgroup: subgroup, members };
+    let words = written(gpu, code, given, RESULTS * given.len(), &groups);
+    words.chunks_exact(RESULTS).map(|results| results.try_into().unwrap()).collect()
 }
 
 /// Each operation gives what its twin gives, with teams of every size that fits into the device's subgroups.
@@ -151,7 +168,22 @@ fn operations_give_what_their_twins_give() {
                 assert_eq!(found, expected, "invocation {invocation}, teams of {members} in subgroups of {subgroup}");
             }
         }
+        appended_entries_have_places_of_their_own(gpu.gpu(), &given);
     });
+}
+
+/// Invocations that append to a list get places that no others get, and the list has no gaps.
+fn appended_entries_have_places_of_their_own(gpu: &Arc<Gpu>, given: &[u32]) {
+    const MOST: usize = 5 * 7;
+    let teams = gpu.limits().teams;
+    let groups = Groups { subgroup: teams.members * teams.in_workgroup, workgroup: 64, members: teams.members };
+    let code = include_bytes!("teams/shaders/spirv/append.spv");
+    let written = written(gpu, code, given, 1 + MOST * given.len(), &groups);
+    let of = |value: &u32| (0..=value % 5).map(|trip| (value >> (3 * trip) & 7) as usize).sum::<usize>();
+    let length: usize = given.iter().map(of).sum();
+    let (list, rest) = written[1..].split_at(length);
+    assert_eq!(written[0] as usize, length);
+    assert!(length > given.len() && list.iter().all(|times| *times == 1) && rest.iter().all(|times| *times == 0));
 }
 
 /// The same in the sizes of subgroups that lavapipe has with vectors of other widths. It reads the width once in a process. Subgroups of
