@@ -2,9 +2,11 @@
 
 use gpc::color::srgb;
 use gpc::render::{Headless, Method, PixelRect, RenderError, Rendered, Settings};
+use gpc::scene::AlphaMode;
+use gpc::testing::Random;
 
 use crate::scenes::{ball_over_checker, layered};
-use crate::stage::{Stage, camera, on_gpu};
+use crate::stage::{Stage, camera, flat, on_gpu};
 
 /// Codes of a colour, as image files have them.
 fn codes([r, g, b, a]: [f32; 4]) -> [u8; 4] {
@@ -26,12 +28,28 @@ fn both(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> (Rendered, Re
     (light, encoded)
 }
 
+/// Squares of many colours, of which some are near the thresholds of codes.
+fn colorful() -> Stage {
+    const SQUARES: u16 = 64;
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+    let mut random = Random::new(5);
+    let mut share = || random.below(1 << 24) as f32 * 2.0_f32.powi(-24);
+    for (row, column) in (0..SQUARES).flat_map(|row| (0..SQUARES).map(move |column| (row, column))) {
+        let place = |index: u16| 4.0 * f32::from(index) / f32::from(SQUARES) - 2.0;
+        let [left, right, low, high] = [place(column), place(column + 1), place(row), place(row + 1)];
+        stage.add_quad(0, [[left, low, -2.0], [right, low, -2.0], [right, high, -2.0], [left, high, -2.0]]);
+        let color = [share(), share(), share(), 1.0];
+        stage.triangles.iter_mut().rev().take(2).for_each(|triangle| triangle.color = color);
+    }
+    stage
+}
+
 #[test]
 fn images_have_the_codes_of_image_files() {
     let settings = Settings::new(150, 70);
     let region = PixelRect { corner: [33, 17], size: [61, 40] };
     on_gpu(|gpu| {
-        for stage in [layered(), ball_over_checker()] {
+        for stage in [layered(), ball_over_checker(), colorful()] {
             for settings in [
                 settings.clone(),
                 settings.clone().background(Some([0.2, 0.4, 0.8])),
