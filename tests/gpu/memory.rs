@@ -1,8 +1,9 @@
-//! Bytes that the table of buffers promises, compared with those of the buffers that are made from it.
+//! Bytes that the table of buffers promises, compared with those of the buffers that are made from it; contents of new memory.
 
 use crate::bare::Bare;
-use crate::stage::on_gpu;
-use gpc::testing::{CellSizes, Cells, Data, LocationSizes, ResourceSizes};
+use crate::stage::{on_cpu, on_gpu};
+use ash::vk;
+use gpc::testing::{CellSizes, Cells, Data, LocationSizes, MemoryUse, ResourceSizes, memory};
 
 /// Plans take the bytes from the table, so that no frame exceeds a limit for memory.
 #[test]
@@ -34,5 +35,19 @@ fn buffers_have_the_bytes_that_are_planned() {
         }
         let difference = own.bytes() - lent.bytes();
         assert_eq!(difference, 32 * 50_000 - 16);
+    });
+}
+
+/// All tests run with memory that holds no zeros when it is allocated, as on a GPU.
+#[test]
+fn new_memory_is_not_zero() {
+    /// Blocks of this size are not shared with other buffers, so that no earlier contents are found in them.
+    const BYTES: u64 = 300 << 20;
+    on_cpu(|gpu| {
+        // SAFETY: no commands use the memory.
+        let memory = unsafe { memory(gpu.gpu(), None) };
+        let buffer = memory.buffer("new", BYTES, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback).unwrap();
+        let words: &[u32] = buffer.read((BYTES / 4) as usize).unwrap();
+        assert!(words.iter().step_by(1024).all(|word| *word != 0));
     });
 }

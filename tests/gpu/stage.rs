@@ -55,8 +55,17 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     idle().push(gpu);
 }
 
+/// Fills memory that is allocated from now on. Lavapipe allocates device memory on the heap, where large blocks are zero at
+/// first. On a GPU they hold anything.
+fn fill_new_memory() {
+    // SAFETY: the call takes plain numbers and does its own locking.
+    let set = unsafe { libc::mallopt(libc::M_PERTURB, 0xa5) };
+    assert_eq!(set, 1, "the heap can't fill new memory");
+}
+
 /// Opens a device under the validation layer. `GPC_SIMULATE=gpu` in the environment makes it a GPU for the engine.
 pub fn open(change: impl FnOnce(&mut Limits)) -> Headless {
+    fill_new_memory();
     let options = HeadlessOptions::default().validation(true);
     let simulated = std::env::var("GPC_SIMULATE");
     let change = |limits: &mut Limits| {
