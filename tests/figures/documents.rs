@@ -7,12 +7,13 @@ use std::path::PathBuf;
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 21] = [
+const PARTS: [(&str, Make); 22] = [
     ("picture", table::picture),
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
     ("quality", table::quality_by_scene),
+    ("views", table::views),
     ("speed", table::speed),
     ("gpu", gpu::table),
     ("motion", table::motion),

@@ -196,6 +196,47 @@ pub fn quality_by_scene() -> String {
     text
 }
 
+/// Table of the time and the error of superpixels in views that fill the frame, at every number of samples.
+pub fn views() -> String {
+    let mut text = String::new();
+    for of in &data::load("views") {
+        let scenes = of.scenes();
+        let mut table = Table::new(&cells(&[
+            "samples",
+            "views",
+            "time / one sample",
+            "`ssaa`",
+            "RMSE / RMSE of `ssaa`",
+            "FLIP / FLIP of `ssaa`",
+            "RMSE / brute force's, at equal time",
+            "FLIP / brute force's, at equal time",
+            "time / time of `ssaa`, at equal RMSE",
+        ]));
+        for n in of.compared_samples() {
+            let at_equal_time = |column| {
+                let ratios = scenes.iter().filter_map(|scene| time_to_error::at_equal_time(of, scene, n, column));
+                with_worst(spread(ratios.map(|ratio| (ratio, "")).collect()))
+            };
+            let over_none = |method| with_worst(ratios(of, &scenes, MS, (method, n), ("none", 1)));
+            let over_brute = |column| with_worst(ratios(of, &scenes, column, ("superpixel", n), ("ssaa", n)));
+            let count = scenes.iter().filter(|scene| of.find(scene, "ssaa", n).is_some()).count();
+            table.row(&[
+                grouped(u64::from(n)),
+                count.to_string(),
+                over_none("superpixel"),
+                over_none("ssaa"),
+                over_brute(RMSE),
+                over_brute(FLIP),
+                at_equal_time(RMSE),
+                at_equal_time(FLIP),
+                with_worst(time_to_error::shares(of, &scenes, n)),
+            ]);
+        }
+        text += &format!("{}, {}, median (worst):\n\n{}\n", of.source(), of.size(), table.finish());
+    }
+    text
+}
+
 /// Table of times of larger images.
 pub fn speed() -> String {
     let all = data::load("speed");

@@ -212,7 +212,8 @@ fn the_last_of_many_words_is_seen() {
         let seen = (0..image.colors.len()).find(|pixel| centre(*pixel, SIZE) == [0.5, 0.5]).unwrap();
         let [red, green, blue] = code(LAST + 1);
         let found = image.colors[seen];
-        let differs = found.iter().zip([red, green, blue, 1.0]).any(|(found, expected)| (found - expected).abs() > 0.01);
+        let differs =
+            found.iter().zip([red, green, blue, 1.0]).any(|(found, expected)| (found - expected).abs() > 0.01);
         assert!(!differs, "{found:?} instead of {:?}", code(LAST + 1));
         // Only the cell that all other triangles touch is left to points.
         assert_eq!(image.statistics.resampled, 1);
