@@ -37,7 +37,7 @@ class _Options(TypedDict, total=False):
     """Samples of a pixel that aliases: 1 to 1,024, by default 64."""
     method: Literal["superpixel", "none", "ssaa", "msaa"]
     filter: Literal["box", "tent", "gaussian", "mitchell", "blackman-harris"]
-    """Filter by which a pixel is averaged. Images at the pixels of a camera alone have others than the box."""
+    """Filter by which a pixel is averaged. Locations of shape (N, 2) have no neighbours, and are averaged by the box alone."""
     filter_radius: Optional[float]
     """Distance in pixels at which the filter ends; None for the filter's default."""
     contrast: Optional[int]
