@@ -13,6 +13,8 @@ mod parts;
 mod render;
 #[path = "../common/scene_builder.rs"]
 mod scene_builder;
+#[path = "../common/shadowed_floor.rs"]
+mod shadowed_floor;
 mod shadows;
 #[path = "../common/shared.rs"]
 mod shared;

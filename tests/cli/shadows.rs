@@ -1,37 +1,17 @@
 //! `--shadows exact`, from a file with a light to images.
 
 use crate::command::{asset, gpc};
-use crate::scene_builder::Builder;
+use crate::shadowed_floor::shadowed_floor;
 use gpc::output::decode_linear;
-use serde_json::json;
 use std::path::Path;
 
 const SIZE: [usize; 2] = [96, 64];
 const VIEW: [&str; 8] = ["--size", "96x64", "--eye", "0,3,5", "--target", "0,0,0", "--fov", "45"];
 
-/// A floor with a triangle above its middle, and light from straight above.
+/// A file of the scene.
 fn scene(folder: &Path) -> String {
-    let mut builder = Builder::new();
-    let floor = [[-4.0, 0.0, 4.0], [4.0, 0.0, 4.0], [4.0, 0.0, -4.0], [-4.0, 0.0, -4.0]];
-    let over = [[-1.0, 1.0, 0.5], [1.0, 1.0, 0.5], [0.0, 1.0, -1.5]];
-    for (corners, indices) in [(&floor[..], &[0, 1, 2, 0, 2, 3][..]), (&over, &[0, 1, 2])] {
-        let positions = builder.floats(corners);
-        let indices = builder.indices(indices);
-        let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
-        builder.node_with(primitive, json!({}));
-    }
-    builder.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = json!([{"type": "directional", "intensity": 5}]);
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    builder.push(
-        "nodes",
-        json!({
-            "rotation": [-half, 0, 0, half],
-            "extensions": {"KHR_lights_punctual": {"light": 0}},
-        }),
-    );
     let path = folder.join("sun.glb");
-    std::fs::write(&path, builder.glb()).unwrap();
+    std::fs::write(&path, shadowed_floor()).unwrap();
     path.to_str().unwrap().to_owned()
 }
 

@@ -1,14 +1,14 @@
 //! Changes that must not change an image: repetition, the order of triangles and vertices, and memory.
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use gpc::camera::Camera;
 use gpc::render::{Detection, Headless, Rendered, SceneRequest, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
-use gpc::scene::{AlphaMode, Light, LightKind};
+use gpc::scene::AlphaMode;
 
 use crate::devices::{few_texel_elements, within};
 use crate::meshes::{Depths, Random, delaunay, fan};
-use crate::scenes::ball_over_checker;
+use crate::scenes::{ball_over_checker, distant_lamp};
 use crate::soup::soup;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
 
@@ -90,13 +90,7 @@ fn shadows_of_earlier_frames_do_not_matter() {
         let settings = Settings::new(160, 96).shadows(Shadows::Exact);
         let settings = settings.map_superpixels(|options| options.detection(Detection::Exact));
         let (scene, mut pose) = ball_over_checker().build();
-        pose.lights = vec![Light {
-            kind: LightKind::Directional,
-            position: DVec3::ZERO,
-            direction: DVec3::new(-0.3, -1.0, -0.4).normalize(),
-            color: [1.0; 3],
-            range: None,
-        }];
+        pose.lights = vec![distant_lamp()];
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact)).unwrap();
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
         let shadowed = gpu.render(&mut frame, &camera()).unwrap();

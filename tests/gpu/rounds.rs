@@ -1,11 +1,9 @@
 //! Rounds of a device with plenty of memory and of one without. One of them is simulated.
 
-use glam::DVec3;
 use gpc::render::{Headless, PassTime, Rendered, SceneFrame, SceneRequest, Settings, Shadows, SuperpixelOptions};
-use gpc::scene::{Light, LightKind};
 
 use crate::devices::within;
-use crate::scenes::{ball_over_checker, layered};
+use crate::scenes::{ball_over_checker, distant_lamp, layered};
 use crate::stage::{Stage, as_gpu, camera, on_cpu, on_gpu};
 
 fn settings(samples: u32) -> Settings {
@@ -15,13 +13,7 @@ fn settings(samples: u32) -> Settings {
 /// Prepares a frame of a stage in the light of a distant lamp.
 fn prepare(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> SceneFrame {
     let (scene, mut pose) = stage.build();
-    pose.lights = vec![Light {
-        kind: LightKind::Directional,
-        position: DVec3::ZERO,
-        direction: DVec3::new(-0.3, -1.0, -0.4).normalize(),
-        color: [1.0; 3],
-        range: None,
-    }];
+    pose.lights = vec![distant_lamp()];
     let request = SceneRequest::new(&scene, &pose).shadowed(settings.scene.shadows);
     let prepared = gpu.upload(request).unwrap();
     gpu.prepare(&prepared, settings).unwrap()

@@ -2,9 +2,21 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gpc::scene::{AlphaMode, Material};
+use glam::DVec3;
+use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use crate::stage::{Stage, flat};
+
+/// White light from above, which casts the shadow of the ball on the floor.
+pub fn distant_lamp() -> Light {
+    Light {
+        kind: LightKind::Directional,
+        position: DVec3::ZERO,
+        direction: DVec3::new(-0.3, -1.0, -0.4).normalize(),
+        color: [1.0; 3],
+        range: None,
+    }
+}
 
 /// A faceted ball above a checker floor, with a fan of wires behind it. No edge runs along a pixel's diagonal or side
 /// through its centre, where samples would tie.

@@ -5,12 +5,15 @@
 mod command;
 #[path = "../common/scene_builder.rs"]
 mod scene_builder;
+#[path = "../common/shadowed_floor.rs"]
+mod shadowed_floor;
 mod support;
 
 use command::{asset, finish, gpc};
 use glam::DVec3;
 use scene_builder::Builder;
 use serde_json::json;
+use shadowed_floor::shadowed_floor;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -211,29 +214,10 @@ fn an_environment_is_seen_behind_the_scene_at_rest() {
     viewer.close();
 }
 
-/// A floor under a triangle, with a light above them: the triangle's shadow falls on the floor.
-fn lit_scene() -> Vec<u8> {
-    let mut builder = Builder::new();
-    let floor = [[-4.0, 0.0, 4.0], [4.0, 0.0, 4.0], [4.0, 0.0, -4.0], [-4.0, 0.0, -4.0]];
-    let over = [[-1.0, 1.0, 0.5], [1.0, 1.0, 0.5], [0.0, 1.0, -1.5]];
-    for (corners, indices) in [(&floor[..], &[0, 1, 2, 0, 2, 3][..]), (&over, &[0, 1, 2])] {
-        let positions = builder.floats(corners);
-        let indices = builder.indices(indices);
-        let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
-        builder.node_with(primitive, json!({}));
-    }
-    builder.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = json!([{"type": "directional", "intensity": 5}]);
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    builder
-        .push("nodes", json!({"rotation": [-half, 0, 0, half], "extensions": {"KHR_lights_punctual": {"light": 0}}}));
-    builder.glb()
-}
-
 #[test]
 fn shadows_are_seen_at_rest_and_in_lenses() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
-    std::fs::write(folder.path().join("lit.glb"), lit_scene()).unwrap();
+    std::fs::write(folder.path().join("lit.glb"), shadowed_floor()).unwrap();
     let options = "lit.glb --size 320x200 --samples 16 --shadows exact --eye=0,3,5 --target=0,0,0 --fov 45";
     let arguments: Vec<_> = options.split(' ').collect();
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);

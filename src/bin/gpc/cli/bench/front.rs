@@ -1,5 +1,6 @@
-//! The Pareto front of time and error, and the time at which it reaches an error.
+//! Superpixels and brute force at equal error and at equal time.
 
+use super::pareto::{self, error_at, reached};
 use super::results::{Row, SceneResults};
 use gpc::render::MethodKind;
 
@@ -16,17 +17,9 @@ fn error(row: &Row) -> f64 {
     row.accuracy.rmse
 }
 
-/// Times and errors of the rows that no other row beats in both, sorted by time: their Pareto front.
+/// Pareto front of the rows' times and errors.
 fn front<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<[f64; 2]> {
-    let mut sorted: Vec<_> = rows.into_iter().collect();
-    sorted.sort_by(|a, b| time(a).total_cmp(&time(b)).then(error(a).total_cmp(&error(b))));
-    let mut least = f64::INFINITY;
-    sorted.retain(|row| {
-        let better = error(row) < least;
-        least = least.min(error(row));
-        better
-    });
-    sorted.into_iter().map(|row| [time(row), error(row)]).collect()
+    pareto::front(rows.into_iter().map(|row| [time(row), error(row)]).collect())
 }
 
 /// Superpixel time / supersampling time, at the error of supersampling with `samples` samples: the time that
@@ -52,62 +45,4 @@ pub fn ratio_at_equal_time(scene: &SceneResults, row: &Row) -> Option<f64> {
     let rivals = scene.rows.iter().filter(|row| [OneSample, Ssaa, Accumulate, Rotated].contains(&row.method));
     let rival = error_at(&front(rivals), time(row))?;
     (rival > 0.0).then(|| error(row) / rival)
-}
-
-/// Error that a front reaches in `ms`, on a straight line on logarithmic axes between two of its points; `None` before its
-/// first point and beyond its last one.
-fn error_at(front: &[[f64; 2]], ms: f64) -> Option<f64> {
-    let after = front.iter().position(|[time, _]| *time >= ms)?;
-    let [late, low] = *front.get(after)?;
-    match after.checked_sub(1).and_then(|index| front.get(index)) {
-        Some([early, high]) if low > 0.0 && *early > 0.0 => {
-            let share = (ms / early).ln() / (late / early).ln();
-            Some(high * (low / high).powf(share))
-        }
-        _ => (late == ms).then_some(low),
-    }
-}
-
-/// Time at which a front reaches the error `goal`. `front` holds times and falling errors. Between two points the
-/// front is a straight line on logarithmic axes; it ends at its last point.
-fn reached(front: &[[f64; 2]], goal: f64) -> Option<f64> {
-    let after = front.iter().position(|[_, error]| *error <= goal)?;
-    let [late, low] = *front.get(after)?;
-    let before = after.checked_sub(1).and_then(|index| front.get(index));
-    Some(match before {
-        // A logarithmic axis has no zero, so a line to an error of zero can't be followed.
-        Some([early, high]) if low > 0.0 && *early > 0.0 => {
-            let share = (high / goal).ln() / (high / low).ln();
-            early * (late / early).powf(share)
-        }
-        _ => late,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_error_is_reached_along_the_front() {
-        let front = [[1.0, 0.1], [100.0, 0.001]];
-        let near = |goal: f64, expected: f64| {
-            let found = reached(&front, goal).unwrap();
-            assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
-        };
-        near(0.01, 10.0);
-        near(0.001, 100.0);
-        // An error that the first point reaches already costs that point's time.
-        near(0.2, 1.0);
-        assert_eq!(reached(&front, 0.0005), None);
-        assert_eq!(reached(&[[1.0, 0.1], [5.0, 0.0]], 0.05), Some(5.0));
-    }
-
-    #[test]
-    fn an_error_at_a_time_lies_on_the_front() {
-        let front = [[1.0, 0.1], [100.0, 0.001]];
-        assert!((error_at(&front, 10.0).unwrap() / 0.01 - 1.0).abs() < 1e-9);
-        assert_eq!(error_at(&front, 1.0), Some(0.1));
-        assert_eq!([error_at(&front, 0.5), error_at(&front, 101.0)], [None, None]);
-    }
 }

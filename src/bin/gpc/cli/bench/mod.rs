@@ -10,6 +10,7 @@ mod machine;
 mod measure;
 mod measurement;
 mod motion;
+mod pareto;
 mod pictures;
 mod progress;
 mod quality;
