@@ -21,13 +21,9 @@ pub fn root() -> &'static Path {
 
 /// All files `KIND-*.csv`, sorted by name.
 pub fn load(kind: &str) -> Vec<Measurement> {
-    assert!(!paths(kind).is_empty(), "no docs/bench/{kind}-*.csv");
-    load_any(kind)
-}
-
-/// Like [`load`], of a kind that may not have been measured.
-pub fn load_any(kind: &str) -> Vec<Measurement> {
-    paths(kind).iter().map(|path| Measurement::read(path)).collect()
+    let paths = paths(kind);
+    assert!(!paths.is_empty(), "no docs/bench/{kind}-*.csv");
+    paths.iter().map(|path| Measurement::read(path)).collect()
 }
 
 fn paths(kind: &str) -> Vec<PathBuf> {
@@ -50,7 +46,7 @@ pub struct Front {
 }
 
 pub fn front() -> Front {
-    Front::new(!paths("views").is_empty())
+    Front::new(true)
 }
 
 /// The textured objects in small images, which were measured at every number of samples.

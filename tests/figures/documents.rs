@@ -7,13 +7,14 @@ use std::path::PathBuf;
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 22] = [
+const PARTS: [(&str, Make); 23] = [
     ("picture", table::picture),
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
     ("quality", table::quality_by_scene),
     ("views", table::views),
+    ("large", table::large),
     ("speed", table::speed),
     ("gpu", gpu::table),
     ("motion", table::motion),

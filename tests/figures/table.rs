@@ -158,10 +158,10 @@ pub fn exceptions() -> String {
 /// Number of samples of the tables by scene.
 const SHOWN: u32 = 64;
 
-/// Table of error and time, scene by scene: of views that fill the frame, where they were measured, and of objects in small images.
+/// Table of error and time, scene by scene: of views that fill the frame, and of objects in small images.
 pub fn quality_by_scene() -> String {
     let mut text = String::new();
-    for of in data::load_any("views").iter().chain(&data::load("quality")) {
+    for of in data::load("views").iter().chain(&data::load("quality")) {
         let mut table = Table::new(&cells(&[
             "scene",
             "superpixels",
@@ -235,6 +235,40 @@ pub fn views() -> String {
         text += &format!("{}, {}, median (worst):\n\n{}\n", of.source(), of.size(), table.finish());
     }
     text
+}
+
+/// Table of the time and the memory of the largest images.
+pub fn large() -> String {
+    let all = data::load("large");
+    let of = &all[0];
+    let mut table = Table::new(&cells(&[
+        "scene",
+        "superpixels",
+        "one sample, ms",
+        "superpixel, ms",
+        "`ssaa`, ms",
+        "one sample, MB",
+        "superpixel, MB",
+        "`ssaa`, MB",
+    ]));
+    for scene in of.scenes() {
+        let found = [("none", 1), ("superpixel", SHOWN), ("ssaa", SHOWN)].map(|(method, n)| of.find(scene, method, n));
+        let [Some(plain), Some(fine), Some(brute)] = found else {
+            continue;
+        };
+        let megabytes = |row: &Row| short(row.number("memory_bytes") / 1e6);
+        table.row(&[
+            scene.to_owned(),
+            format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
+            short(plain.ms()),
+            short(fine.ms()),
+            short(brute.ms()),
+            megabytes(plain),
+            megabytes(fine),
+            megabytes(brute),
+        ]);
+    }
+    format!("{}, {}, {SHOWN} samples:\n\n{}", of.source(), of.size(), table.finish())
 }
 
 /// Table of times of larger images.

@@ -17,7 +17,7 @@ pub const MAX_SAMPLES: u32 = 1024;
 pub enum Pattern {
     /// Samples on straight lines of 64 samples each: rows or columns, whichever the edges in the superpixel cross more
     /// often. Any count. Up to 64 samples have 8 lines, up to 256 have
-    /// 32, and more have 64 (32 in tiles with alpha-tested triangles). The count also limits the number of places in
+    /// 32, and more have 64 (32 in scenes with alpha-tested triangles). The count also limits the number of places in
     /// which the superpixel is shaded. In lists of locations, lines follow the columns of the Jacobian.
     /// [Sobol](Pattern::Sobol) points replace lines where each sample is shaded, where BLEND triangles are visible, and
     /// for counts below 4.

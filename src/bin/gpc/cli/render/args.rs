@@ -1,4 +1,4 @@
-//! The options of `gpc render`.
+//! The options of `gpc render`, in groups. Other commands share groups.
 
 use super::image::ImageArgs;
 use crate::cli::exit::Usage;
