@@ -81,6 +81,7 @@ Task task_of(uint source, uint i) {
 Place place_of(Task t, Triangle k) {
     Place place;
     place.material = material_of(k.word);
+    place.whole = PIXELS || frame.sample_count == 1u;
     place.w = barycentric(k.v0, k.v1, k.v2, t.at);
     if (LOCATIONS) {
         mat2x3 change = mat2x3(place.w.dx, place.w.dy) * location_jacobian(t.location);

@@ -1,6 +1,6 @@
 // The textures of a material. Each texture is read once, also if it has several roles.
 // By default the sampler chooses the mipmap level. With BOX_FILTER, a texture is averaged over the rectangle that a visibility
-// sample stands for: it is read at several places along the longer side of the rectangle's image in the texture.
+// sample or a pixel stands for: it is read at several places of the rectangle's image in the texture.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "interface.glsl"
@@ -39,32 +39,42 @@ layout(set = SET_TEXTURES, binding = BINDING_TEXTURES) uniform sampler2D texture
 // Where a material is evaluated: its number, and a place in a triangle.
 struct Place {
     uint material;
+    bool whole;                     // it stands for a whole pixel or cell, in which nothing else is shaded
     mat3x2 first_uv, second_uv;     // of the three vertices
     Barycentric w;
 };
 
-// The probes of a texture: `count` positions along the longer axis of the footprint, each in the middle of an equal share of it.
+// The probes of a texture: positions in rows along the longer axis of the footprint, each in the middle of an equal share of it.
 struct Probes {
-    vec2 first, step_;
-    float count, level;
+    vec2 first;
+    vec2 along, across;     // steps to the next probe of a row, and to the next row
+    float in_row, count;    // number of probes in a row, and of all probes
+    float level;
 };
 
-const float MOST_PROBES = 8.0;
+const float MOST_IN_ROW = 8.0;
 // Width of a texel / width of a box, such that the trilinear filter has the same variance as the box: the root of 1/3.
 const float LEVEL_WIDTH = 0.57735;
+// Length in texels up to which a footprint is read as one place.
+const float SMALL_FOOTPRINT = 0.5;
 
-// The probes in a texture of `size` texels. Twin: twins/src/texture.rs.
-Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
+// The probes in a texture of `size` texels. A `whole` pixel is read in shares of half its width, since nothing else is read in it.
+// Twin: twins/src/texture.rs.
+Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy, bool whole) {
     vec2 tx = dx * size, ty = dy * size;
     float square_x = dot(tx, tx), square_y = dot(ty, ty);
     float longest = sqrt(max(square_x, square_y));
-    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
+    float width = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
+    float shares = whole && longest > SMALL_FOOTPRINT ? 2.0 : 1.0;
     Probes r;
-    r.count = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
-    r.step_ = (square_x > square_y ? dx : dy) / r.count;
-    r.first = at - r.step_ * (0.5 * r.count - 0.5);
+    r.in_row = clamp(shares * ceil(longest / max(width, 1.0) - 0.25), 1.0, MOST_IN_ROW);
+    float rows = width > longest / r.in_row ? shares : 1.0;
+    r.count = rows * r.in_row;
+    r.along = (square_x > square_y ? dx : dy) / r.in_row;
+    r.across = (square_x > square_y ? dy : dx) / rows;
+    r.first = at - r.along * (0.5 * r.in_row - 0.5) - r.across * (0.5 * rows - 0.5);
     // The level is rounded, so that one mipmap is read, not two.
-    r.level = round(log2(max(max(across, longest / r.count) * LEVEL_WIDTH, 1e-20)));
+    r.level = round(log2(max(max(width / rows, longest / r.in_row) * LEVEL_WIDTH, 1e-20)));
     return r;
 }
 
@@ -77,11 +87,12 @@ vec4 read_texture(sampler2D image, uint slot, Place place) {
     if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
     // Where coordinates and sizes are the same, compilers compute the probes once for all textures.
     ivec2 size = ONE_TEXTURE_SIZE ? textureSize(textures[0], 0) : textureSize(image, 0);
-    Probes probes = probes_of(vec2(size), at, dx, dy);
+    Probes probes = probes_of(vec2(size), at, dx, dy, place.whole);
     vec4 sum = vec4(0.0);
     float probe = 0.0;
     do {
-        vec4 texel = textureLod(image, probes.first + probe * probes.step_, probes.level);
+        float row = floor((probe + 0.5) / probes.in_row), in_row = probe - row * probes.in_row;
+        vec4 texel = textureLod(image, probes.first + in_row * probes.along + row * probes.across, probes.level);
         sum += probe < probes.count ? texel : vec4(0.0);
         probe += 1.0;
     } while (subgroupAny(probe < probes.count));

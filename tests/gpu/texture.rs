@@ -1,12 +1,13 @@
 //! Filtering of textures at shaded places, compared with the CPU. Each mipmap level has noise of its own, so that
 //! reading another level, or another number of places, gives another colour.
 
-use gpc::render::{CellOptions, Headless, SuperpixelOptions};
+use gpc::render::{CellOptions, Headless, Shading, SuperpixelOptions};
+use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
-use twins::texture::{MOST_PROBES, Probes, probes};
+use twins::texture::{MOST_IN_ROW, Probes, probes};
 
 use crate::meshes::Random;
-use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+use crate::stage::{Stage, everywhere, on_gpu, once, seen_at, textured};
 
 const SIZE: [u32; 2] = [96, 64];
 /// Side of the squares of pixels that have texture coordinates of their own.
@@ -51,10 +52,13 @@ fn bilinear(image: &Image, level: u32, at: [f64; 2]) -> [f64; 3] {
 fn filtered(image: &Image, found: &Probes) -> [f64; 3] {
     let level = found.level.clamp(0, image.full_levels() as i32 - 1) as u32;
     let mut mean = [0.0; 3];
-    for probe in 0..found.count {
-        let at = [0, 1].map(|axis| found.first[axis] + f64::from(probe) * found.step[axis]);
-        for (mean, channel) in mean.iter_mut().zip(bilinear(image, level, at)) {
-            *mean += channel / f64::from(found.count);
+    for row in 0..found.rows {
+        for probe in 0..found.in_row {
+            let [probe, row] = [probe, row].map(f64::from);
+            let at = [0, 1].map(|axis| found.first[axis] + probe * found.along[axis] + row * found.across[axis]);
+            for (mean, channel) in mean.iter_mut().zip(bilinear(image, level, at)) {
+                *mean += channel / f64::from(found.in_row * found.rows);
+            }
         }
     }
     mean
@@ -93,13 +97,11 @@ impl Map {
     }
 }
 
-/// Renders patches of an image, and holds their pixels against the CPU; counts pixels by number of places and level.
-fn compare(
-    gpu: &mut Headless,
-    (image, sampler): (&Image, Sampler),
-    random: &mut Random,
-    seen: &mut [[u32; 8]; MOST_PROBES as usize],
-) {
+/// Numbers of pixels that were compared, by number of places and by level.
+type Seen = [[u32; 8]; 2 * MOST_IN_ROW as usize];
+
+/// Renders patches of an image, and holds their pixels against the CPU. Pixels are `whole`, or else superpixels of two samples.
+fn compare(gpu: &mut Headless, (image, sampler): (&Image, Sampler), whole: bool, random: &mut Random, seen: &mut Seen) {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
     stage.texture = Some((image.clone(), sampler));
     let mut maps = Vec::new();
@@ -126,18 +128,27 @@ fn compare(
     }
     // No pixel contrasts enough to become a superpixel, so that textures are filtered over whole pixels.
     let uniform = SuperpixelOptions::new(CellOptions::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
-    let settings = once(SIZE).method(uniform.thin(false));
+    let pair = everywhere(SIZE, Pattern::Sobol, 2).map_superpixels(|options| options.shading(Shading::Triangle));
+    let settings = if whole { once(SIZE).method(uniform.thin(false)) } else { pair };
+    // Superpixels are shaded in the middle of their samples, which is rounded to 12 bits.
+    let offsets = Pattern::Sobol.offsets(2).unwrap();
+    let shaded = [0, 1].map(|axis| (f64::from(offsets[0][axis] + offsets[1][axis]) * 2048.0).round() / 4096.0);
+    let shaded = if whole { [0.0; 2] } else { shaded };
     let rendered = stage.render(gpu, &settings);
     for (pixel, color) in rendered.colors.iter().enumerate() {
         let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]];
+        if !whole && x % PATCH == y % PATCH {
+            continue; // Two triangles meet in this pixel.
+        }
         let map = &maps[(y / PATCH * (SIZE[0] / PATCH) + x / PATCH) as usize];
-        let at = map.at([x % PATCH, y % PATCH].map(f64::from));
-        let found = probes([image.width, image.height], at, map.sides);
+        let [column, row] = [x % PATCH, y % PATCH].map(f64::from);
+        let at = map.at([column + shaded[0], row + shaded[1]]);
+        let found = probes([image.width, image.height], at, map.sides, whole);
         // Where the margin is small, rounding may choose other places or another level.
         if found.margin < 1e-3 {
             continue;
         }
-        seen[found.count as usize - 1][found.level.clamp(0, 7) as usize] += 1;
+        seen[(found.in_row * found.rows) as usize - 1][found.level.clamp(0, 7) as usize] += 1;
         let expected = filtered(image, &found);
         for channel in 0..3 {
             let apart = (f64::from(color[channel]) - expected[channel]).abs();
@@ -150,18 +161,20 @@ fn compare(
 fn textures_are_averaged_over_footprints() {
     on_gpu(|gpu| {
         let mut random = Random::new(7);
-        let mut seen = [[0; 8]; MOST_PROBES as usize];
         // A mean over a footprint does not depend on how a sampler reads a single texel of it.
         let nearest = Sampler { min: Filter::Nearest, ..Sampler::default() };
         let without_mipmaps = Sampler { mip: None, ..nearest };
         let samplers = [Sampler::default(), nearest, without_mipmaps];
-        for (size, sampler) in [[64, 64], [128, 32], [60, 33]].into_iter().zip(samplers) {
-            let image = noise(size, &mut random);
-            compare(gpu, (&image, sampler), &mut random, &mut seen);
+        // Numbers of places that must occur, of which the first two must occur at each of the four finest levels.
+        for (whole, counts) in [(false, &[1, 2, 3, 4, 5, 6, 7, 8][..]), (true, &[4, 8, 1, 2, 6, 12])] {
+            let mut seen = Seen::default();
+            for (size, sampler) in [[64, 64], [128, 32], [60, 33]].into_iter().zip(samplers) {
+                let image = noise(size, &mut random);
+                compare(gpu, (&image, sampler), whole, &mut random, &mut seen);
+            }
+            let enough = counts.iter().all(|count| seen[count - 1].iter().sum::<u32>() > 100)
+                && counts[..2].iter().all(|count| seen[count - 1][..4].iter().all(|n| *n > 100));
+            assert!(enough, "whole: {whole}: {seen:?}");
         }
-        // All numbers of places occur, and one and two places occur at each of the four finest levels.
-        let enough = seen.iter().all(|levels| levels.iter().sum::<u32>() > 100)
-            && seen[..2].iter().all(|levels| levels[..4].iter().all(|n| *n > 100));
-        assert!(enough, "{seen:?}");
     });
 }
