@@ -166,7 +166,8 @@ fn textures_are_averaged_over_footprints() {
         let without_mipmaps = Sampler { mip: None, ..nearest };
         let samplers = [Sampler::default(), nearest, without_mipmaps];
         // Numbers of places that must occur. The first two must occur at so many of the finest levels.
-        for (whole, counts, levels) in [(false, &[1, 2, 3, 4, 5, 6, 7, 8][..], 4), (true, &[4, 8, 1, 2, 6, 12, 16], 2)] {
+        for (whole, counts, levels) in [(false, &[1, 2, 3, 4, 5, 6, 7, 8][..], 4), (true, &[4, 8, 1, 2, 6, 12, 16], 2)]
+        {
             let mut seen = Seen::default();
             for (size, sampler) in [[64, 64], [128, 32], [60, 33]].into_iter().zip(samplers) {
                 let image = noise(size, &mut random);
