@@ -24,8 +24,8 @@ pub enum GpcPattern {
     Rotated = 4,
     /// Offsets of the application, in GpcOptions.locations.
     List = 5,
-    /// Samples on straight lines, 64 on each: 8 lines up to 64 samples, 32 up to 256, and 64 above (32 if any
-    /// draw has an alpha map). Any number of samples; the number determines in how many places a superpixel is shaded. Below 4
+    /// Samples on straight lines, 64 on each: 8 lines up to 64 samples, 32 up to 256, and 64 above (32 if any draw has
+    /// an alpha map). Any number of samples; the number determines in how many places a superpixel is shaded. Below 4
     /// samples, and if each sample is shaded, the same as GPC_PATTERN_SOBOL.
     Lines = 6,
 }

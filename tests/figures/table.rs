@@ -158,38 +158,38 @@ pub fn exceptions() -> String {
 /// Number of samples of the tables by scene.
 const SHOWN: u32 = 64;
 
+/// Heads of the columns that [`cost`] fills.
+const COST: [&str; 5] = ["scene", "superpixels", "one sample, ms", "superpixel, ms", "`ssaa`, ms"];
+
+/// A scene, its share of superpixels, and the times of one sample, of superpixels and of `ssaa`.
+fn cost(scene: &str, plain: Option<&Row>, fine: &Row, brute: &Row) -> [String; 5] {
+    [
+        scene.to_owned(),
+        format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
+        or_none(plain.map(MS), short),
+        short(fine.ms()),
+        short(brute.ms()),
+    ]
+}
+
 /// Table of error and time, scene by scene: of views that fill the frame, and of objects in small images.
 pub fn quality_by_scene() -> String {
     let mut text = String::new();
     for of in data::load("views").iter().chain(&data::load("quality")) {
-        let mut table = Table::new(&cells(&[
-            "scene",
-            "superpixels",
-            "one sample, ms",
-            "superpixel, ms",
-            "`ssaa`, ms",
-            "RMSE",
-            "`ssaa`",
-            "FLIP",
-            "`ssaa`",
-            "time / time of `ssaa`, at equal RMSE",
-        ]));
+        let errors = ["RMSE", "`ssaa`", "FLIP", "`ssaa`", "time / time of `ssaa`, at equal RMSE"];
+        let mut table = Table::new(&cells(&[COST, errors].concat()));
         for scene in of.scenes() {
             let Some((fine, brute)) = of.find(scene, "superpixel", SHOWN).zip(of.find(scene, "ssaa", SHOWN)) else {
                 continue;
             };
-            table.row(&[
-                scene.to_owned(),
-                format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
-                or_none(of.find(scene, "none", 1).map(MS), short),
-                short(fine.ms()),
-                short(brute.ms()),
+            let errors = [
                 error(RMSE(fine)),
                 error(RMSE(brute)),
                 error(FLIP(fine)),
                 error(FLIP(brute)),
                 or_none(time_to_error::share(of, scene, SHOWN), short),
-            ]);
+            ];
+            table.row(&[cost(scene, of.find(scene, "none", 1), fine, brute), errors].concat());
         }
         text += &format!("{}, {}, {SHOWN} samples:\n\n{}\n", of.source(), of.size(), table.finish());
     }
@@ -241,32 +241,15 @@ pub fn views() -> String {
 pub fn large() -> String {
     let all = data::load("large");
     let of = &all[0];
-    let mut table = Table::new(&cells(&[
-        "scene",
-        "superpixels",
-        "one sample, ms",
-        "superpixel, ms",
-        "`ssaa`, ms",
-        "one sample, MB",
-        "superpixel, MB",
-        "`ssaa`, MB",
-    ]));
+    let memory = ["one sample, MB", "superpixel, MB", "`ssaa`, MB"];
+    let mut table = Table::new(&cells(&[&COST[..], &memory].concat()));
     for scene in of.scenes() {
         let found = [("none", 1), ("superpixel", SHOWN), ("ssaa", SHOWN)].map(|(method, n)| of.find(scene, method, n));
         let [Some(plain), Some(fine), Some(brute)] = found else {
             continue;
         };
-        let megabytes = |row: &Row| short(row.number("memory_bytes") / 1e6);
-        table.row(&[
-            scene.to_owned(),
-            format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
-            short(plain.ms()),
-            short(fine.ms()),
-            short(brute.ms()),
-            megabytes(plain),
-            megabytes(fine),
-            megabytes(brute),
-        ]);
+        let memory = [plain, fine, brute].map(|row| short(row.number("memory_bytes") / 1e6));
+        table.row(&[&cost(scene, Some(plain), fine, brute)[..], &memory].concat());
     }
     format!("{}, {}, {SHOWN} samples:\n\n{}", of.source(), of.size(), table.finish())
 }
