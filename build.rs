@@ -92,6 +92,7 @@ const VARIANTS: &[Variant] = &[
     ("sort", "sort.comp", &[]),
     ("receivers", "receivers.comp", &[]),
     ("occlude", "occlude.comp", &[]),
+    ("merge", "merge.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("composite", "composite.comp", &[]),
     ("resolve", "resolve.comp", &[]),

@@ -1319,6 +1319,94 @@ impl Compiled for Indirect {
     }
 }
 
+/// The set beside the frame's that `shaders/merge.comp` binds.
+pub mod merge_set {
+    use super::{Binding, Kind};
+
+    pub const VISIBLE: Binding = Binding::new(0, "visible", Kind::STORAGE_BUFFER, 1);
+    pub const WORDS: Binding = Binding::new(1, "words", Kind::STORAGE_BUFFER, 1);
+}
+
+/// Constants of `shaders/merge.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Merge {
+    pub local_size: u32,
+    pub team: u32,
+    pub rows: u32,
+    pub list: u32,
+    pub by_part: bool,
+    pub part: u32,
+    pub locations: bool,
+    pub instanced: bool,
+    pub teams: u32,
+    pub cells_of_entry: u32,
+}
+
+impl Default for Merge {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            team: 8,
+            rows: 8,
+            list: 0,
+            by_part: false,
+            part: 8,
+            locations: false,
+            instanced: false,
+            teams: 1,
+            cells_of_entry: 8,
+        }
+    }
+}
+
+impl Specialized for Merge {
+    type Push = ();
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "merge",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 1, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 1, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 1, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 1, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::HEADERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 2, binding: merge_set::VISIBLE, access: Access::ReadWrite },
+            Use { set: 2, binding: merge_set::WORDS, access: Access::ReadWrite },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Constant,
+        by_teams: true,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.team)
+            .with(2, self.rows)
+            .with(3, self.list)
+            .flag(4, self.by_part)
+            .with(5, self.part)
+            .flag(20, self.locations)
+            .flag(23, self.instanced)
+            .with(24, self.teams)
+            .with(26, self.cells_of_entry)
+    }
+}
+
+impl Compiled for Merge {
+    fn code() -> &'static [u8] {
+        MERGE
+    }
+}
+
 /// Constants of `shaders/multisample.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Multisample {
@@ -3142,7 +3230,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 45] = [
+pub const INTERFACES: [&Interface; 46] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3162,6 +3250,7 @@ pub const INTERFACES: [&Interface; 45] = [
     Groups::INTERFACE,
     Grow::INTERFACE,
     Indirect::INTERFACE,
+    Merge::INTERFACE,
     Multisample::INTERFACE,
     Neighbours::INTERFACE,
     Occlude::INTERFACE,

@@ -1,6 +1,7 @@
 //! Settings of rendering scenes.
 
 use super::{CellOptions, Footprint, Method, PixelRect, Reference, RenderError, Shading, SuperpixelOptions};
+use crate::engine::data::Content;
 use crate::engine::sampler::footprint::TextureFilter;
 use crate::engine::sampler::{ImageRequest, SamplerSettings};
 use crate::sampling::PixelFilter;
@@ -13,8 +14,10 @@ pub enum Shadows {
     /// No shadows: lights shine through everything.
     None,
     /// Exact shadows: every shaded point tests for every light whether another triangle occludes it, by sampling on
-    /// the light's image plane, without the aliasing of a shadow map. Superpixels are then shaded at every sample,
-    /// whatever [`CellOptions::shading`] says. The scene has to be prepared for shadows: see `SceneRequest::shadows`.
+    /// the light's image plane, without the aliasing of a shadow map. In superpixels these points are the samples. Those of a
+    /// triangle that the same lights reach are then shaded together, as [`CellOptions::shading`] says. With BLEND
+    /// materials, or a pixel filter wider than the box, every sample is shaded by itself. The scene has to be prepared for
+    /// shadows: see `SceneRequest::shadows`.
     Exact,
 }
 
@@ -97,12 +100,19 @@ impl SceneSettings {
         Ok(self.footprint.check()?)
     }
 
-    /// Options with each sample shaded by itself if shadows are on.
+    /// Options with a visibility sample for each sample if shadows are on.
     pub(super) fn shadowed(&self, cells: CellOptions) -> CellOptions {
         match self.shadows {
             Shadows::None => cells,
             Shadows::Exact => CellOptions { shading: Shading::Sample, ..cells },
         }
+    }
+
+    /// Rate at which the samples of cells are merged once it is known which lights reach each of them; `None` if they are shaded one
+    /// by one. Lists of layers, and images whose pixels are `filtered`, need the samples themselves.
+    pub(super) fn merged(&self, cells: &CellOptions, scene: &dyn Content, filtered: bool) -> Option<Shading> {
+        let shaded_alone = self.shadows == Shadows::None || cells.shading == Shading::Sample;
+        (!shaded_alone && !scene.has_blend() && !filtered).then_some(cells.shading)
     }
 
     /// Settings of a sampler of these cells.
@@ -113,6 +123,7 @@ impl SceneSettings {
             background: self.background,
             exposure: self.exposure,
             reference: self.reference,
+            merged: None,
         }
     }
 }
@@ -152,7 +163,7 @@ impl Settings {
         self.region.map_or(self.size, |region| region.size)
     }
 
-    /// These settings, with superpixels shaded at every sample if shadows are on.
+    /// These settings, with a visibility sample for each sample of superpixels if shadows are on.
     pub(super) fn with_shadowed_samples(self) -> Self {
         let scene = self.scene.clone();
         self.map_superpixels(|options| SuperpixelOptions { cells: scene.shadowed(options.cells), ..options })
@@ -180,6 +191,18 @@ impl Settings {
             }
             method => TextureFilter::of_pixels(footprint, method.side()),
         }
+    }
+
+    /// Settings of a sampler of the image's cells whose samples may be merged, for settings without
+    /// [shadowed samples](Self::with_shadowed_samples).
+    pub(super) fn merging_sampler(&self, scene: &dyn Content) -> SamplerSettings {
+        let merged = match &self.method {
+            Method::Superpixel(options) => self.scene.merged(&options.cells, scene, !self.pixel_filter.is_box()),
+            _ => None,
+        };
+        let shadowed = self.clone().with_shadowed_samples().sampler();
+        let filter = if merged.is_some() { self.filter() } else { shadowed.filter };
+        SamplerSettings { merged, filter, ..shadowed }
     }
 
     /// Settings of a sampler of the image's cells.

@@ -17,9 +17,12 @@ pub use crate::engine::sampler::Load;
 pub use crate::render::passes::prefilter;
 pub use crate::render::random::Random;
 pub use crate::vulkan::commands::Recorder;
-pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};
+pub use crate::vulkan::descriptor_set::BoundDescriptor;
+pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse, TexelBuffer};
 
 use crate::engine::passes::{schedule, tally};
+use crate::engine::spirv::frame_set;
+use crate::render::passes::merge;
 use crate::vulkan::{Gpu, VulkanError};
 use std::sync::Arc;
 
@@ -49,4 +52,19 @@ pub unsafe fn frame_layout(gpu: &Arc<Gpu>) -> Result<Arc<FrameLayout>, VulkanErr
 /// If the driver refuses a pipeline.
 pub fn load_passes(layout: &FrameLayout, cells: Cells, load: &Load) -> Result<[Pass; 2], VulkanError> {
     Ok([tally::pass(layout, cells, load.pushed())?, schedule::pass(layout, cells, load.pushed())?])
+}
+
+/// The pass `merge` for the cells of `blocks`, whose triangles have one part.
+///
+/// # Errors
+/// If the driver refuses a pipeline.
+pub fn merge_pass(layout: &FrameLayout, resources: &Resources, blocks: &SampleBlocks) -> Result<Pass, VulkanError> {
+    merge::merge(layout, resources, blocks, false, false)
+}
+
+/// Shows a buffer as the triangles and instances of a scene, to passes that read none.
+#[must_use]
+pub fn triangles_of(unread: &TexelBuffer) -> [BoundDescriptor; 3] {
+    [frame_set::TRIANGLES, frame_set::INSTANCE_OF, frame_set::INSTANCES]
+        .map(|binding| (binding, unread.texels().into()))
 }

@@ -3,8 +3,8 @@
 use ash::vk;
 use gpc::render::Headless;
 use gpc::testing::{
-    Buffer, FrameLayout, Memory, MemoryUse, Offsets, ResourceRequest, ResourceSizes, Resources, ShownIds, frame_layout,
-    memory,
+    BoundDescriptor, Buffer, FrameLayout, Memory, MemoryUse, Offsets, ResourceRequest, ResourceSizes, Resources,
+    ShownIds, frame_layout, memory,
 };
 use std::sync::Arc;
 
@@ -17,12 +17,17 @@ pub struct Bare {
 
 impl Bare {
     pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
+        Self::with(gpu, sizes, samples, &[])
+    }
+
+    /// Resources whose sets also show `others`, which outlive them.
+    pub fn with(gpu: &Headless, sizes: ResourceSizes, samples: u32, others: &[BoundDescriptor]) -> Self {
         // SAFETY: passes are run with the sizes of these resources, and tests wait for their commands.
         let (layout, memory) = unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
         let offsets = vec![[0.0; 2]; samples as usize];
         let request = ResourceRequest {
             sizes,
-            others: &[],
+            others,
             ids: ShownIds::Unread,
             offsets: &[Offsets { all: &offsets, count: samples }],
             scratch: None,

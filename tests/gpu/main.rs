@@ -27,6 +27,7 @@ mod lobes;
 mod locations;
 mod mask;
 mod memory;
+mod merge;
 #[path = "../common/meshes.rs"]
 mod meshes;
 mod methods;

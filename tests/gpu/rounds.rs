@@ -19,7 +19,8 @@ fn prepare(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> SceneFrame
     gpu.prepare(&prepared, settings).unwrap()
 }
 
-fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
+/// An image of a stage in the light of a distant lamp.
+pub fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
     let mut frame = prepare(gpu, stage, settings);
     gpu.render(&mut frame, &camera()).unwrap()
 }

@@ -14,6 +14,7 @@ pub mod distribute;
 pub mod edge;
 mod exact;
 pub mod grow;
+pub mod merge;
 pub mod pixel_filter;
 pub mod prefilter;
 pub mod reflection;

@@ -181,6 +181,7 @@ impl ListOptions {
             background: self.background,
             exposure: 0.0,
             reference: Reference::Scene { tonemapped_detection: false },
+            merged: None,
         }
     }
 }

@@ -34,7 +34,7 @@ impl TileList {
     }
 
     /// Size of a dispatch in which a team takes an entry of the list.
-    pub(super) fn entries(self) -> Size {
+    pub(crate) fn entries(self) -> Size {
         Size::Indirect(Argument::ResolvePlain as u32 + self as u32)
     }
 }
@@ -312,7 +312,7 @@ impl SampleOptions {
     }
 
     /// Number of samples of a part: there are 16 parts for 16 samples, 32 for 64, 128 for 256 and 256 for 1,024.
-    fn part_samples(&self) -> u32 {
+    pub(crate) fn part_samples(&self) -> u32 {
         let few = if self.samples < 32 { 1 } else { 2 };
         (self.samples / 256).max(few).next_power_of_two()
     }

@@ -6,16 +6,16 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::spirv::{self, frame_set};
 use crate::vulkan::{Specialized, VulkanError};
 
-/// Counting sort of a round's visibility samples. With a single bin, the pass only computes the sizes of dispatches over the
-/// samples.
+/// Counting sort of a round's visibility samples. If they stay `unsorted`, because all have one bin or will be merged, the pass only
+/// computes the sizes of dispatches over them.
 ///
 /// # Errors
 /// If the driver refuses a pipeline.
-pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, one_bin: bool) -> Result<Pass, VulkanError> {
+pub(crate) fn pass(layout: &FrameLayout, scene: &dyn Content, unsorted: bool) -> Result<Pass, VulkanError> {
     let pass = Pass::named(spirv::Sort::INTERFACE)
         .clear(frame_set::BINS)
         .dispatch(arguments::dispatch(layout, CountedBy::Sample)?);
-    if one_bin {
+    if unsorted {
         return Ok(pass);
     }
     let teams = layout.gpu.limits().teams;

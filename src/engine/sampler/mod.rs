@@ -113,11 +113,11 @@ pub(crate) struct Sampler {
     candidates: [Pass; 3],
     /// Passes of a round up to the visibility samples.
     visibility: Vec<Pass>,
-    /// Pass that sorts visibility samples.
+    /// Pass that sorts visibility samples, unless the client merges and sorts them.
     sort: Pass,
     /// Passes of a round that turn shaded visibility samples into colours.
     colors: Vec<Pass>,
-    options: SampleOptions,
+    blocks: SampleBlocks,
     capacity: Capacity,
     /// Numbers of recorded rounds: for the cells that are found first, and for each growth.
     rounds: [u32; 2],
@@ -177,7 +177,8 @@ impl Sampler {
                     visibility.push(groups::pass(layout, &blocks)?);
                 }
                 visibility.push(setup::pass(layout, scene, ListOrder::Whole)?);
-                let sort = sort::pass(layout, scene, scene.bin_count() == 1)?;
+                let unsorted = scene.bin_count() == 1 || context.settings.merged.is_some();
+                let sort = sort::pass(layout, scene, unsorted)?;
                 Ok::<_, EngineError>((source()?, candidates, visibility, sort, colors(&blocks)?))
             })();
             let sample = sample.join();
@@ -192,7 +193,7 @@ impl Sampler {
             visibility,
             sort,
             colors,
-            options: *options,
+            blocks,
             capacity,
             rounds: load.rounds(sizes, scene.triangle_slots(), capacity.rounds),
             counters: CounterLog::new(context.memory, runs)?,
@@ -212,9 +213,14 @@ impl Sampler {
         first + grown * self.growths() as u32
     }
 
+    /// Blocks of the samples of its cells.
+    pub fn blocks(&self) -> SampleBlocks {
+        self.blocks
+    }
+
     /// Number of samples of a cell; for locations that are sampled once, the number of locations in a cell.
     pub fn samples(&self) -> u32 {
-        self.options.samples
+        self.blocks.options.samples
     }
 
     /// Number of times that superpixels grow.
@@ -243,7 +249,7 @@ impl Sampler {
             }
         }
         let growths = self.source.growths();
-        if !growths.is_empty() || self.options.by_lines() {
+        if !growths.is_empty() || self.blocks.options.by_lines() {
             recorder.clear(resources.buffer(Data::Marks));
         }
         let slots = 1 + growths.len();

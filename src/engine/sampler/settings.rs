@@ -1,7 +1,7 @@
 //! Settings of a sampler, and requests for images.
 
 use super::footprint::TextureFilter;
-use super::{CellOptions, EngineError, Method};
+use super::{CellOptions, EngineError, Method, Shading};
 use crate::sampling::PixelFilter;
 use crate::vulkan::Limits;
 
@@ -75,6 +75,9 @@ pub(crate) struct SamplerSettings {
     pub exposure: f32,
     /// Meaning of the numbers in the image.
     pub reference: Reference,
+    /// Rate at which the client merges visibility samples once it knows which lights reach each of them. `None` if it shades them
+    /// as they are.
+    pub merged: Option<Shading>,
 }
 
 impl SamplerSettings {

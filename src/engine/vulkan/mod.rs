@@ -8,7 +8,7 @@ mod barriers;
 pub(crate) mod commands;
 mod completion;
 mod conditions;
-mod descriptor_set;
+pub(crate) mod descriptor_set;
 mod error;
 mod gpu;
 mod instance;

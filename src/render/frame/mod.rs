@@ -66,7 +66,7 @@ impl SceneFrame {
     ) -> Result<Self, RenderError> {
         // Only passes and memory depend on how samples are shaded.
         let settings = &asked.clone().with_shadowed_samples();
-        let sampler = settings.sampler();
+        let sampler = asked.merging_sampler(&**scene);
         let casters = match settings.scene.shadows {
             Shadows::None => None,
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),

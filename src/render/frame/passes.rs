@@ -8,7 +8,7 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{Job, PixelCells, Sampler, fragment_rate};
 use crate::render::data::GpuScene;
 use crate::render::passes::{Encoding, PosePass, ShadeSource, StrokePass};
-use crate::render::passes::{attributes, box_filter, encode, multisample, shade, spans};
+use crate::render::passes::{attributes, box_filter, encode, merge, multisample, shade, spans};
 use crate::render::{Detection, Method, RenderError, Settings};
 use ash::vk;
 use std::sync::Arc;
@@ -37,6 +37,8 @@ pub(super) struct Passes {
     pub shade: Option<Arc<Pass>>,
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
+    /// Merging and sorting of the superpixels' visibility samples.
+    pub merge: Option<Pass>,
     pub attributes: Option<Pass>,
     /// Filter of the pixels, unless each is a colour of its own.
     pub filter: Option<Pass>,
@@ -74,7 +76,9 @@ impl Passes {
         let grows = antialiased && superpixels.growth_count() > 0;
         let side = settings.method.side();
         let compares = !matches!(detection, Detection::Exact | Detection::Every);
-        let by_part = fragment_rate(context.settings.cells.shading, scene) == FragmentRate::Part;
+        let merged = context.settings.merged;
+        let rate = merged.unwrap_or(context.settings.cells.shading);
+        let by_part = fragment_rate(rate, scene) == FragmentRate::Part;
         let words = context.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
@@ -84,8 +88,8 @@ impl Passes {
                 shade: shade::pass(layout, scene, source, words, &output)?,
             })
         };
-        const SUPERPIXELS: ShadeSource = ShadeSource::Fragments { cells: Cells::Pixels };
-        let shading = || shade::pass(layout, scene, SUPERPIXELS, words, &output);
+        let fragments = ShadeSource::Fragments { cells: Cells::Pixels, merged: merged.is_some() };
+        let shading = || shade::pass(layout, scene, fragments, words, &output);
         let shades_fragments = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) =
             rayon::join(|| (!multisampled).then(pixels).transpose(), || shades_fragments.then(shading).transpose());
@@ -121,7 +125,11 @@ impl Passes {
                 resolve: resolve::for_multisample(layout, settings.method.samples(), &output)?,
             })
         };
+        let superpixels = antialiased.then(antialiasing).transpose()?;
+        let merge =
+            |(sampler, rate): (&Sampler, _)| merge::pass(layout, scene, job.resources(), &sampler.blocks(), rate);
         Ok(Self {
+            merge: superpixels.as_ref().zip(merged).map(merge).transpose()?,
             pose: scene.moves().then(|| PosePass::new(layout)).transpose()?,
             stroke: scene.has_strokes().then(|| StrokePass::new(layout)).transpose()?,
             raster: Raster::new(layout, raster_samples(settings), scene, context.sizes.filtered_triangles > 0)?,
@@ -129,7 +137,7 @@ impl Passes {
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
             blended: scene.has_blend().then(blended).transpose()?,
-            superpixels: antialiased.then(antialiasing).transpose()?,
+            superpixels,
             attributes: settings.attributes.then(|| attributes::pass(layout, scene, antialiased, grows)).transpose()?,
             filter: filter()?,
             encode: encoding

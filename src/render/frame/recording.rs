@@ -46,12 +46,17 @@ pub(in crate::render) struct SceneShading<'a> {
     pub shade: Option<&'a Pass>,
     /// Passes that find which lights reach a place; `None` without shadows.
     pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
+    /// Pass that then merges and sorts visibility samples; `None` if they are shaded as they are.
+    pub merge: Option<&'a Pass>,
 }
 
 impl RecordShading for SceneShading<'_> {
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some((shadows, shadowed)) = self.shadows {
             shadows.record(recorder, shadowed, Receiving::Fragments);
+        }
+        if let Some(merge) = self.merge {
+            merge.record(recorder);
         }
         if let Some(shade) = self.shade {
             shade.record(recorder);
@@ -119,6 +124,7 @@ impl FrameRecording<'_> {
         let shading_of = |set| SceneShading {
             shade: passes.shade.as_deref(),
             shadows: self.shadows.map(|shadows| (shadows, shadowed(set))),
+            merge: passes.merge.as_ref(),
         };
         let shading = shading_of(main);
 

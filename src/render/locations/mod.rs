@@ -152,7 +152,7 @@ impl Headless {
 
     /// Samples each location as a superpixel: its samples lie at the location plus its Jacobian times the offsets of
     /// the pattern. The values are resolved colours in linear light with premultiplied alpha. With
-    /// [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded separately, whatever [`CellOptions::shading`] says.
+    /// [`Shadows::Exact`](super::Shadows::Exact) shadows are tested at every sample.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled, [`EngineError::Pattern`](crate::render::EngineError::Pattern) lists the
@@ -180,9 +180,11 @@ impl Headless {
         settings: &SceneSettings,
         spread: Option<Bend>,
     ) -> Result<(Sampled<[f32; 4]>, Vec<CellSpread>), RenderError> {
-        let cells = settings.shadowed(cells.clone());
-        let filter = TextureFilter::of_cells(settings.footprint, cells.shading);
-        let settings = &ListSettings { scene: settings.clone(), sampler: settings.sampler(cells, filter), spread };
+        let merged = settings.merged(cells, &*scene.gpu_scene, spread.is_some());
+        let shadowed = settings.shadowed(cells.clone());
+        let filter = TextureFilter::of_cells(settings.footprint, merged.unwrap_or(shadowed.shading));
+        let sampler = SamplerSettings { merged, ..settings.sampler(shadowed, filter) };
+        let settings = &ListSettings { scene: settings.clone(), sampler, spread };
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let mut spreads = Vec::new();

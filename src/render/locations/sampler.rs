@@ -8,7 +8,7 @@ use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::{ListCells, Sampler, SamplerRun, Shortfall};
 use crate::engine::spirv::SPREAD_VECTORS;
 use crate::render::frame::recording::SceneShading;
-use crate::render::passes::{ShadeSource, shade};
+use crate::render::passes::{ShadeSource, merge, shade};
 use crate::render::plane::PlaneWindow;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
@@ -27,6 +27,8 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32, spread: Option<Bend>) 
 pub(super) struct LocationSampler {
     cells: Cells,
     sampler: Sampler,
+    /// Merging and sorting of visibility samples.
+    merge: Option<Pass>,
     shade: Pass,
     shadows: Option<ShadowFinder>,
     run: RunMemory,
@@ -60,7 +62,8 @@ impl LocationSampler {
         let run = RunMemory::new(layout, prepared, settings, plan, offsets)?;
         let (job, resources) = (&run.job, run.job.resources());
         let context = job.context(scene, 1);
-        let source = ShadeSource::Fragments { cells: *cells };
+        let merged = settings.sampler.merged;
+        let source = ShadeSource::Fragments { cells: *cells, merged: merged.is_some() };
         // SAFETY: the list lives as long as the resources, and has room for that many locations.
         let sampler = unsafe { listed.sampler(&context, resources, resources.texels(Data::Locations)) }?;
         let shadows = |casters| {
@@ -69,7 +72,9 @@ impl LocationSampler {
         };
         let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
+        let merge = |rate| merge::pass(layout, scene, resources, &sampler.blocks(), rate);
         Ok(Self {
+            merge: merged.map(merge).transpose()?,
             shade: shade::pass(layout, scene, source, sizes.shadow_words, &context.output)?,
             shadows,
             cells: *cells,
@@ -98,7 +103,7 @@ impl LocationSampler {
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let Self { cells, sampler, shade, shadows, run } = self;
+        let Self { cells, sampler, merge, shade, shadows, run } = self;
         let settings = run.job.settings().clone();
         let background = settings.background_rgba();
         let listed = ListRun {
@@ -128,8 +133,11 @@ impl LocationSampler {
                 shadows.record_planes(recorder, &views, set);
             }
             let shadowed = Shadowed { resources, set, size: [0; 2], views: &views };
-            let shading =
-                SceneShading { shade: Some(shade), shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)) };
+            let shading = SceneShading {
+                shade: Some(shade),
+                shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
+                merge: merge.as_ref(),
+            };
             sampler.record(recorder, list, &shading);
             if let Some(shadows) = shadows {
                 shadows.record_end(recorder);

@@ -5,6 +5,7 @@ pub(crate) mod attributes;
 pub(crate) mod box_filter;
 pub(crate) mod crossings;
 pub(crate) mod encode;
+pub(crate) mod merge;
 pub(crate) mod multisample;
 pub(crate) mod neighbours;
 mod occlude;

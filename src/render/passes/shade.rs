@@ -19,6 +19,8 @@ pub(crate) enum ShadeSource {
     Fragments {
         /// Kind of the cells to which the visibility samples belong.
         cells: Cells,
+        /// Whether they were merged, so that some of them see nothing.
+        merged: bool,
     },
 }
 
@@ -36,12 +38,12 @@ pub(crate) fn pass(
     output: &ColorConstants,
 ) -> Result<Pass, VulkanError> {
     let lights = scene.light_features();
-    let (pixels, cells) = match source {
-        ShadeSource::Pixels { .. } => (true, Cells::Pixels),
-        ShadeSource::Fragments { cells } => (false, cells),
+    let (pixels, cells, merged) = match source {
+        ShadeSource::Pixels { .. } => (true, Cells::Pixels, false),
+        ShadeSource::Fragments { cells, merged } => (false, cells, merged),
     };
     let display_codes = source == ShadeSource::Pixels { display_codes: true };
-    let one_bin = scene.bins.len() <= 1;
+    let one_bin = scene.bins.len() <= 1 && !merged;
     let common = spirv::Shade {
         pixels,
         one_bin,

@@ -1,0 +1,115 @@
+// merge: merges visibility samples of a superpixel that see the same triangle and that the same lights reach, so that they are
+// shaded together at their centroid. BY_PART: if the triangle is HIGH_FREQUENCY, only samples of the same part of the superpixel,
+// as `sample` does it without shadows.
+// A team takes an entry of a work list, and its cells one after the other. A member holds ROWS samples of a block. There are no
+// BLEND triangles, so that a place has one shadow word.
+// Reads: tile_lists, ids, display, tiles, masks, headers, visible, words. Writes: headers, visible, words.
+// Twin: twins/src/merge.rs.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+#include "include/work.glsl"
+#include "include/place.glsl"
+#include "include/shadows.glsl"
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = MERGE_CONSTANT_ROWS) const uint ROWS = 8u;
+layout(constant_id = MERGE_CONSTANT_LIST) const uint LIST = 0u;
+layout(constant_id = MERGE_CONSTANT_BY_PART) const bool BY_PART = false;
+layout(constant_id = MERGE_CONSTANT_PART) const uint PART = 8u;             // samples of a part
+#include "include/variation.glsl"
+// The frame's fragments and shadow words, in buffers that are read and written: compilers may move reads of `fragments` behind
+// writes to `fragments_out`, which they take for other memory.
+layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_VISIBLE) buffer Visible { uvec4 visible[]; };
+layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
+
+const uint BLOCK = ROWS * TEAM;
+
+// The number of samples of the parts in which a triangle is shaded; one part has all.
+uint part_of_triangle(Variation around, uint id) {
+    if (!BY_PART || !high_frequency_triangle(id)) return BLOCK;
+    uint parts = LOCATIONS ? PARTS_ALL : parts_around(around, id);
+    return parts == PARTS_ONE ? BLOCK : part_length(parts);
+}
+
+// Merges `count` fragments from `first` on, by ascending triangle, shadow word and part. Returns how many are left. Those behind
+// them see nothing. Members have read all fragments before the first is written, since the least triangle depends on all of them.
+uint merge_block(uint first, uint count, Variation around) {
+    uint id[ROWS], word[ROWS];
+    vec2 offset[ROWS];
+    uint left = 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+        uint s = g * TEAM + member(), at = first + (s < count ? s : 0u);
+        uvec4 fragment = visible[at];
+        id[g] = fragment.y;
+        word[g] = words[place_of_fragment(at)];
+        offset[g] = place_location(fragment.z);
+        left |= s < count && id[g] != 0u ? 1u << g : 0u;
+    }
+    uint cell = visible[first].x, made = 0u;
+    do {
+        uvec3 least = uvec3(~0u);
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) least.x = min(least.x, (left >> g & 1u) != 0u ? id[g] : ~0u);
+        least.x = team_min(least.x);
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) least.y = min(least.y, (left >> g & 1u) != 0u && id[g] == least.x ? word[g] : ~0u);
+        least.y = team_min(least.y);
+        bool some = least.x != ~0u;
+        uint length = part_of_triangle(around, some ? least.x : 0u), log = uint(findMSB(length)), alike = 0u;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+            bool same = (left >> g & 1u) != 0u && id[g] == least.x && word[g] == least.y;
+            alike |= same ? 1u << g : 0u;
+            least.z = min(least.z, same ? (g * TEAM + member()) >> log : ~0u);
+        }
+        least.z = team_min(least.z);
+        uint rows = 0u;
+        vec2 sum = vec2(0.0);
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+            bool same = (alike >> g & 1u) != 0u && (g * TEAM + member()) >> log == least.z;
+            rows |= same ? 1u << g : 0u;
+            sum += same ? offset[g] : vec2(0.0);
+        }
+        left &= ~rows;
+        float samples = team_add(float(bitCount(rows)));
+        sum = vec2(team_add(sum.x), team_add(sum.y));
+        if (some && member() == 0u) {
+            bool wide = length < BLOCK && (findMSB(max(frame.sample_count / length, 1u)) & 1) != 0;
+            uint place = place_of_samples(sum, samples, float(frame.sample_count), wide);
+            visible[first + made] = uvec4(cell, least.x, place, floatBitsToUint(samples));
+            words[place_of_fragment(first + made)] = least.y;
+        }
+        made += some ? 1u : 0u;
+    } while (team_any(left != 0u));
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+        uint s = g * TEAM + member();
+        if (s >= made && s < count) visible[first + s] = uvec4(0u);
+    }
+    return made;
+}
+
+void main() {
+    uint number = team_number();
+    bool exists = number < counters[COUNTER_PLAIN_TILES + LIST];
+    if (TEAMS == 1u && !exists) return;
+    uint entry = exists ? tile_lists[first_entry(LIST) + number] : 0u, item = entry_item(entry);
+    uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
+    uint tile = LOCATIONS ? location_group.x : item, blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
+    uint first = entry_part(entry) * CELLS_OF_ENTRY, all_cells = LOCATIONS ? location_group.z : uint(bitCount(masks[tile]));
+    uint cells = exists ? min(all_cells - min(all_cells, first), CELLS_OF_ENTRY) : 0u;
+    if (BY_PART && !LOCATIONS) {
+        uint bit = bit_of_cell(masks[tile], first + member());
+        my_variation = variation_around(split(tile, frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3));
+    }
+    uint header = tiles[tile].z + (location_group.w + first) * blocks, cell = 0u;
+    do {
+        Variation around;
+        if (BY_PART && !LOCATIONS) around = variation_of(min(cell, TEAM - 1u));
+        uint block = 0u;
+        do {
+            uint at = min(header + cell * blocks + block, frame.fragment_capacity - 1u);
+            uvec2 h = cell < cells ? headers[at] : uvec2(0u);
+            h.y = h.y == LEFT_BLOCK ? 0u : h.y;
+            uint made = merge_block(h.x, h.y, around);
+            if (h.y != 0u && member() == 0u) headers[at] = uvec2(h.x, made);
+        } while (++block < blocks);
+    } while (++cell < cells);
+}
