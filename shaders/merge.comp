@@ -3,7 +3,7 @@
 // as `sample` does it without shadows.
 // A team takes an entry of a work list, and its cells one after the other. A member holds ROWS samples of a block. There are no
 // BLEND triangles, so that a place has one shadow word.
-// Reads: tile_lists, ids, display, tiles, masks, headers, visible, words. Writes: headers, visible, words.
+// Reads: tile_lists, ids, display, tiles, masks, headers, fragments, shadow_words. Writes: headers, fragments, words.
 // Twin: twins/src/merge.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,10 +18,7 @@ layout(constant_id = MERGE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = MERGE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = MERGE_CONSTANT_PART) const uint PART = 8u;             // samples of a part
 #include "include/variation.glsl"
-// The frame's fragments and shadow words, in buffers that are read and written: compilers may move reads of `fragments` behind
-// writes to `fragments_out`, which they take for other memory.
-layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_VISIBLE) buffer Visible { uvec4 visible[]; };
-layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_WORDS) buffer ShadowWords { uint words[]; };
+layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_WORDS) writeonly buffer ShadowWords { uint words[]; };
 
 const uint BLOCK = ROWS * TEAM;
 
@@ -32,56 +29,56 @@ uint part_of_triangle(Variation around, uint id) {
     return parts == PARTS_ONE ? BLOCK : part_length(parts);
 }
 
-// Merges `count` fragments from `first` on, by ascending triangle, shadow word and part. Returns how many are left. Those behind
-// them see nothing. Members have read all fragments before the first is written, since the least triangle depends on all of them.
+// Merges `count` fragments from `first` on, by ascending triangle, shadow word and part. Returns how many there are then. Those
+// behind them see nothing. All members have read what they merge before the first fragment is written, since what that says depends
+// on all of it.
 uint merge_block(uint first, uint count, Variation around) {
     uint id[ROWS], word[ROWS];
-    vec2 offset[ROWS];
+    uvec2 offset[ROWS];         // in units of 2^-12 of the cell's sides, from its corner
     uint left = 0u;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint s = g * TEAM + member(), at = first + (s < count ? s : 0u);
-        uvec4 fragment = visible[at];
-        id[g] = fragment.y;
-        word[g] = words[place_of_fragment(at)];
-        offset[g] = place_location(fragment.z);
+        uvec2 fragment = texelFetch(fragments, int(at)).yz;
+        id[g] = fragment.x;
+        word[g] = shadows_at(place_of_fragment(at));
+        offset[g] = uvec2(place_location(fragment.y) * 4096.0 + 2048.0);
         left |= s < count && id[g] != 0u ? 1u << g : 0u;
     }
-    uint cell = visible[first].x, made = 0u;
+    uint cell = texelFetch(fragments, int(first)).x, made = 0u, remaining = team_add(uint(bitCount(left)));
     do {
-        uvec3 least = uvec3(~0u);
+        uvec3 least = uvec3(~0u, ~0u, 0u);
         [[unroll]] for (uint g = 0u; g < ROWS; g++) least.x = min(least.x, (left >> g & 1u) != 0u ? id[g] : ~0u);
         least.x = team_min(least.x);
         [[unroll]] for (uint g = 0u; g < ROWS; g++) least.y = min(least.y, (left >> g & 1u) != 0u && id[g] == least.x ? word[g] : ~0u);
         least.y = team_min(least.y);
-        bool some = least.x != ~0u;
+        bool some = remaining != 0u;
         uint length = part_of_triangle(around, some ? least.x : 0u), log = uint(findMSB(length)), alike = 0u;
-        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
-            bool same = (left >> g & 1u) != 0u && id[g] == least.x && word[g] == least.y;
-            alike |= same ? 1u << g : 0u;
-            least.z = min(least.z, same ? (g * TEAM + member()) >> log : ~0u);
+        [[unroll]] for (uint g = 0u; g < ROWS; g++)
+            alike |= (left >> g & 1u) != 0u && id[g] == least.x && word[g] == least.y ? 1u << g : 0u;
+        if (BY_PART) {
+            least.z = ~0u;
+            [[unroll]] for (uint g = 0u; g < ROWS; g++) least.z = min(least.z, (alike >> g & 1u) != 0u ? (g * TEAM + member()) >> log : ~0u);
+            least.z = team_min(least.z);
+            [[unroll]] for (uint g = 0u; g < ROWS; g++) alike &= (g * TEAM + member()) >> log == least.z ? ~0u : ~(1u << g);
         }
-        least.z = team_min(least.z);
-        uint rows = 0u;
-        vec2 sum = vec2(0.0);
-        [[unroll]] for (uint g = 0u; g < ROWS; g++) {
-            bool same = (alike >> g & 1u) != 0u && (g * TEAM + member()) >> log == least.z;
-            rows |= same ? 1u << g : 0u;
-            sum += same ? offset[g] : vec2(0.0);
-        }
-        left &= ~rows;
-        float samples = team_add(float(bitCount(rows)));
-        sum = vec2(team_add(sum.x), team_add(sum.y));
+        uvec2 sums = uvec2(0u);     // of their offsets; above x, their number
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) sums += (alike >> g & 1u) != 0u ? offset[g] + uvec2(1u << 20, 0u) : uvec2(0u);
+        left &= ~alike;
+        sums = team_add(sums);
+        uint samples = sums.x >> 20;
         if (some && member() == 0u) {
             bool wide = length < BLOCK && (findMSB(max(frame.sample_count / length, 1u)) & 1) != 0;
-            uint place = place_of_samples(sum, samples, float(frame.sample_count), wide);
-            visible[first + made] = uvec4(cell, least.x, place, floatBitsToUint(samples));
+            vec2 sum = vec2(sums & 0xfffffu) * (1.0 / 4096.0) - 0.5 * float(samples);
+            uint place = place_of_samples(sum, float(samples), float(frame.sample_count), wide);
+            fragments_out[first + made] = uvec4(cell, least.x, place, floatBitsToUint(float(samples)));
             words[place_of_fragment(first + made)] = least.y;
         }
         made += some ? 1u : 0u;
-    } while (team_any(left != 0u));
+        remaining -= samples;
+    } while (remaining != 0u);
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint s = g * TEAM + member();
-        if (s >= made && s < count) visible[first + s] = uvec4(0u);
+        if (s >= made && s < count) fragments_out[first + s].y = 0u;
     }
     return made;
 }

@@ -1323,8 +1323,7 @@ impl Compiled for Indirect {
 pub mod merge_set {
     use super::{Binding, Kind};
 
-    pub const VISIBLE: Binding = Binding::new(0, "visible", Kind::STORAGE_BUFFER, 1);
-    pub const WORDS: Binding = Binding::new(1, "words", Kind::STORAGE_BUFFER, 1);
+    pub const WORDS: Binding = Binding::new(0, "words", Kind::STORAGE_BUFFER, 1);
 }
 
 /// Constants of `shaders/merge.comp`.
@@ -1339,6 +1338,7 @@ pub struct Merge {
     pub locations: bool,
     pub instanced: bool,
     pub teams: u32,
+    pub shadow_words: u32,
     pub cells_of_entry: u32,
 }
 
@@ -1354,6 +1354,7 @@ impl Default for Merge {
             locations: false,
             instanced: false,
             teams: 1,
+            shadow_words: 0,
             cells_of_entry: 8,
         }
     }
@@ -1377,9 +1378,11 @@ impl Specialized for Merge {
             Use { set: 1, binding: frame_set::TILES, access: Access::Read },
             Use { set: 1, binding: frame_set::TILE_LISTS, access: Access::Read },
             Use { set: 1, binding: frame_set::HEADERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::FRAGMENTS, access: Access::Read },
+            Use { set: 1, binding: frame_set::FRAGMENTS_OUT, access: Access::Write },
             Use { set: 1, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
-            Use { set: 2, binding: merge_set::VISIBLE, access: Access::ReadWrite },
-            Use { set: 2, binding: merge_set::WORDS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::SHADOW_WORDS, access: Access::Read },
+            Use { set: 2, binding: merge_set::WORDS, access: Access::Write },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1397,6 +1400,7 @@ impl Specialized for Merge {
             .flag(20, self.locations)
             .flag(23, self.instanced)
             .with(24, self.teams)
+            .with(25, self.shadow_words)
             .with(26, self.cells_of_entry)
     }
 }

@@ -36,11 +36,8 @@ pub(crate) fn merge(
     instanced: bool,
     by_part: bool,
 ) -> Result<Pass, VulkanError> {
-    let shown = [
-        (merge_set::VISIBLE, resources.buffer(Data::Fragments).into()),
-        (merge_set::WORDS, resources.buffer(Data::ShadowWords).into()),
-    ];
-    // SAFETY: the buffers live as long as the frame or the list to which the pass belongs.
+    let shown = [(merge_set::WORDS, resources.buffer(Data::ShadowWords).into())];
+    // SAFETY: the buffer lives as long as the frame or the list to which the pass belongs.
     let own = Arc::new(unsafe { layout.own_set(spirv::Merge::INTERFACE, &shown) }?);
     let teams = layout.gpu.limits().teams;
     let mut pass = Pass::named(spirv::Merge::INTERFACE);
@@ -56,6 +53,7 @@ pub(crate) fn merge(
             part: blocks.options.part_samples(),
             locations: blocks.options.cells.are_locations(),
             instanced,
+            shadow_words: resources.sizes().shadow_words,
         })?;
         pass = pass.dispatch(merge.dispatch((), list.entries()).with(&own));
     }
