@@ -8,7 +8,7 @@
 //! - If the frame samples a list of locations, `distribute` replaces the passes from `raster` to `detect`, and `crossings` replaces
 //!   `thin`. `groups` runs after `enlist`, and `points` may replace `resolve`.
 //! - If lights may be hidden, `receivers` runs before `shade` and finds the places that lights may reach. `occlude` looks them up in the
-//!   lists of a light's plane.
+//!   lists of a light's plane. `merge` then merges samples of a triangle that the same lights reach.
 //!
 //! The file of a pass declares it as a [`Pass`](super::pipelines::Pass), or has a type and says why it can't be declared.
 //! A pass reads the results of the passes before it from device memory, which is in [`super::data`].
