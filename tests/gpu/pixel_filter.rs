@@ -143,10 +143,7 @@ fn samples_are_filtered_as_the_twin_does() {
             for shape in SHAPES {
                 let filter = PixelFilter::from(shape);
                 let expected = filtered(SIZE, (shape, filter.radius), 48, |at| light(&triangles, behind, at));
-                // Accumulation averages whole frames, whatever these show.
-                let frames = mode == AlphaMode::Opaque;
-                for (name, settings, most) in methods().into_iter().filter(|(name, ..)| frames || *name != "accumulate")
-                {
+                for (name, settings, most) in methods() {
                     let image = stage.render(gpu, &settings.background(background).pixel_filter(filter));
                     // A pane's samples are points.
                     let most = if mode == AlphaMode::Blend { most.map(|most| 2.0 * most) } else { most };
