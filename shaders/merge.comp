@@ -8,7 +8,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/tiles.glsl"
 #include "include/work.glsl"
 #include "include/place.glsl"
 #include "include/shadows.glsl"
@@ -17,16 +16,18 @@ layout(constant_id = MERGE_CONSTANT_ROWS) const uint ROWS = 8u;
 layout(constant_id = MERGE_CONSTANT_LIST) const uint LIST = 0u;
 layout(constant_id = MERGE_CONSTANT_BY_PART) const bool BY_PART = false;
 layout(constant_id = MERGE_CONSTANT_PART) const uint PART = 8u;             // samples of a part
+const bool LEFT_CELLS = false;
+#define CELLS_AT_ONCE CELLS_OF_ENTRY
+#include "include/taken.glsl"
 #include "include/variation.glsl"
 layout(std430, set = SET_BESIDE_FRAME, binding = MERGE_BINDING_WORDS) writeonly buffer ShadowWords { uint words[]; };
 
 const uint BLOCK = ROWS * TEAM;
 
-// The number of samples of the parts in which a triangle is shaded; one part has all.
-uint part_of_triangle(Variation around, uint id) {
-    if (!BY_PART || !high_frequency_triangle(id)) return BLOCK;
-    uint parts = LOCATIONS ? PARTS_ALL : parts_around(around, id);
-    return parts == PARTS_ONE ? BLOCK : part_length(parts);
+// The parts in which a triangle is shaded.
+uint parts_of_triangle(Variation around, uint id) {
+    if (!BY_PART || !high_frequency_triangle(id)) return PARTS_ONE;
+    return LOCATIONS ? PARTS_ALL : parts_around(around, id);
 }
 
 // Merges `count` fragments from `first` on, by ascending triangle, shadow word and part. Returns how many there are then. Those
@@ -52,7 +53,8 @@ uint merge_block(uint first, uint count, Variation around) {
         [[unroll]] for (uint g = 0u; g < ROWS; g++) least.y = min(least.y, (left >> g & 1u) != 0u && id[g] == least.x ? word[g] : ~0u);
         least.y = team_min(least.y);
         bool some = remaining != 0u;
-        uint length = part_of_triangle(around, some ? least.x : 0u), log = uint(findMSB(length)), alike = 0u;
+        uint parts = parts_of_triangle(around, some ? least.x : 0u), alike = 0u;
+        uint log = uint(findMSB(parts == PARTS_ONE ? BLOCK : part_length(parts)));
         [[unroll]] for (uint g = 0u; g < ROWS; g++)
             alike |= (left >> g & 1u) != 0u && id[g] == least.x && word[g] == least.y ? 1u << g : 0u;
         if (BY_PART) {
@@ -67,7 +69,7 @@ uint merge_block(uint first, uint count, Variation around) {
         sums = team_add(sums);
         uint samples = sums.x >> 20;
         if (some && member() == 0u) {
-            bool wide = length < BLOCK && (findMSB(max(frame.sample_count / length, 1u)) & 1) != 0;
+            bool wide = parts != PARTS_ONE && part_is_wide(frame.sample_count, parts);
             vec2 sum = vec2(sums & 0xfffffu) * (1.0 / 4096.0) - 0.5 * float(samples);
             uint place = place_of_samples(sum, float(samples), float(frame.sample_count), wide);
             fragments_out[first + made] = uvec4(cell, least.x, place, floatBitsToUint(float(samples)));
@@ -84,29 +86,20 @@ uint merge_block(uint first, uint count, Variation around) {
 }
 
 void main() {
-    uint number = team_number();
-    bool exists = number < counters[COUNTER_PLAIN_TILES + LIST];
-    if (TEAMS == 1u && !exists) return;
-    uint entry = exists ? tile_lists[first_entry(LIST) + number] : 0u, item = entry_item(entry);
-    uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
-    uint tile = LOCATIONS ? location_group.x : item, blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
-    uint first = entry_part(entry) * CELLS_OF_ENTRY, all_cells = LOCATIONS ? location_group.z : uint(bitCount(masks[tile]));
-    uint cells = exists ? min(all_cells - min(all_cells, first), CELLS_OF_ENTRY) : 0u;
-    if (BY_PART && !LOCATIONS) {
-        uint bit = bit_of_cell(masks[tile], first + member());
-        my_variation = variation_around(split(tile, frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3));
-    }
-    uint header = tiles[tile].z + (location_group.w + first) * blocks, cell = 0u;
+    Taken taken = take_cells(team_number(), 0u);
+    if (!taken.exists) return;
+    if (BY_PART && !LOCATIONS) my_variation = variation_around(pixel_of_cell(taken, my_bit));
+    uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK, holder = 0u;
     do {
         Variation around;
-        if (BY_PART && !LOCATIONS) around = variation_of(min(cell, TEAM - 1u));
-        uint block = 0u;
+        if (BY_PART && !LOCATIONS) around = variation_of(holder);
+        uint first_header = taken.tile.z + number_of_cell(taken, of_member(my_bit, holder)) * blocks, block = 0u;
         do {
-            uint at = min(header + cell * blocks + block, frame.fragment_capacity - 1u);
-            uvec2 h = cell < cells ? headers[at] : uvec2(0u);
+            uint at = min(first_header + block, frame.fragment_capacity - 1u);
+            uvec2 h = headers[at];
             h.y = h.y == LEFT_BLOCK ? 0u : h.y;
             uint made = merge_block(h.x, h.y, around);
             if (h.y != 0u && member() == 0u) headers[at] = uvec2(h.x, made);
         } while (++block < blocks);
-    } while (++cell < cells);
+    } while (++holder < taken.cells);
 }
