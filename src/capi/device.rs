@@ -4,7 +4,7 @@ use super::error::{Error, GpcResult, answer};
 use super::input::{Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back};
 use super::memory::{Functions, GpcAllocate, GpcFree};
 use crate::host::Antialiaser;
-use crate::vulkan::{Host, MemorySource, Missing, Requirements, VulkanError};
+use crate::vulkan::{Host, MemorySource, Missing, Requirements, VulkanError, alone};
 use ash::vk;
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::Arc;
@@ -162,9 +162,9 @@ unsafe fn check_instance(
     let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
     // SAFETY: guaranteed by the caller; nothing is made with the device.
     unsafe {
-        let made = instance.create_device(device, &info, None).map_err(VulkanError::of("vkCreateDevice"))?;
+        let made = alone(|| instance.create_device(device, &info, None)).map_err(VulkanError::of("vkCreateDevice"))?;
         let checked = Requirements::check_functions(instance, made.handle());
-        made.destroy_device(None);
+        alone(|| made.destroy_device(None));
         checked
     }
 }

@@ -1,7 +1,7 @@
 //! Misuse that safe code must not be able to turn into undefined behaviour: dropping in the wrong order, mixing
 //! objects of two devices, contradictory arguments.
 
-use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
+use crate::stage::{Stage, camera, flat, on_gpu, once, open, textured};
 use crate::submit::{discard, submit};
 use gpc::render::{
     EngineError, Headless, HeadlessOptions, RenderError, Renderer, SceneFrame, SceneRequest, Settings, Target,
@@ -42,6 +42,23 @@ fn scenes_and_frames_stay_on_their_device() {
         assert!(matches!(refused, Some(RenderError::OtherDevice)));
         let refused = other.render(&mut frame, &camera()).err();
         assert!(matches!(refused, Some(RenderError::OtherDevice)));
+    });
+}
+
+/// Loaders look a device up among all devices of the process, also those that another thread destroys at that time. With
+/// freed memory overwritten, as [`open`] does it, a look at one of them ends the process.
+#[test]
+fn devices_are_opened_and_dropped_beside_others() {
+    on_gpu(|gpu| {
+        // SAFETY: no commands use objects made from it.
+        let memory = unsafe { memory(gpu.gpu(), None) };
+        let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
+        std::thread::scope(|scope| {
+            let others = scope.spawn(|| (0..40).for_each(|_| drop(open(|_| ()))));
+            while !others.is_finished() {
+                memory.buffer("named", 4, usage, MemoryUse::Device).unwrap();
+            }
+        });
     });
 }
 

@@ -3,7 +3,7 @@
 use super::allocation::{Allocation, MemoryRequest, MemorySource, Source};
 use super::instance::Instance;
 use super::trace::Trace;
-use super::{Missing, Requirements, VulkanError};
+use super::{Missing, Requirements, VulkanError, alone};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, CString};
@@ -67,10 +67,7 @@ impl Host {
     /// The handles are alive and belong together.
     unsafe fn check_functions(&self) -> Result<(), VulkanError> {
         // SAFETY: guaranteed by the caller.
-        let lacks = |name: &CStr| unsafe {
-            let raw = self.device.handle();
-            self.instance.get_device_proc_addr(raw, name.as_ptr()).is_none()
-        };
+        let lacks = |name: &CStr| unsafe { !Requirements::has_function(&self.instance, self.device.handle(), name) };
         // SAFETY: guaranteed by the caller.
         unsafe {
             let version = Requirements::check_version(&self.instance, self.physical_device);
@@ -238,8 +235,8 @@ impl Gpu {
                 })?,
             ))),
         };
-        let debug_labels = debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
-        let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
+        let debug_labels = debug_utils.then(|| alone(|| ash::ext::debug_utils::Device::new(&instance, &device)));
+        let functions = || alone(|| ash::ext::conditional_rendering::Device::new(&instance, &device));
         Ok(Arc::new(Self {
             conditional_rendering: limits.conditional_rendering.then(functions),
             debug_labels,
@@ -304,7 +301,7 @@ impl Gpu {
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
         // SAFETY: this thread just made the object from this device. A debugger that fails to store the name is of no
         // consequence.
-        let _ = unsafe { functions.set_debug_utils_object_name(&info) };
+        let _ = alone(|| unsafe { functions.set_debug_utils_object_name(&info) });
     }
 }
 
@@ -315,7 +312,7 @@ impl Drop for Gpu {
         if self.owner.is_some() {
             // SAFETY: the library created the device, and everything made from it held an `Arc` of this value and is
             // gone.
-            unsafe { self.device.destroy_device(None) };
+            alone(|| unsafe { self.device.destroy_device(None) });
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Instance and device of the library, for callers without their own.
 
 use super::gpu::{Gpu, Host, Limits, limits};
-use super::{Missing, Requirements, VulkanError};
+use super::{Missing, Requirements, VulkanError, alone};
 use ash::vk;
 use std::ffi::{CStr, c_void};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -281,7 +281,7 @@ impl Instance {
             info = info.enabled_extension_names(&extensions).push_next(&mut conditional);
         }
         // SAFETY: the physical device has all requested features, as checked above.
-        let device = unsafe { self.raw.create_device(physical_device, &info, None) }
+        let device = alone(|| unsafe { self.raw.create_device(physical_device, &info, None) })
             .map_err(VulkanError::of("vkCreateDevice"))?;
         let mut host = Host::new(self.raw.clone(), physical_device, device, queue_family);
         host.conditional_rendering = limits.conditional_rendering;

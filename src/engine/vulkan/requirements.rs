@@ -1,7 +1,8 @@
 //! Requirements for a device, which can be checked before one is made.
 
-use super::VulkanError;
+use super::{VulkanError, alone};
 use ash::vk;
+use std::ffi::CStr;
 
 /// Advice for a user without a suitable driver.
 pub const MISSING_DRIVER_HELP: &str = "Install a Vulkan 1.3 driver; without a GPU, Mesa's software driver serves (Debian: apt-get install libvulkan1 mesa-vulkan-drivers)";
@@ -155,11 +156,21 @@ impl Requirements {
     /// The device belongs to the instance; both are alive.
     pub(crate) unsafe fn check_functions(instance: &ash::Instance, device: vk::Device) -> Result<(), VulkanError> {
         for name in [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"] {
-            // SAFETY: guaranteed by the caller; the name ends with a zero.
-            let found = unsafe { instance.get_device_proc_addr(device, name.as_ptr()) };
-            found.ok_or(VulkanError::NoFunction(name.to_str().unwrap_or_default()))?;
+            // SAFETY: guaranteed by the caller.
+            if !unsafe { Self::has_function(instance, device, name) } {
+                return Err(VulkanError::NoFunction(name.to_str().unwrap_or_default()));
+            }
         }
         Ok(())
+    }
+
+    /// Whether a device has a function.
+    ///
+    /// # Safety
+    /// The device belongs to the instance; both are alive.
+    pub(super) unsafe fn has_function(instance: &ash::Instance, device: vk::Device, name: &CStr) -> bool {
+        // SAFETY: guaranteed by the caller; the name ends with a zero.
+        alone(|| unsafe { instance.get_device_proc_addr(device, name.as_ptr()) }).is_some()
     }
 
     /// Everything that the physical device lacks; empty if it is suitable.
