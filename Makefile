@@ -39,7 +39,7 @@ help:
 	@echo "make test-bounds    check that no shader reads or writes beyond the end of a buffer"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make measure        write docs/bench/*.csv of this machine's driver again (an hour); KINDS='...' are some of them;"
-	@echo "                    KINDS='views large' are full frames (hours without a GPU)"
+	@echo "                    KINDS='views many large' are full frames (hours without a GPU)"
 	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
 	@echo "make pictures       render the pictures of the documents again"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"

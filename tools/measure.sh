@@ -2,11 +2,12 @@
 # Measures all figures of the documents on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes an hour.
 #
 #   tools/measure.sh [KIND...]        quality, speed, motion, variants, choices, growth, hosts; all of these if none is named
-#   tools/measure.sh views large      only where they are named, since they take hours without a GPU: views that fill a frame
-#                                     of 1920x1080 with all methods, and time and memory of four of them at 3840x2160
+#   tools/measure.sh views many large only where they are named, since they take hours without a GPU: views that fill a frame
+#                                     of 1920x1080 with all methods and up to 64 samples, one of them with up to 1,024, and time
+#                                     and memory of four of them at 3840x2160
 #
 # Views are measured one after the other. Where a run was stopped, the next run of the same commit goes on with the view that is
-# missing. VIEW_SAMPLES (4,16,64,256,1024) and VIEW_REFERENCE (4096) make them shorter.
+# missing.
 #
 # The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, otherwise that of the best device. Nothing else should
 # run on the machine. `make figures` updates the documents from the files.
@@ -17,6 +18,7 @@ source tools/scenes.sh
 gpc() { "${CARGO_TARGET_DIR:-target}/release/gpc" "$@"; }
 cargo build --release --bin gpc
 
+rivals=none,msaa,ssaa,accumulate,rotated,superpixel
 kinds=("$@")
 [ ${#kinds[@]} -gt 0 ] || kinds=(quality speed motion variants choices growth hosts)
 if ! git diff --quiet HEAD -- src shaders examples Cargo.toml; then
@@ -53,10 +55,10 @@ keep() { # KIND CSV
 }
 
 # Measures views one after the other into out/measure, and keeps their rows in one file.
-measure_views() { # KIND VIEWS OPTION...
-    local kind="$1" count="$2" view scene options folder
-    shift 2
-    for view in "${views[@]:0:count}"; do
+measure_views() { # KIND FIRST COUNT OPTION...
+    local kind="$1" first="$2" count="$3" view scene options folder
+    shift 3
+    for view in "${views[@]:first:count}"; do
         read -r scene options <<<"$view"
         folder="out/measure/$commit/$kind-$(basename "$(dirname "$scene")")-$(basename "$scene")"
         # The file is in place only after a whole run.
@@ -104,11 +106,15 @@ for kind in "${kinds[@]}"; do
             keep growth "$out/growth.csv"
             ;;
         views)
-            measure_views views ${#views[@]} --size 1920x1080 --methods none,msaa,ssaa,accumulate,rotated,superpixel \
-                --samples "${VIEW_SAMPLES:-4,16,64,256,1024}" --reference "${VIEW_REFERENCE:-4096}" --repeat 3 --budget 2
+            measure_views views 0 ${#views[@]} --size 1920x1080 --methods "$rivals" --samples 4,16,64 --reference 1024 \
+                --repeat 3 --budget 2
+            ;;
+        many)
+            measure_views many $((${#views[@]} - 1)) 1 --size 1920x1080 --methods "$rivals" --samples 4,16,64,256,1024 \
+                --reference 4096 --repeat 3 --budget 2
             ;;
         large)
-            measure_views large 4 --size 3840x2160 --methods none,ssaa,superpixel --samples 4,64 --reference 256 \
+            measure_views large 0 4 --size 3840x2160 --methods none,ssaa,superpixel --samples 4,64 --reference 256 \
                 --repeat 3 --budget 2
             ;;
         hosts)
@@ -122,7 +128,7 @@ for kind in "${kinds[@]}"; do
             keep hosts "$work/hosts.csv"
             ;;
         *)
-            echo "no kind \"$kind\"; there are quality, speed, motion, variants, choices, growth, hosts, views and large" >&2
+            echo "no kind \"$kind\"; there are quality, speed, motion, variants, choices, growth, hosts, views, many and large" >&2
             exit 2
             ;;
     esac

@@ -7,13 +7,14 @@ use std::path::PathBuf;
 /// Function that generates the text of a part.
 type Make = fn() -> String;
 
-const PARTS: [(&str, Make); 23] = [
+const PARTS: [(&str, Make); 24] = [
     ("picture", table::picture),
     ("readme", table::readme),
     ("choosing", table::choosing),
     ("exceptions", table::exceptions),
     ("quality", table::quality_by_scene),
     ("views", table::views),
+    ("many", table::many),
     ("large", table::large),
     ("speed", table::speed),
     ("gpu", gpu::table),

@@ -237,6 +237,45 @@ pub fn views() -> String {
     text
 }
 
+/// Table of one view at every number of samples.
+pub fn many() -> String {
+    let all = data::load("many");
+    let of = &all[0];
+    let scene = of.scenes()[0];
+    let mut table = Table::new(&cells(&[
+        "samples",
+        "superpixels",
+        "superpixel, ms",
+        "/ one sample",
+        "`ssaa`, ms",
+        "/ superpixel",
+        "RMSE",
+        "`ssaa`",
+        "FLIP",
+        "`ssaa`",
+    ]));
+    let plain = of.find(scene, "none", 1).expect("the view was measured with one sample");
+    for n in of.compared_samples() {
+        let Some((fine, brute)) = of.find(scene, "superpixel", n).zip(of.find(scene, "ssaa", n)) else {
+            continue;
+        };
+        table.row(&[
+            grouped(u64::from(n)),
+            format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
+            short(fine.ms()),
+            short(fine.ms() / plain.ms()),
+            short(brute.ms()),
+            short(brute.ms() / fine.ms()),
+            error(RMSE(fine)),
+            error(RMSE(brute)),
+            error(FLIP(fine)),
+            error(FLIP(brute)),
+        ]);
+    }
+    let one = short(plain.ms());
+    format!("{}; {scene}, {}, one sample {one} ms:\n\n{}", of.source(), of.size(), table.finish())
+}
+
 /// Table of the time and the memory of the largest images.
 pub fn large() -> String {
     let all = data::load("large");
