@@ -217,7 +217,8 @@ void show_candidates(Cell cell) {
             trips += uint(bitCount(pending)) * ROWS;
             do {
                 bool some = pending != 0u;
-                show_masked(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some);
+                // Loaded, not shuffled: this loop then keeps no second candidate in registers.
+                show_masked(cell, entry_of(cell, batch * TEAM + (some ? uint(findLSB(pending)) : 0u)), some);
                 pending &= pending - 1u;
             } while (pending != 0u);
         }

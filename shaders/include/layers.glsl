@@ -160,12 +160,11 @@ bool find_scattered(uint layer) {
 // Finds each sample's next BLEND layer in front of the surfaces so far, and moves its depth and ID there. Returns whether there
 // may be more.
 bool find_layers(Cell cell) {
-    uint ahead[ROWS];
+    bool more = false;          // whether a sample has several layers in front
     float behind = 3.4e38;      // what lies farther than this depth is hidden from all samples
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         next_depth[g] = 3.4e38;
         next_id[g] = 0u;
-        ahead[g] = 0u;
         behind = min(behind, depth[g]);
     }
     behind = max(team_min(behind), cell.hidden);
@@ -190,7 +189,7 @@ bool find_layers(Cell cell) {
                 bool there = covers(t, least, position_of(cell, g), d) && d > 0.0;
                 bool in_front = there && (d > depth[g] || (id[g] != 0u && d == depth[g] && t.id < id[g]));
                 bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
-                ahead[g] += in_front ? 1u : 0u;
+                more = more || in_front && next_id[g] != 0u;
                 next_depth[g] = in_front && nearest ? d : next_depth[g];
                 next_id[g] = in_front && nearest ? t.id : next_id[g];
             }
@@ -199,13 +198,11 @@ bool find_layers(Cell cell) {
         left &= batch < 31u ? left - 1u : batch + 1u < batches ? ~0u : 0u;
         batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
     } while (left != 0u && trips <= MOST_TRIPS);
-    uint most = 0u;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         depth[g] = next_id[g] != 0u ? next_depth[g] : depth[g];
         id[g] = next_id[g] != 0u ? next_id[g] : id[g];
-        most = max(most, ahead[g]);
     }
-    return left != 0u || team_any(most > 1u);
+    return left != 0u || team_any(more);
 }
 
 // Makes all fragments of a cell's block; returns the first leaf and their number.
