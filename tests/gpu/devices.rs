@@ -26,7 +26,7 @@ fn in_teams_of_four(teams: &mut Teams) {
     teams.in_workgroup *= teams.members / 4;
     teams.members = 4;
     // No kernel takes larger teams then.
-    teams.preferred_subgroup = None;
+    teams.known_subgroup = None;
 }
 
 /// Every image has the same bytes with teams of 4 as with teams of 8, whether each subgroup samples the cells of a tile or several

@@ -327,6 +327,8 @@ pub struct Teams {
     /// Size of subgroups that pipelines are made for, if the device lets that be chosen. Kernels work in subgroups of any size
     /// that teams fit into; the smallest size leaves each invocation the most registers.
     pub preferred_subgroup: Option<u32>,
+    /// Size of all subgroups, if it is known: the preferred size, or the only one that the device has.
+    pub known_subgroup: Option<u32>,
 }
 
 impl Teams {
@@ -335,12 +337,13 @@ impl Teams {
         let preferred_subgroup = can_choose.then_some(least.max(8).min(most));
         let subgroup = preferred_subgroup.unwrap_or(usual);
         let members = if preferred_subgroup.unwrap_or(least) < 8 { 4 } else { 8 };
-        Self { members, in_workgroup: (subgroup / members).max(1), preferred_subgroup }
+        let known_subgroup = preferred_subgroup.or((least == most).then_some(least));
+        Self { members, in_workgroup: (subgroup / members).max(1), preferred_subgroup, known_subgroup }
     }
 
     /// The largest teams of at most `most` invocations that fit into subgroups of a known size.
     pub(crate) fn larger(self, most: u32) -> Self {
-        let members = self.preferred_subgroup.map_or(self.members, |subgroup| subgroup.min(most)).max(self.members);
+        let members = self.known_subgroup.map_or(self.members, |subgroup| subgroup.min(most)).max(self.members);
         Self { members, in_workgroup: (self.workgroup() / members).max(1), ..self }
     }
 
@@ -430,17 +433,31 @@ mod tests {
     fn teams_fit_in_the_subgroups_that_come() {
         let of = |usual, range, can_choose| {
             let teams = Teams::new(usual, range, can_choose);
-            (teams.members, teams.in_workgroup, teams.preferred_subgroup)
+            (teams.members, teams.in_workgroup, teams.preferred_subgroup, teams.known_subgroup)
         };
-        assert_eq!(of(8, [8, 8], true), (8, 1, Some(8)));
-        assert_eq!(of(4, [4, 4], true), (4, 1, Some(4)));
-        assert_eq!(of(32, [8, 32], true), (8, 1, Some(8)));
-        assert_eq!(of(16, [4, 16], true), (8, 1, Some(8)));
-        assert_eq!(of(16, [16, 32], true), (8, 2, Some(16)));
-        assert_eq!(of(64, [32, 64], true), (8, 4, Some(32)));
-        assert_eq!(of(64, [64, 64], true), (8, 8, Some(64)));
-        assert_eq!(of(32, [8, 32], false), (8, 4, None));
-        assert_eq!(of(64, [64, 64], false), (8, 8, None));
-        assert_eq!(of(16, [4, 16], false), (4, 4, None));
+        assert_eq!(of(8, [8, 8], true), (8, 1, Some(8), Some(8)));
+        assert_eq!(of(4, [4, 4], true), (4, 1, Some(4), Some(4)));
+        assert_eq!(of(32, [8, 32], true), (8, 1, Some(8), Some(8)));
+        assert_eq!(of(16, [4, 16], true), (8, 1, Some(8), Some(8)));
+        assert_eq!(of(16, [16, 32], true), (8, 2, Some(16), Some(16)));
+        assert_eq!(of(64, [32, 64], true), (8, 4, Some(32), Some(32)));
+        assert_eq!(of(64, [64, 64], true), (8, 8, Some(64), Some(64)));
+        assert_eq!(of(32, [8, 32], false), (8, 4, None, None));
+        assert_eq!(of(64, [64, 64], false), (8, 8, None, Some(64)));
+        assert_eq!(of(16, [4, 16], false), (4, 4, None, None));
+    }
+
+    #[test]
+    fn larger_teams_fit_in_subgroups_of_a_known_size() {
+        let of = |usual, range, can_choose, most| {
+            let teams = Teams::new(usual, range, can_choose).larger(most);
+            (teams.members, teams.in_workgroup)
+        };
+        assert_eq!(of(8, [8, 8], true, 32), (8, 1));
+        assert_eq!(of(32, [32, 32], true, 32), (32, 1));
+        assert_eq!(of(32, [32, 32], false, 32), (32, 1));
+        assert_eq!(of(32, [32, 32], false, 16), (16, 2));
+        assert_eq!(of(64, [64, 64], false, 32), (32, 2));
+        assert_eq!(of(32, [8, 32], false, 32), (8, 4));
     }
 }
