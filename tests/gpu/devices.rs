@@ -8,11 +8,11 @@ use gpc::vulkan::{Limits, Teams, VulkanError};
 use crate::detect::mosaic;
 use crate::rounds::render;
 use crate::scenes::{ball_over_checker, layered};
-use crate::stage::{Stage, as_cpu, as_gpu, camera, everywhere, flat, on_cpu, on_gpu, open, run};
+use crate::stage::{Stage, as_cpu, as_gpu, camera, everywhere, flat, on_cpu, on_gpu, open, run_once};
 
 /// Runs a test on a device with lower limits; fails if the validation layer reports a message.
 pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
-    run(&mut open(lower), test);
+    run_once(open(lower), test);
 }
 
 /// Gives a device as few texel elements as Vulkan guarantees: lists have room for 16,384 candidates.

@@ -55,17 +55,20 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     idle().push(gpu);
 }
 
-/// Fills memory that is allocated from now on. Lavapipe allocates device memory on the heap, where large blocks are zero at
-/// first. On a GPU they hold anything.
-fn fill_new_memory() {
+/// What memory is filled with. Lavapipe allocates device memory on the heap, where large blocks are zero at first. On a GPU they
+/// hold anything.
+const FILLING: i32 = 0xa5;
+
+/// Fills memory that is allocated or freed from now on; 0 leaves it as it is.
+fn fill_memory(byte: i32) {
     // SAFETY: the call takes plain numbers and does its own locking.
-    let set = unsafe { libc::mallopt(libc::M_PERTURB, 0xa5) };
-    assert_eq!(set, 1, "the heap can't fill new memory");
+    let set = unsafe { libc::mallopt(libc::M_PERTURB, byte) };
+    assert_eq!(set, 1, "the heap can't fill memory");
 }
 
 /// Opens a device under the validation layer. `GPC_SIMULATE=gpu` in the environment makes it a GPU for the engine.
 pub fn open(change: impl FnOnce(&mut Limits)) -> Headless {
-    fill_new_memory();
+    fill_memory(FILLING);
     let options = HeadlessOptions::default().validation(true);
     let simulated = std::env::var("GPC_SIMULATE");
     let change = |limits: &mut Limits| {
@@ -103,7 +106,7 @@ pub fn on_cpu(test: impl FnOnce(&mut Headless)) {
         }
     });
     if let Some(test) = test {
-        run(&mut open(as_cpu), test);
+        run_once(open(as_cpu), test);
     }
 }
 
@@ -111,6 +114,15 @@ pub fn on_cpu(test: impl FnOnce(&mut Headless)) {
 pub fn run(gpu: &mut Headless, test: impl FnOnce(&mut Headless)) {
     test(gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+}
+
+/// Runs a test on a device that no other test uses, and closes it. Memory is not filled while it is closed: the validation layer
+/// of Debian 12 looks devices up without a lock, so that other tests may read what was just freed.
+pub fn run_once(mut gpu: Headless, test: impl FnOnce(&mut Headless)) {
+    run(&mut gpu, test);
+    fill_memory(0);
+    drop(gpu);
+    fill_memory(FILLING);
 }
 
 /// A stage whose methods panic if it can't be rendered.
