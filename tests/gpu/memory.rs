@@ -1,7 +1,7 @@
 //! Bytes that the table of buffers promises, compared with those of the buffers that are made from it; contents of new memory.
 
 use crate::bare::Bare;
-use crate::stage::{on_cpu, on_gpu};
+use crate::stage::{hold_filling, on_cpu, on_gpu};
 use ash::vk;
 use gpc::testing::{CellSizes, Cells, Data, LocationSizes, MemoryUse, ResourceSizes, memory};
 
@@ -46,6 +46,7 @@ fn new_memory_is_not_zero() {
     on_cpu(|gpu| {
         // SAFETY: no commands use the memory.
         let memory = unsafe { memory(gpu.gpu(), None) };
+        let _held = hold_filling();
         let buffer = memory.buffer("new", BYTES, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback).unwrap();
         let words: &[u32] = buffer.read((BYTES / 4) as usize).unwrap();
         assert!(words.iter().step_by(1024).all(|word| *word != 0));

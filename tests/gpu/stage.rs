@@ -66,9 +66,19 @@ fn fill_memory(byte: i32) {
     assert_eq!(set, 1, "the heap can't fill memory");
 }
 
+static FILLS: Mutex<()> = Mutex::new(());
+
+/// While the guard lives, no other thread changes whether memory is filled.
+pub fn hold_filling() -> MutexGuard<'static, ()> {
+    FILLS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Opens a device under the validation layer. `GPC_SIMULATE=gpu` in the environment makes it a GPU for the engine.
 pub fn open(change: impl FnOnce(&mut Limits)) -> Headless {
-    fill_memory(FILLING);
+    {
+        let _held = hold_filling();
+        fill_memory(FILLING);
+    }
     let options = HeadlessOptions::default().validation(true);
     let simulated = std::env::var("GPC_SIMULATE");
     let change = |limits: &mut Limits| {
@@ -120,6 +130,7 @@ pub fn run(gpu: &mut Headless, test: impl FnOnce(&mut Headless)) {
 /// of Debian 12 looks devices up without a lock, so that other tests may read what was just freed.
 pub fn run_once(mut gpu: Headless, test: impl FnOnce(&mut Headless)) {
     run(&mut gpu, test);
+    let _held = hold_filling();
     fill_memory(0);
     drop(gpu);
     fill_memory(FILLING);
