@@ -1,7 +1,7 @@
 //! A lent device, and what its frames share.
 
 use super::error::{Error, GpcResult, answer};
-use super::input::{Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back};
+use super::input::{flag, hand_over, init, place, read, take_back};
 use super::memory::{Functions, GpcAllocate, GpcFree};
 use crate::host::Antialiaser;
 use crate::vulkan::{Host, MemorySource, Missing, Requirements, VulkanError, alone};
@@ -54,17 +54,6 @@ pub struct GpcDevice {
     pub free: GpcFree,
     /// Handed to both.
     pub memory_user: *mut c_void,
-}
-
-// SAFETY: `repr(C)`; integers, raw handles, pointers and a nullable function may have any bytes.
-unsafe impl Element for GpcDevice {
-    const NAME: &'static str = "GpcDevice";
-    const SIZES: &'static [usize] = sizes!(GpcDevice, memory_user);
-}
-
-// SAFETY: it begins with size, type and next.
-unsafe impl Struct for GpcDevice {
-    const TYPE: GpcStructType = GpcStructType::Device;
 }
 
 /// Fills a GpcDevice of `size` bytes, which is sizeof(GpcDevice): its handles are null, and nothing is enabled.

@@ -4,9 +4,7 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::images::{GpcImageKinds, GpcImages};
-use super::input::{
-    Element, GpcStructType, Struct, hand_over, init, object, place, read, shown, sizes, take_back, write,
-};
+use super::input::{Element, array, hand_over, init, object, place, read, shown, take_back, write};
 use super::options::GpcOptions;
 use crate::host::{Frame, Scenery, ShadeSamples, Viewport, VisibilitySamples};
 use ash::vk;
@@ -46,17 +44,6 @@ pub struct GpcScenery {
     pub viewport: [f32; 4],
 }
 
-// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
-unsafe impl Element for GpcScenery {
-    const NAME: &'static str = "GpcScenery";
-    const SIZES: &'static [usize] = sizes!(GpcScenery, projection, viewport);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcScenery {
-    const TYPE: GpcStructType = GpcStructType::Scenery;
-}
-
 /// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery), without draws.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
@@ -92,17 +79,6 @@ pub struct GpcVisibilitySamples {
     /// this buffer and offset 0, and its end, within the callback. VK_NULL_HANDLE without
     /// GpcDevice.conditional_rendering, and for shading outside of rounds.
     pub condition: vk::Buffer,
-}
-
-// SAFETY: `repr(C)`; numbers, raw handles and pointers may have any bytes.
-unsafe impl Element for GpcVisibilitySamples {
-    const NAME: &'static str = "GpcVisibilitySamples";
-    const SIZES: &'static [usize] = sizes!(GpcVisibilitySamples, condition);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcVisibilitySamples {
-    const TYPE: GpcStructType = GpcStructType::VisibilitySamples;
 }
 
 /// Function of the application that records the shading of a round's samples into a command buffer: for each key, a
@@ -150,17 +126,6 @@ pub struct GpcOutcome {
     /// Number of those that were left out because they are not possible, such as draws with vertices or indices beyond the
     /// ends of the mesh, a shading key or an alpha map that does not exist, or an instance beyond the capacity.
     pub indirect_impossible: u64,
-}
-
-// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
-unsafe impl Element for GpcOutcome {
-    const NAME: &'static str = "GpcOutcome";
-    const SIZES: &'static [usize] = sizes!(GpcOutcome, gpu_milliseconds, indirect_impossible);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcOutcome {
-    const TYPE: GpcStructType = GpcStructType::Outcome;
 }
 
 /// Fills a GpcOutcome of `size` bytes, which is sizeof(GpcOutcome).
@@ -276,15 +241,8 @@ pub unsafe extern "C" fn gpc_frame_record(
         }
         let shade = shade.ok_or(Error::Null("shade"))?;
         // SAFETY: passed on to the caller.
-        let draws = unsafe {
-            GpcDraw::all(
-                scenery.draws,
-                scenery.draw_count,
-                scenery.draw_stride,
-                "GpcScenery.draws",
-                "GpcScenery.draw_stride",
-            )
-        }?;
+        let draws = unsafe { array!(scenery, GpcScenery, draws, draw_count, draw_stride) }?;
+        let draws: Vec<_> = draws.iter().map(GpcDraw::draw).collect::<Result<_, _>>()?;
         let [x, y, width, height] = scenery.viewport;
         let viewport = Viewport { x, y, width, height };
         let viewport = (scenery.viewport != [0.0; 4]).then_some(viewport);

@@ -1,7 +1,7 @@
 //! Geometry that the application lends.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes, unused};
+use super::input::{Element, array, choice, flag, init, unused};
 use crate::host::{
     AlphaMap, ClipSpace, Coordinates, Draw, Geometry, Indices, IndirectDraws, Instance, Mesh, PositionSpace, Topology,
     VertexFormat,
@@ -53,12 +53,6 @@ pub struct GpcAlphaMap {
     pub reserved: u32,
 }
 
-// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
-unsafe impl Element for GpcAlphaMap {
-    const NAME: &'static str = "GpcAlphaMap";
-    const SIZES: &'static [usize] = sizes!(GpcAlphaMap, reserved);
-}
-
 /// Buffers that draws read, bound together: those of one mesh, or of many meshes that share buffers. The members have
 /// the same requirements as those of GpcGeometry.
 #[derive(Clone, Copy)]
@@ -96,12 +90,6 @@ pub struct GpcMesh {
     pub position_scale: [f32; 3],
     /// Summand of each component of a position.
     pub position_bias: [f32; 3],
-}
-
-// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
-unsafe impl Element for GpcMesh {
-    const NAME: &'static str = "GpcMesh";
-    const SIZES: &'static [usize] = sizes!(GpcMesh, reserved, position_bias);
 }
 
 /// Format of a vertex attribute. In C, 0 stands for floats, and for a scale of 1.
@@ -237,26 +225,6 @@ pub struct GpcGeometry {
     pub position_bias: [f32; 3],
 }
 
-// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
-unsafe impl Element for GpcGeometry {
-    const NAME: &'static str = "GpcGeometry";
-    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps, max_depth, position_bias);
-
-    fn defaults() -> Self {
-        Self {
-            keys: 1,
-            max_depth: 1.0,
-            // SAFETY: the struct may have any bytes.
-            ..unsafe { std::mem::zeroed() }
-        }
-    }
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcGeometry {
-    const TYPE: GpcStructType = GpcStructType::Geometry;
-}
-
 /// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): without buffers, with one shading
 /// key, positions in clip space, 16-bit indices, and depth from 0 to 1.
 ///
@@ -284,6 +252,11 @@ impl GpcAlphaMap {
 }
 
 impl GpcGeometry {
+    /// What gpc_init_geometry sets.
+    pub(super) fn initial() -> Self {
+        Self { keys: 1, max_depth: 1.0, ..Self::zeroed() }
+    }
+
     /// Mesh 0, from the members of this struct.
     fn own_mesh(&self) -> Result<Mesh, Error> {
         let mesh = GpcMesh {
@@ -311,15 +284,7 @@ impl GpcGeometry {
     /// `alpha_maps`, `more_meshes` and `indirect_draws` point to as many elements as their counts say.
     pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
         // SAFETY: passed on to the caller.
-        let maps = unsafe {
-            elements(
-                self.alpha_maps,
-                self.alpha_map_count,
-                self.alpha_map_stride,
-                "GpcGeometry.alpha_maps",
-                "GpcGeometry.alpha_map_stride",
-            )
-        }?;
+        let maps = unsafe { array!(self, GpcGeometry, alpha_maps, alpha_map_count, alpha_map_stride) }?;
         let spaces = [
             (GpcPositionSpace::Clip as u32, "GPC_POSITION_SPACE_CLIP", PositionSpace::Clip),
             (
@@ -329,25 +294,10 @@ impl GpcGeometry {
             ),
         ];
         // SAFETY: passed on to the caller.
-        let more_meshes = unsafe {
-            elements(
-                self.more_meshes,
-                self.more_mesh_count,
-                self.more_mesh_stride,
-                "GpcGeometry.more_meshes",
-                "GpcGeometry.more_mesh_stride",
-            )
-        }?;
+        let more_meshes = unsafe { array!(self, GpcGeometry, more_meshes, more_mesh_count, more_mesh_stride) }?;
         // SAFETY: passed on to the caller.
-        let indirect = unsafe {
-            elements(
-                self.indirect_draws,
-                self.indirect_draws_count,
-                self.indirect_draws_stride,
-                "GpcGeometry.indirect_draws",
-                "GpcGeometry.indirect_draws_stride",
-            )
-        }?;
+        let indirect =
+            unsafe { array!(self, GpcGeometry, indirect_draws, indirect_draws_count, indirect_draws_stride) }?;
         Ok(Geometry {
             meshes: std::iter::once(self.own_mesh())
                 .chain(more_meshes.iter().map(GpcMesh::mesh))
@@ -438,12 +388,6 @@ pub struct GpcIndirectDraws {
     pub alpha_tested: vk::Bool32,
     /// VK_TRUE if the draws are blended.
     pub blended: vk::Bool32,
-}
-
-// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
-unsafe impl Element for GpcIndirectDraws {
-    const NAME: &'static str = "GpcIndirectDraws";
-    const SIZES: &'static [usize] = sizes!(GpcIndirectDraws, blended);
 }
 
 /// What a draw of a GpcIndirectDraws has besides its command: an element of a buffer that the device reads, and never
@@ -547,30 +491,8 @@ pub struct GpcDraw {
     pub front_face: vk::FrontFace,
 }
 
-// SAFETY: `repr(C)`; numbers may have any bytes.
-unsafe impl Element for GpcDraw {
-    const NAME: &'static str = "GpcDraw";
-    const SIZES: &'static [usize] = sizes!(GpcDraw, blended, topology, front_face);
-}
-
 impl GpcDraw {
-    /// Draws of an array; see [`elements`].
-    ///
-    /// # Safety
-    /// As [`elements`].
-    pub(super) unsafe fn all(
-        draws: *const Self,
-        count: u32,
-        stride: u32,
-        array: &'static str,
-        stride_name: &'static str,
-    ) -> Result<Vec<Draw>, Error> {
-        // SAFETY: passed on to the caller.
-        let draws = unsafe { elements(draws, count, stride, array, stride_name) }?;
-        draws.iter().map(Self::draw).collect()
-    }
-
-    fn draw(&self) -> Result<Draw, Error> {
+    pub(super) fn draw(&self) -> Result<Draw, Error> {
         Ok(Draw {
             mesh: self.mesh,
             first_index: self.first_index,

@@ -1,7 +1,7 @@
 //! Images that the application lends.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, flag, init, sizes, unused};
+use super::input::{flag, init, unused};
 use crate::host::{ImageKinds, ImageState, Images, LentImage};
 use ash::vk;
 use std::ffi::c_void;
@@ -61,17 +61,6 @@ pub struct GpcImageKinds {
     pub reserved: u32,
 }
 
-// SAFETY: `repr(C)`; integers and pointers may have any bytes.
-unsafe impl Element for GpcImageKinds {
-    const NAME: &'static str = "GpcImageKinds";
-    const SIZES: &'static [usize] = sizes!(GpcImageKinds, color_encoded, reserved);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcImageKinds {
-    const TYPE: GpcStructType = GpcStructType::ImageKinds;
-}
-
 /// Fills a GpcImageKinds of `size` bytes, which is sizeof(GpcImageKinds): with a colour image only, whose format still
 /// has to be set.
 ///
@@ -123,17 +112,6 @@ pub struct GpcImages {
     pub layer: u32,
     /// 0.
     pub reserved: u32,
-}
-
-// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
-unsafe impl Element for GpcImages {
-    const NAME: &'static str = "GpcImages";
-    const SIZES: &'static [usize] = sizes!(GpcImages, corner, reserved);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcImages {
-    const TYPE: GpcStructType = GpcStructType::Images;
 }
 
 /// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages), without images.

@@ -4,9 +4,16 @@
 //! versions of the library add members at the end. So every struct begins with its size, and every array has a stride.
 //! Members that the application's header lacks have the values that the `gpc_init` function sets.
 
+use super::device::GpcDevice;
 use super::error::{Error, GivenSize, GpcResult, answer};
+use super::frame::{GpcOutcome, GpcScenery, GpcVisibilitySamples};
+use super::geometry::{GpcAlphaMap, GpcDraw, GpcGeometry, GpcIndirectDraws, GpcMesh};
+use super::images::{GpcImageKinds, GpcImages};
+use super::list::{GpcListOutcome, GpcListScenery, GpcLocationList};
+use super::memory::GpcMemoryRequest;
+use super::options::GpcOptions;
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
+use std::mem::{MaybeUninit, offset_of};
 
 /// Type of a struct: the value of its member `type`, which its gpc_init function sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,14 +52,18 @@ pub enum GpcStructType {
 pub(super) unsafe trait Element: Copy {
     /// Name of the struct in C.
     const NAME: &'static str;
-    /// Sizes of the struct in bytes in all versions of the header, the present one last. [`sizes`] computes them from
-    /// the last member of each version.
+    /// Sizes of the struct in bytes in all versions of the header, the present one last.
     const SIZES: &'static [usize];
+
+    /// The struct whose bytes are all zero.
+    fn zeroed() -> Self {
+        // SAFETY: any bytes are a value of the struct.
+        unsafe { MaybeUninit::zeroed().assume_init() }
+    }
 
     /// Values of members that an application does not set.
     fn defaults() -> Self {
-        // SAFETY: any bytes are a value of the struct.
-        unsafe { MaybeUninit::zeroed().assume_init() }
+        Self::zeroed()
     }
 }
 
@@ -74,13 +85,64 @@ struct Head {
     next: *const c_void,
 }
 
-/// Number of bytes of a struct up to the end of each of the named members.
-macro_rules! sizes {
-    ($name:ident, $($last:ident),+) => {
-        &[$(std::mem::offset_of!($name, $last) + $crate::capi::input::bytes_of(|of: &$name| &of.$last)),+]
-    };
+/// Declares structs of the C API. After the name stands the type of a struct that is passed by pointer. The braces have the
+/// last member of each version of the header, and a function may follow that makes defaults other than zero.
+///
+/// The structs are `repr(C)`, and have no members but integers, floats, raw handles, raw pointers and nullable functions.
+macro_rules! structs {
+    ($($name:ident $(: $kind:ident)? { $($last:ident),+ } $(= $defaults:path)?,)+) => {$(
+        // SAFETY: the members, which the macro's documentation names, may have any bytes.
+        unsafe impl $crate::capi::input::Element for $name {
+            const NAME: &'static str = stringify!($name);
+            const SIZES: &'static [usize] =
+                &[$(std::mem::offset_of!($name, $last) + $crate::capi::input::bytes_of(|of: &$name| &of.$last)),+];
+
+            $(fn defaults() -> Self {
+                $defaults()
+            })?
+        }
+
+        $(
+            const _: () = assert!($crate::capi::input::is_head([
+                std::mem::offset_of!($name, size),
+                std::mem::offset_of!($name, r#type),
+                std::mem::offset_of!($name, next),
+            ]));
+
+            // SAFETY: the assertion says that the struct begins with the members of `Head`.
+            unsafe impl $crate::capi::input::Struct for $name {
+                const TYPE: $crate::capi::input::GpcStructType = $crate::capi::input::GpcStructType::$kind;
+            }
+        )?
+    )+};
 }
-pub(super) use sizes;
+#[cfg(test)]
+pub(super) use structs;
+
+structs! {
+    GpcDevice: Device { memory_user },
+    GpcGeometry: Geometry { alpha_maps, max_depth, position_bias } = GpcGeometry::initial,
+    GpcAlphaMap { reserved },
+    GpcMesh { reserved, position_bias },
+    GpcIndirectDraws { blended },
+    GpcDraw { blended, topology, front_face },
+    GpcImages: Images { corner, reserved },
+    GpcImageKinds: ImageKinds { color_encoded, reserved },
+    GpcOptions: Options { max_memory, fixed_memory, reserved, filter_radius } = GpcOptions::initial,
+    GpcScenery: Scenery { projection, viewport },
+    GpcVisibilitySamples: VisibilitySamples { condition },
+    GpcOutcome: Outcome { gpu_milliseconds, indirect_impossible },
+    GpcLocationList: LocationList { colors_offset },
+    GpcListScenery: ListScenery { reserved },
+    GpcListOutcome: ListOutcome { gpu_milliseconds },
+    GpcMemoryRequest: MemoryRequest { linear },
+}
+
+/// Whether these are the offsets of the members of [`Head`].
+pub(super) const fn is_head(offsets: [usize; 3]) -> bool {
+    let [size, kind, next] = offsets;
+    size == offset_of!(Head, size) && kind == offset_of!(Head, kind) && next == offset_of!(Head, next)
+}
 
 /// Number of bytes of a member.
 pub(super) const fn bytes_of<T, M>(_: fn(&T) -> &M) -> usize {
@@ -197,8 +259,23 @@ pub(super) fn shown<T: Struct>(mut value: T) -> T {
     value
 }
 
-/// Elements of an array at a pointer, `stride` bytes each; none if their number is 0. `array` is the name of the
-/// argument or member that holds the pointer; the names of number and stride end in `_count` and `_stride`.
+/// Elements of an array that a struct lends: by the names of the struct and of its members with the array, their number and
+/// their stride. Only [`elements`] is called, which is unsafe.
+macro_rules! array {
+    ($from:expr, $name:ident, $array:ident, $count:ident, $stride:ident) => {
+        $crate::capi::input::elements(
+            $from.$array,
+            $from.$count,
+            $from.$stride,
+            concat!(stringify!($name), ".", stringify!($array)),
+            concat!(stringify!($name), ".", stringify!($stride)),
+        )
+    };
+}
+pub(super) use array;
+
+/// Elements of an array at a pointer, `stride` bytes each; none if their number is 0. `array` and `stride_name` are the names
+/// of the members that hold pointer and stride.
 ///
 /// # Safety
 /// The pointer is null, or points to as many elements of `stride` bytes as the number says.

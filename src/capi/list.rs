@@ -4,9 +4,7 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::frame::{Callback, GpcShade};
 use super::geometry::{GpcDraw, GpcGeometry};
-use super::input::{
-    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, unused, write,
-};
+use super::input::{Element, array, hand_over, init, object, place, read, take_back, unused, write};
 use super::options::GpcOptions;
 use crate::host::{List, ListOptions, Location, LocationList};
 use ash::vk;
@@ -58,17 +56,6 @@ pub struct GpcLocationList {
     pub colors_offset: u64,
 }
 
-// SAFETY: `repr(C)`; numbers, raw handles and pointers may have any bytes.
-unsafe impl Element for GpcLocationList {
-    const NAME: &'static str = "GpcLocationList";
-    const SIZES: &'static [usize] = sizes!(GpcLocationList, colors_offset);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcLocationList {
-    const TYPE: GpcStructType = GpcStructType::LocationList;
-}
-
 /// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList), without buffers.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
@@ -98,17 +85,6 @@ pub struct GpcListScenery {
     pub draw_stride: u32,
     /// 0.
     pub reserved: u32,
-}
-
-// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
-unsafe impl Element for GpcListScenery {
-    const NAME: &'static str = "GpcListScenery";
-    const SIZES: &'static [usize] = sizes!(GpcListScenery, reserved);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcListScenery {
-    const TYPE: GpcStructType = GpcStructType::ListScenery;
 }
 
 /// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery), without locations and draws.
@@ -153,17 +129,6 @@ pub struct GpcListOutcome {
     pub memory_bytes: u64,
     /// Time of the library's commands on the device in milliseconds; 0 if the queue has no timestamps.
     pub gpu_milliseconds: f64,
-}
-
-// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
-unsafe impl Element for GpcListOutcome {
-    const NAME: &'static str = "GpcListOutcome";
-    const SIZES: &'static [usize] = sizes!(GpcListOutcome, gpu_milliseconds);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcListOutcome {
-    const TYPE: GpcStructType = GpcStructType::ListOutcome;
 }
 
 /// Fills a GpcListOutcome of `size` bytes, which is sizeof(GpcListOutcome).
@@ -260,15 +225,8 @@ pub unsafe extern "C" fn gpc_list_record(
         let shade = shade.ok_or(Error::Null("shade"))?;
         unused("GpcListScenery.reserved", scenery.reserved)?;
         // SAFETY: passed on to the caller.
-        let draws = unsafe {
-            GpcDraw::all(
-                scenery.draws,
-                scenery.draw_count,
-                scenery.draw_stride,
-                "GpcListScenery.draws",
-                "GpcListScenery.draw_stride",
-            )
-        }?;
+        let draws = unsafe { array!(scenery, GpcListScenery, draws, draw_count, draw_stride) }?;
+        let draws: Vec<_> = draws.iter().map(GpcDraw::draw).collect::<Result<_, _>>()?;
         let shading = Callback { shade, user };
         // SAFETY: passed on to the caller.
         unsafe { list.inner.record(commands, &draws, scenery.location_count, &shading) }?;

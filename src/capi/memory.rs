@@ -1,6 +1,6 @@
 //! Device memory from the application's functions.
 
-use super::input::{Element, GpcStructType, Struct, shown, sizes};
+use super::input::{Element, shown};
 use crate::vulkan::{AllocateMemory, HostMemory, MemoryRequest, MemoryUse};
 use ash::vk;
 use std::ffi::{CString, c_char, c_void};
@@ -38,17 +38,6 @@ pub struct GpcMemoryRequest {
     /// VK_TRUE for a buffer, VK_FALSE for an image with optimal tiling: see
     /// VkPhysicalDeviceLimits.bufferImageGranularity.
     pub linear: vk::Bool32,
-}
-
-// SAFETY: `repr(C)`; numbers and pointers may have any bytes.
-unsafe impl Element for GpcMemoryRequest {
-    const NAME: &'static str = "GpcMemoryRequest";
-    const SIZES: &'static [usize] = sizes!(GpcMemoryRequest, linear);
-}
-
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcMemoryRequest {
-    const TYPE: GpcStructType = GpcStructType::MemoryRequest;
 }
 
 /// Memory that the application allocated.

@@ -1,7 +1,7 @@
 //! Options of antialiasing.
 
 use super::error::{Error, GpcResult};
-use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes, unused};
+use super::input::{Element, choice, flag, init, unused};
 use crate::engine::sampler::{Detection, Shading, SuperpixelOptions};
 use crate::host::Options;
 use crate::sampling::{FilterShape, Pattern, PixelFilter};
@@ -163,12 +163,19 @@ pub struct GpcOptions {
     pub filter_radius: f32,
 }
 
-// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
-unsafe impl Element for GpcOptions {
-    const NAME: &'static str = "GpcOptions";
-    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory, fixed_memory, reserved, filter_radius);
+/// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, detection of contrast
+/// and thin triangles, shading in parts. `width` and `height` still have to be set.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_options(options: *mut GpcOptions, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(options, size) }
+}
 
-    fn defaults() -> Self {
+impl GpcOptions {
+    /// What gpc_init_options sets.
+    pub(super) fn initial() -> Self {
         let defaults = Options::new(0, 0);
         Self {
             samples: defaults.samples,
@@ -181,28 +188,10 @@ unsafe impl Element for GpcOptions {
             high_dynamic_range: u32::from(defaults.high_dynamic_range),
             sharp: u32::from(defaults.sharp),
             shade_all: u32::from(defaults.shade_all),
-            // SAFETY: the struct may have any bytes.
-            ..unsafe { std::mem::zeroed() }
+            ..Self::zeroed()
         }
     }
-}
 
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for GpcOptions {
-    const TYPE: GpcStructType = GpcStructType::Options;
-}
-
-/// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, detection of contrast
-/// and thin triangles, shading in parts. `width` and `height` still have to be set.
-///
-/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_init_options(options: *mut GpcOptions, size: usize) -> GpcResult {
-    // SAFETY: passed on to the caller.
-    unsafe { init(options, size) }
-}
-
-impl GpcOptions {
     /// # Safety
     /// With `GpcPattern::List`, `locations` points to as many pairs as `location_count` says.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {

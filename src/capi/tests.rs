@@ -2,7 +2,7 @@
 
 use super::dialect::C;
 use super::error::{Error, GpcResult, answer, gpc_last_error, last_error};
-use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
+use super::input::{Element, elements, init, read, structs, write};
 use super::options::GpcOptions;
 use super::version::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
 use crate::host::{Antialiaser, Frame, List, ListOptions, Member};
@@ -98,19 +98,14 @@ struct Grown {
     third: u64,
 }
 
-// SAFETY: `repr(C)`; integers and pointers may have any bytes.
-unsafe impl Element for Grown {
-    const NAME: &'static str = "Grown";
-    const SIZES: &'static [usize] = sizes!(Grown, first, second, third);
-
-    fn defaults() -> Self {
-        Self { size: 0, r#type: 0, next: std::ptr::null(), first: 1, second: 2, third: 3 }
-    }
+structs! {
+    Grown: Scenery { first, second, third } = Grown::initial,
 }
 
-// SAFETY: the struct begins with size, type and next.
-unsafe impl Struct for Grown {
-    const TYPE: GpcStructType = GpcStructType::Scenery;
+impl Grown {
+    fn initial() -> Self {
+        Self { size: 0, r#type: 0, next: std::ptr::null(), first: 1, second: 2, third: 3 }
+    }
 }
 
 /// Memory of an application whose header has a `Grown` of `size` bytes: the struct, and the bytes after it.
