@@ -97,39 +97,20 @@ fn to_bytes<T: bytemuck::NoUninit>(values: Vec<T>) -> Vec<u8> {
 }
 
 fn apply_filter(filter: &str, bytes: Vec<u8>, stride: usize, place: &str) -> Result<Vec<u8>, Fault> {
+    fn filtered<T: bytemuck::Pod>(bytes: &[u8], decode: impl FnOnce(&mut [T])) -> Vec<u8> {
+        let mut values: Vec<T> = bytemuck::pod_collect_to_vec(bytes);
+        decode(&mut values);
+        to_bytes(values)
+    }
     match (filter, stride) {
         ("NONE", _) => Ok(bytes),
-        ("OCTAHEDRAL", 4) => {
-            let mut values: Vec<[i8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_oct(&mut values);
-            Ok(to_bytes(values))
-        }
-        ("OCTAHEDRAL", 8) => {
-            let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_oct(&mut values);
-            Ok(to_bytes(values))
-        }
-        ("COLOR", 4) => {
-            let mut values: Vec<[u8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_color(&mut values);
-            Ok(to_bytes(values))
-        }
-        ("COLOR", 8) => {
-            let mut values: Vec<[u16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_color(&mut values);
-            Ok(to_bytes(values))
-        }
-        ("QUATERNION", 8) => {
-            let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_quat(&mut values);
-            Ok(to_bytes(values))
-        }
+        ("OCTAHEDRAL", 4) => Ok(filtered::<[i8; 4]>(&bytes, decode_filter_oct)),
+        ("OCTAHEDRAL", 8) => Ok(filtered::<[i16; 4]>(&bytes, decode_filter_oct)),
+        ("COLOR", 4) => Ok(filtered::<[u8; 4]>(&bytes, decode_filter_color)),
+        ("COLOR", 8) => Ok(filtered::<[u16; 4]>(&bytes, decode_filter_color)),
+        ("QUATERNION", 8) => Ok(filtered::<[i16; 4]>(&bytes, decode_filter_quat)),
         // Each component is decoded separately, so that the width of an element does not matter.
-        ("EXPONENTIAL", _) if stride.is_multiple_of(4) => {
-            let mut values: Vec<[u32; 1]> = bytemuck::pod_collect_to_vec(&bytes);
-            decode_filter_exp(&mut values);
-            Ok(to_bytes(values))
-        }
+        ("EXPONENTIAL", _) if stride.is_multiple_of(4) => Ok(filtered::<[u32; 1]>(&bytes, decode_filter_exp)),
         (filter, _) => Err(Fault::new(place, format!("no filter \"{filter}\" for elements of {stride} bytes"))),
     }
 }

@@ -1,4 +1,8 @@
 //! Parts of a glTF document that are not drawn. Application data (`extras`) are not meant to be.
+//!
+//! Places are patterns: JSON pointers in which `*` stands for each entry of an array, and `?` for each member of an object.
+
+use std::collections::HashMap;
 
 use serde_json::Value;
 
@@ -14,123 +18,138 @@ const DISPLACED: [&str; 3] = ["POSITION", "NORMAL", "TANGENT"];
 /// Attributes of instances that are read.
 const OF_INSTANCES: [&str; 3] = ["TRANSLATION", "ROTATION", "SCALE"];
 
-/// Members that the specification gives the elements of each list, besides `extensions` and `extras`, which all have.
-const MEMBERS: [(&str, &[&str]); 16] = [
+const LIGHTS: &str = "/extensions/KHR_lights_punctual/lights/*";
+const ENVIRONMENTS: &str = "/extensions/EXT_lights_image_based/lights/*";
+const PRIMITIVES: &str = "/meshes/*/primitives/*";
+
+/// Members that the specification gives objects, besides `extensions` and `extras`, which all have.
+const MEMBERS: [(&str, &str); 27] = [
     (
-        "/accessors",
-        &["bufferView", "byteOffset", "componentType", "count", "max", "min", "name", "normalized", "sparse", "type"],
+        "",
+        "accessors animations asset bufferViews buffers cameras extensionsRequired extensionsUsed images materials meshes \
+         nodes samplers scene scenes skins textures",
     ),
-    ("/animations", &["channels", "name", "samplers"]),
-    ("/bufferViews", &["buffer", "byteLength", "byteOffset", "byteStride", "name", "target"]),
-    ("/buffers", &["byteLength", "name", "uri"]),
-    ("/cameras", &["name", "orthographic", "perspective", "type"]),
-    ("/images", &["bufferView", "mimeType", "name", "uri"]),
+    ("/accessors/*", "bufferView byteOffset componentType count max min name normalized sparse type"),
+    ("/animations/*", "channels name samplers"),
+    ("/bufferViews/*", "buffer byteLength byteOffset byteStride name target"),
+    ("/buffers/*", "byteLength name uri"),
+    ("/cameras/*", "name orthographic perspective type"),
+    ("/images/*", "bufferView mimeType name uri"),
     (
-        "/materials",
-        &[
-            "alphaCutoff",
-            "alphaMode",
-            "doubleSided",
-            "emissiveFactor",
-            "emissiveTexture",
-            "name",
-            "normalTexture",
-            "occlusionTexture",
-            "pbrMetallicRoughness",
-        ],
+        "/materials/*",
+        "alphaCutoff alphaMode doubleSided emissiveFactor emissiveTexture name normalTexture occlusionTexture \
+         pbrMetallicRoughness",
     ),
-    ("/meshes", &["name", "primitives", "weights"]),
+    ("/meshes/*", "name primitives weights"),
+    ("/nodes/*", "camera children matrix mesh name rotation scale skin translation weights"),
+    ("/samplers/*", "magFilter minFilter name wrapS wrapT"),
+    ("/scenes/*", "name nodes"),
+    ("/skins/*", "inverseBindMatrices joints name skeleton"),
+    ("/textures/*", "name sampler source"),
+    (LIGHTS, "color intensity name range spot type"),
+    ("/extensions/KHR_materials_variants/variants/*", "name"),
+    (ENVIRONMENTS, "intensity irradianceCoefficients name rotation specularImageSize specularImages"),
     (
-        "/nodes",
-        &["camera", "children", "matrix", "mesh", "name", "rotation", "scale", "skin", "translation", "weights"],
+        "/materials/*/pbrMetallicRoughness",
+        "baseColorFactor baseColorTexture metallicFactor metallicRoughnessTexture roughnessFactor",
     ),
-    ("/samplers", &["magFilter", "minFilter", "name", "wrapS", "wrapT"]),
-    ("/scenes", &["name", "nodes"]),
-    ("/skins", &["inverseBindMatrices", "joints", "name", "skeleton"]),
-    ("/textures", &["name", "sampler", "source"]),
-    ("/extensions/KHR_lights_punctual/lights", &["color", "intensity", "name", "range", "spot", "type"]),
-    ("/extensions/KHR_materials_variants/variants", &["name"]),
-    (
-        "/extensions/EXT_lights_image_based/lights",
-        &["intensity", "irradianceCoefficients", "name", "rotation", "specularImageSize", "specularImages"],
-    ),
+    ("/materials/*/normalTexture", "index scale texCoord"),
+    ("/materials/*/occlusionTexture", "index strength texCoord"),
+    ("/materials/*/emissiveTexture", "index texCoord"),
+    ("/cameras/*/perspective", "aspectRatio yfov zfar znear"),
+    ("/cameras/*/orthographic", "xmag ymag zfar znear"),
+    ("/accessors/*/sparse", "count indices values"),
+    (PRIMITIVES, "attributes indices material mode targets"),
+    ("/animations/*/channels/*", "sampler target"),
+    ("/animations/*/samplers/*", "input interpolation output"),
 ];
 
-/// The same for objects within elements: where they are, and their members.
-const INNER: [(&str, &str, &[&str]); 10] = [
-    (
-        "/materials",
-        "pbrMetallicRoughness",
-        &["baseColorFactor", "baseColorTexture", "metallicFactor", "metallicRoughnessTexture", "roughnessFactor"],
-    ),
-    ("/materials", "normalTexture", &["index", "scale", "texCoord"]),
-    ("/materials", "occlusionTexture", &["index", "strength", "texCoord"]),
-    ("/materials", "emissiveTexture", &["index", "texCoord"]),
-    ("/cameras", "perspective", &["aspectRatio", "yfov", "zfar", "znear"]),
-    ("/cameras", "orthographic", &["xmag", "ymag", "zfar", "znear"]),
-    ("/accessors", "sparse", &["count", "indices", "values"]),
-    ("/meshes", "primitives", &["attributes", "indices", "material", "mode", "targets"]),
-    ("/animations", "channels", &["sampler", "target"]),
-    ("/animations", "samplers", &["input", "interpolation", "output"]),
+/// Elements to which others refer, and what those are called to which nothing refers.
+const KINDS: [(&str, &str); 12] = [
+    ("/accessors/*", "accessors that nothing uses"),
+    ("/bufferViews/*", "buffer views that nothing uses"),
+    ("/buffers/*", "buffers that nothing uses"),
+    ("/cameras/*", "cameras of no node"),
+    ("/images/*", "images that nothing uses"),
+    (LIGHTS, "lights of no node"),
+    (ENVIRONMENTS, "environments of no scene"),
+    ("/materials/*", "materials that nothing uses"),
+    ("/meshes/*", "meshes of no node"),
+    ("/samplers/*", "samplers that nothing uses"),
+    ("/skins/*", "skins of no node"),
+    ("/textures/*", "textures that nothing uses"),
 ];
 
-/// Members of the document itself.
-const TOP: [&str; 17] = [
-    "accessors",
-    "animations",
-    "asset",
-    "bufferViews",
-    "buffers",
-    "cameras",
-    "extensionsRequired",
-    "extensionsUsed",
-    "images",
-    "materials",
-    "meshes",
-    "nodes",
-    "samplers",
-    "scene",
-    "scenes",
-    "skins",
-    "textures",
+/// Indices, and the elements to which they refer. Those of textures in materials are found by their names.
+const REFERENCES: [(&str, &str); 25] = [
+    ("/meshes/*/primitives/*/attributes/?", "/accessors/*"),
+    ("/meshes/*/primitives/*/indices", "/accessors/*"),
+    ("/meshes/*/primitives/*/targets/*/?", "/accessors/*"),
+    ("/meshes/*/primitives/*/material", "/materials/*"),
+    ("/meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/material", "/materials/*"),
+    ("/meshes/*/primitives/*/extensions/?/bufferView", "/bufferViews/*"),
+    ("/accessors/*/bufferView", "/bufferViews/*"),
+    ("/accessors/*/sparse/indices/bufferView", "/bufferViews/*"),
+    ("/accessors/*/sparse/values/bufferView", "/bufferViews/*"),
+    ("/bufferViews/*/buffer", "/buffers/*"),
+    ("/bufferViews/*/extensions/?/buffer", "/buffers/*"),
+    ("/animations/*/samplers/*/input", "/accessors/*"),
+    ("/animations/*/samplers/*/output", "/accessors/*"),
+    ("/skins/*/inverseBindMatrices", "/accessors/*"),
+    ("/nodes/*/mesh", "/meshes/*"),
+    ("/nodes/*/camera", "/cameras/*"),
+    ("/nodes/*/skin", "/skins/*"),
+    ("/nodes/*/extensions/KHR_lights_punctual/light", LIGHTS),
+    ("/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/?", "/accessors/*"),
+    ("/scenes/*/extensions/EXT_lights_image_based/light", ENVIRONMENTS),
+    ("/textures/*/sampler", "/samplers/*"),
+    ("/textures/*/source", "/images/*"),
+    ("/textures/*/extensions/?/source", "/images/*"),
+    ("/extensions/EXT_lights_image_based/lights/*/specularImages/*/*", "/images/*"),
+    ("/images/*/bufferView", "/bufferViews/*"),
 ];
 
 /// Counts the parts of a document that are not read, and the elements to which nothing refers.
 pub fn name(document: &Value, warnings: &mut Warnings) {
     name_extensions(document, warnings);
     name_members(document, warnings);
-    Uses::new(document).name(warnings);
+    name_unused(document, warnings);
+    name_nodes(document, warnings);
     name_attributes(document, warnings);
     name_skins_and_weights(document, warnings);
     name_channels(document, warnings);
-    for material in list(document, "/materials") {
+    for material in each(document, "/materials/*") {
         let is_mask = material.get("alphaMode").and_then(Value::as_str) == Some("MASK");
         let is_unused = material.get("alphaCutoff").is_some() && !is_mask;
         warnings.leave_out("alpha cutoffs of materials that are not MASK", usize::from(is_unused), "");
     }
-    for camera in list(document, "/cameras") {
-        let aspect = camera.pointer("/perspective/aspectRatio").and_then(Value::as_f64);
-        let is_unused = aspect.is_some_and(|aspect| aspect <= 0.0);
+    for aspect in each(document, "/cameras/*/perspective/aspectRatio") {
+        let is_unused = aspect.as_f64().is_some_and(|aspect| aspect <= 0.0);
         warnings.leave_out("aspect ratios that are not positive", usize::from(is_unused), "");
     }
 }
 
-/// Entries of the array at `place`.
-fn list<'v>(value: &'v Value, place: &str) -> impl Iterator<Item = &'v Value> {
-    let array = value.pointer(place).and_then(Value::as_array);
-    array.into_iter().flatten()
+/// Values at the places of a pattern.
+fn each<'v>(value: &'v Value, pattern: &str) -> Vec<&'v Value> {
+    let inner = |value: &'v Value, name: &str| -> Vec<&'v Value> {
+        match (name, value) {
+            ("*", Value::Array(entries)) => entries.iter().collect(),
+            ("?", Value::Object(members)) => members.values().collect(),
+            _ => value.get(name).into_iter().collect(),
+        }
+    };
+    let names = pattern.split('/').skip(1);
+    names.fold(vec![value], |found, name| found.into_iter().flat_map(|value| inner(value, name)).collect())
 }
 
 /// Names of an object's members.
-fn names(object: Option<&Value>) -> impl Iterator<Item = &str> {
-    let members = object.and_then(Value::as_object).into_iter().flatten();
-    members.map(|(name, _)| name.as_str())
+fn names(object: &Value) -> impl Iterator<Item = &str> {
+    object.as_object().into_iter().flatten().map(|(name, _)| name.as_str())
 }
 
-/// Extension objects of an element.
-fn extensions(element: &Value) -> impl Iterator<Item = &Value> {
-    let extensions = element.get("extensions").and_then(Value::as_object);
-    extensions.into_iter().flatten().map(|(_, extension)| extension)
+/// An index of a list.
+fn index(value: &Value) -> Option<usize> {
+    usize::try_from(value.as_u64()?).ok()
 }
 
 fn name_extensions(value: &Value, warnings: &mut Warnings) {
@@ -157,176 +176,67 @@ fn name_extensions(value: &Value, warnings: &mut Warnings) {
 
 /// Names members that the specification does not have, such as misspelt ones.
 fn name_members(document: &Value, warnings: &mut Warnings) {
-    let mut check = |object: &Value, known: &[&str]| {
-        let is_known = |name: &str| known.contains(&name) || name == "extensions" || name == "extras";
-        for name in names(Some(object)).filter(|name| !is_known(name)) {
+    for (place, known) in MEMBERS {
+        let is_known = |name: &str| known.split(' ').chain(["extensions", "extras"]).any(|known| known == name);
+        for name in each(document, place).into_iter().flat_map(names).filter(|name| !is_known(name)) {
             warnings.leave_out("members that are not of the format", 1, name);
         }
-    };
-    check(document, &TOP);
-    for (place, known) in MEMBERS {
-        list(document, place).for_each(|element| check(element, known));
-    }
-    for (place, member, known) in INNER {
-        for inner in list(document, place).filter_map(|element| element.get(member)) {
-            match inner {
-                Value::Array(several) => several.iter().for_each(|one| check(one, known)),
-                one => check(one, known),
-            }
-        }
     }
 }
 
-/// Lists whose elements others refer to, and what elements are called to which nothing refers.
-const KINDS: [(&str, &str); 11] = [
-    ("/accessors", "accessors that nothing uses"),
-    ("/bufferViews", "buffer views that nothing uses"),
-    ("/buffers", "buffers that nothing uses"),
-    ("/cameras", "cameras of no node"),
-    ("/images", "images that nothing uses"),
-    ("/extensions/KHR_lights_punctual/lights", "lights of no node"),
-    ("/extensions/EXT_lights_image_based/lights", "environments of no scene"),
-    ("/materials", "materials that nothing uses"),
-    ("/meshes", "meshes of no node"),
-    ("/skins", "skins of no node"),
-    ("/textures", "textures that nothing uses"),
-];
-const SAMPLERS: &str = "/samplers";
-
-/// Elements to which others refer.
-struct Uses<'v> {
-    document: &'v Value,
-    used: Vec<(&'static str, &'static str, Vec<bool>)>,
-}
-
-impl<'v> Uses<'v> {
-    fn new(document: &'v Value) -> Self {
-        let kinds = KINDS.into_iter().chain([(SAMPLERS, "samplers that nothing uses")]);
-        let used = kinds.map(|(place, name)| (place, name, vec![false; list(document, place).count()]));
-        let mut uses = Self { document, used: used.collect() };
-        uses.of_geometry();
-        uses.of_nodes();
-        uses.of_looks();
-        uses
-    }
-
-    /// Marks what an index refers to.
-    fn mark(&mut self, place: &str, index: Option<&Value>) {
-        let index = index.and_then(Value::as_u64).and_then(|index| usize::try_from(index).ok());
-        let used = self.used.iter_mut().find(|(other, ..)| *other == place);
-        if let Some(used) = used.and_then(|(.., used)| used.get_mut(index?)) {
+/// Names the elements to which nothing refers.
+fn name_unused(document: &Value, warnings: &mut Warnings) {
+    let kinds = KINDS.map(|(place, _)| (place, vec![false; each(document, place).len()]));
+    let mut is_used: HashMap<&str, Vec<bool>> = kinds.into();
+    let mut mark = |place: &str, reference: &Value| {
+        let used = is_used.get_mut(place).and_then(|used| used.get_mut(index(reference)?));
+        if let Some(used) = used {
             *used = true;
         }
+    };
+    for (from, place) in REFERENCES {
+        each(document, from).into_iter().for_each(|reference| mark(place, reference));
     }
-
-    fn mark_all<'i>(&mut self, place: &str, indices: impl IntoIterator<Item = Option<&'i Value>>) {
-        indices.into_iter().for_each(|index| self.mark(place, index));
+    for material in each(document, "/materials/*") {
+        each_texture(material, &mut |texture| mark("/textures/*", texture));
     }
-
-    fn of_geometry(&mut self) {
-        let document = self.document;
-        let values =
-            |object: Option<&'v Value>| object.and_then(Value::as_object).into_iter().flatten().map(|(_, v)| Some(v));
-        for primitive in list(document, "/meshes").flat_map(|mesh| list(mesh, "/primitives")) {
-            self.mark_all("/accessors", values(primitive.get("attributes")).chain([primitive.get("indices")]));
-            self.mark_all("/accessors", list(primitive, "/targets").flat_map(|target| values(Some(target))));
-            let mappings = list(primitive, "/extensions/KHR_materials_variants/mappings");
-            self.mark_all(
-                "/materials",
-                mappings.map(|mapping| mapping.get("material")).chain([primitive.get("material")]),
-            );
-            self.mark_all("/bufferViews", extensions(primitive).map(|extension| extension.get("bufferView")));
-        }
-        for accessor in list(document, "/accessors") {
-            let sparse =
-                ["/sparse/indices/bufferView", "/sparse/values/bufferView"].map(|place| accessor.pointer(place));
-            self.mark_all("/bufferViews", sparse.into_iter().chain([accessor.get("bufferView")]));
-        }
-        for view in list(document, "/bufferViews") {
-            let compressed = extensions(view).map(|extension| extension.get("buffer"));
-            self.mark_all("/buffers", compressed.chain([view.get("buffer")]));
-        }
-        for sampler in list(document, "/animations").flat_map(|animation| list(animation, "/samplers")) {
-            self.mark_all("/accessors", ["input", "output"].map(|member| sampler.get(member)));
-        }
-        self.mark_all("/accessors", list(document, "/skins").map(|skin| skin.get("inverseBindMatrices")));
-    }
-
-    fn of_nodes(&mut self) {
-        let document = self.document;
-        for node in list(document, "/nodes") {
-            self.mark("/meshes", node.get("mesh"));
-            self.mark("/cameras", node.get("camera"));
-            self.mark("/skins", node.get("skin"));
-            self.mark("/extensions/KHR_lights_punctual/lights", node.pointer("/extensions/KHR_lights_punctual/light"));
-            let instances = node.pointer("/extensions/EXT_mesh_gpu_instancing/attributes");
-            let instances = instances.and_then(Value::as_object).into_iter().flatten();
-            self.mark_all("/accessors", instances.map(|(_, index)| Some(index)));
-        }
-        for scene in list(document, "/scenes") {
-            let light = scene.pointer("/extensions/EXT_lights_image_based/light");
-            self.mark("/extensions/EXT_lights_image_based/lights", light);
+    for (place, kind) in KINDS {
+        let elements = each(document, place).into_iter().zip(&is_used[place]).enumerate();
+        for (index, (element, _)) in elements.filter(|(_, (_, used))| !**used) {
+            warnings.leave_out(kind, 1, &title(element, index));
         }
     }
+}
 
-    fn of_looks(&mut self) {
-        let document = self.document;
-        for material in list(document, "/materials") {
-            self.of_material(material);
+/// Calls `take` with the index of each texture of a material or of an object in it.
+fn each_texture(value: &Value, take: &mut impl FnMut(&Value)) {
+    for (key, inner) in value.as_object().into_iter().flatten().filter(|(key, _)| *key != "extras") {
+        if key.ends_with("Texture") {
+            inner.get("index").into_iter().for_each(&mut *take);
         }
-        for texture in list(document, "/textures") {
-            self.mark(SAMPLERS, texture.get("sampler"));
-            self.mark_all(
-                "/images",
-                extensions(texture).map(|extension| extension.get("source")).chain([texture.get("source")]),
-            );
-        }
-        for light in list(document, "/extensions/EXT_lights_image_based/lights") {
-            let images = list(light, "/specularImages").filter_map(Value::as_array).flatten();
-            self.mark_all("/images", images.map(Some));
-        }
-        self.mark_all("/bufferViews", list(document, "/images").map(|image| image.get("bufferView")));
+        each_texture(inner, take);
     }
+}
 
-    /// Marks the textures of a material or of an object in it.
-    fn of_material(&mut self, value: &Value) {
-        for (key, inner) in value.as_object().into_iter().flatten().filter(|(key, _)| *key != "extras") {
-            if key.ends_with("Texture") {
-                self.mark("/textures", inner.get("index"));
-            }
-            self.of_material(inner);
+/// Names the nodes that are in no scene.
+fn name_nodes(document: &Value, warnings: &mut Warnings) {
+    if each(document, "/scenes/*").is_empty() {
+        // All nodes are drawn.
+        return;
+    }
+    let nodes = each(document, "/nodes/*");
+    let mut open = each(document, "/scenes/*/nodes/*");
+    let mut is_reached = vec![false; nodes.len()];
+    while let Some(next) = open.pop() {
+        let reached = index(next).and_then(|index| Some((is_reached.get_mut(index)?, nodes.get(index)?)));
+        if let Some((reached, node)) = reached
+            && !std::mem::replace(reached, true)
+        {
+            open.extend(each(node, "/children/*"));
         }
     }
-
-    /// Names the elements to which nothing refers, and the nodes that are in no scene.
-    fn name(&self, warnings: &mut Warnings) {
-        for (place, kind, used) in &self.used {
-            for (index, (element, _)) in
-                list(self.document, place).zip(used).enumerate().filter(|(_, (_, used))| !**used)
-            {
-                warnings.leave_out(kind, 1, &title(element, index));
-            }
-        }
-        let nodes: Vec<&Value> = list(self.document, "/nodes").collect();
-        let scenes = list(self.document, "/scenes");
-        let mut open: Vec<&Value> = scenes.flat_map(|scene| list(scene, "/nodes")).collect();
-        if list(self.document, "/scenes").next().is_none() {
-            // All nodes are drawn.
-            return;
-        }
-        let mut is_reached = vec![false; nodes.len()];
-        while let Some(index) = open.pop() {
-            let index = index.as_u64().and_then(|index| usize::try_from(index).ok());
-            let reached = index.and_then(|index| Some((is_reached.get_mut(index)?, nodes.get(index)?)));
-            if let Some((reached, node)) = reached
-                && !std::mem::replace(reached, true)
-            {
-                open.extend(list(node, "/children"));
-            }
-        }
-        for (index, node) in nodes.iter().enumerate().filter(|(index, _)| !is_reached[*index]) {
-            warnings.leave_out("nodes of no scene", 1, &title(node, index));
-        }
+    for (index, node) in nodes.iter().enumerate().filter(|(index, _)| !is_reached[*index]) {
+        warnings.leave_out("nodes of no scene", 1, &title(node, index));
     }
 }
 
@@ -337,9 +247,8 @@ fn title(element: &Value, index: usize) -> String {
 }
 
 fn name_attributes(document: &Value, warnings: &mut Warnings) {
-    for primitive in list(document, "/meshes").flat_map(|mesh| list(mesh, "/primitives")) {
-        let attributes = primitive.get("attributes");
-        let has = |name: String| attributes.is_some_and(|all| all.get(name).is_some());
+    for attributes in each(document, "/meshes/*/primitives/*/attributes") {
+        let has = |name: String| attributes.get(name).is_some();
         // Sets of joints and weights are read up to the first that is not whole.
         let whole = (0..).take_while(|n| has(format!("JOINTS_{n}")) && has(format!("WEIGHTS_{n}"))).count();
         let is_read = |name: &str| {
@@ -349,37 +258,26 @@ fn name_attributes(document: &Value, warnings: &mut Warnings) {
         for name in names(attributes).filter(|name| !is_read(name)) {
             warnings.leave_out("vertex attributes", 1, name);
         }
-        for target in list(primitive, "/targets") {
-            for name in names(Some(target)).filter(|name| !DISPLACED.contains(name)) {
-                warnings.leave_out("attributes of morph targets", 1, name);
-            }
-        }
     }
-    for node in list(document, "/nodes") {
-        let attributes = node.pointer("/extensions/EXT_mesh_gpu_instancing/attributes");
-        for name in names(attributes).filter(|name| !OF_INSTANCES.contains(name)) {
-            warnings.leave_out("attributes of instances", 1, name);
+    for (place, kind, read) in [
+        ("/meshes/*/primitives/*/targets/*", "attributes of morph targets", DISPLACED),
+        ("/nodes/*/extensions/EXT_mesh_gpu_instancing/attributes", "attributes of instances", OF_INSTANCES),
+    ] {
+        for name in each(document, place).into_iter().flat_map(names).filter(|name| !read.contains(name)) {
+            warnings.leave_out(kind, 1, name);
         }
     }
 }
 
 /// Names skins without joints, joints without a skin, and weights without morph targets.
 fn name_skins_and_weights(document: &Value, warnings: &mut Warnings) {
-    let meshes: Vec<&Value> = list(document, "/meshes").collect();
-    let primitives = |mesh: &'_ Value| -> Vec<(usize, bool)> {
-        let of_primitive = |primitive: &Value| {
-            let has_joints = primitive.pointer("/attributes/JOINTS_0").is_some();
-            (list(primitive, "/targets").count(), has_joints)
-        };
-        list(mesh, "/primitives").map(of_primitive).collect()
-    };
+    let meshes = each(document, "/meshes/*");
     // Number of morph targets, and whether there are joints.
     let known: Vec<(usize, bool)> = meshes
         .iter()
         .map(|mesh| {
-            let primitives = primitives(mesh);
-            let targets = primitives.iter().map(|(targets, _)| *targets).max().unwrap_or(0);
-            (targets, primitives.iter().any(|(_, has_joints)| *has_joints))
+            let targets = each(mesh, "/primitives/*").into_iter().map(|primitive| each(primitive, "/targets/*").len());
+            (targets.max().unwrap_or(0), !each(mesh, "/primitives/*/attributes/JOINTS_0").is_empty())
         })
         .collect();
     let mut has_skin = vec![false; meshes.len()];
@@ -391,8 +289,8 @@ fn name_skins_and_weights(document: &Value, warnings: &mut Warnings) {
     for (mesh, (targets, _)) in meshes.iter().zip(&known) {
         warnings.leave_out("weights of no morph target", excess(mesh.get("weights"), *targets), "");
     }
-    for node in list(document, "/nodes") {
-        let mesh = node.get("mesh").and_then(Value::as_u64).and_then(|mesh| usize::try_from(mesh).ok());
+    for node in each(document, "/nodes/*") {
+        let mesh = node.get("mesh").and_then(index);
         let (targets, has_joints) = mesh.and_then(|mesh| known.get(mesh).copied()).unwrap_or_default();
         warnings.leave_out("weights of no morph target", excess(node.get("weights"), targets), "");
         let skin = usize::from(node.get("skin").is_some());
@@ -414,17 +312,16 @@ fn name_skins_and_weights(document: &Value, warnings: &mut Warnings) {
 /// Names channels and samplers of animations that have no effect.
 fn name_channels(document: &Value, warnings: &mut Warnings) {
     const PATHS: [&str; 5] = ["translation", "rotation", "scale", "weights", "pointer"];
-    let nodes = list(document, "/nodes").count() as u64;
-    for animation in list(document, "/animations") {
-        let mut is_used = vec![false; list(animation, "/samplers").count()];
-        for channel in list(animation, "/channels") {
-            let sampler =
-                channel.get("sampler").and_then(Value::as_u64).and_then(|sampler| usize::try_from(sampler).ok());
+    let nodes = each(document, "/nodes/*").len();
+    for animation in each(document, "/animations/*") {
+        let mut is_used = vec![false; each(animation, "/samplers/*").len()];
+        for channel in each(animation, "/channels/*") {
+            let sampler = channel.get("sampler").and_then(index);
             if let Some(used) = sampler.and_then(|sampler| is_used.get_mut(sampler)) {
                 *used = true;
             }
             let path = channel.pointer("/target/path").and_then(Value::as_str).unwrap_or_default();
-            let has_node = channel.pointer("/target/node").and_then(Value::as_u64).is_some_and(|node| node < nodes);
+            let has_node = channel.pointer("/target/node").and_then(index).is_some_and(|node| node < nodes);
             let has_pointer = channel.pointer("/target/extensions/KHR_animation_pointer/pointer").is_some();
             if !PATHS.contains(&path) {
                 warnings.leave_out("channels of animations of unknown properties", 1, path);
