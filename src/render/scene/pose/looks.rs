@@ -6,10 +6,10 @@ use super::keyframes;
 use crate::scene::{
     Scene,
     document::{Animated, Channel, Described},
-    error::{Fault, Warnings},
+    error::Warnings,
     light::Light,
     material::Material,
-    read::Change,
+    read::{AnimatedProperty, Change},
     view::SceneProjection,
 };
 
@@ -39,47 +39,27 @@ impl SceneAppearance {
             cameras: scene.document.cameras.clone(),
         };
         for (described, changes) in changes {
-            if let Err(fault) = looks.change(scene, described, &changes, warnings) {
-                warnings.push(&fault.but("it stays as it is at rest"));
+            let read = scene.descriptions.read(described, &changes, &scene.materials, warnings);
+            match read.and_then(|read| read) {
+                Ok(property) => looks.set(scene, property),
+                Err(fault) => warnings.push(&fault.but("it stays as it is at rest")),
             }
         }
         looks.materials.sort_by_key(|(index, _)| *index);
         looks
     }
 
-    fn change(
-        &mut self,
-        scene: &Scene,
-        described: Described,
-        changes: &[Change<'_>],
-        warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
-        let descriptions = &scene.descriptions;
-        match described {
-            Described::Material(index) => {
-                if let Some(at_rest) = scene.materials.get(index) {
-                    let material = descriptions.material(index, changes, at_rest, warnings)?;
-                    let unlit = unlit_copy(scene, index).map(|copy| {
-                        let unlit = true;
-                        let material = material.clone();
-                        (copy, Material { unlit, ..material })
-                    });
-                    self.materials.extend(unlit);
-                    self.materials.push((index, material));
-                }
+    fn set(&mut self, scene: &Scene, property: AnimatedProperty) {
+        match property {
+            AnimatedProperty::Material(index, material) => {
+                let unlit =
+                    unlit_copy(scene, index).map(|copy| (copy, Material { unlit: true, ..(*material).clone() }));
+                self.materials.extend(unlit);
+                self.materials.push((index, *material));
             }
-            Described::Light(index) => {
-                if let Some(light) = self.lights.get_mut(index) {
-                    *light = Some(descriptions.light(index, changes, warnings)?);
-                }
-            }
-            Described::Camera(index) => {
-                if let Some(camera) = self.cameras.get_mut(index) {
-                    *camera = Some(descriptions.camera(index, changes)?);
-                }
-            }
+            AnimatedProperty::Light(index, light) => self.lights[index] = Some(light),
+            AnimatedProperty::Camera(index, camera) => self.cameras[index] = Some(camera),
         }
-        Ok(())
     }
 }
 

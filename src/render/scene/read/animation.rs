@@ -20,9 +20,7 @@ use super::{
 use crate::scene::{
     document::{Animated, Channel, Described, Node, Transform},
     error::Fault,
-    light,
     material::Material,
-    view::SceneProjection,
 };
 
 /// Reads the channels of all animations, and the descriptions that have to be read again at each moment.
@@ -265,25 +263,8 @@ impl ChannelReader<'_, '_> {
         let descriptions = &self.descriptions;
         // Warnings are dropped here: they are reported when the moment is drawn.
         let mut unheard = self.context.warnings.of_the_same_file();
-        let mut read = |changes: &[Change<'_>]| -> Result<Option<AnimatedProperty>, Fault> {
-            Ok(match described {
-                Described::Material(index) => {
-                    let at_rest = &self.materials[index];
-                    descriptions.changed::<json::Material>(index, changes)?;
-                    let read = descriptions.material(index, changes, at_rest, &mut unheard);
-                    read.ok().map(Box::new).map(AnimatedProperty::Material)
-                }
-                Described::Light(index) => {
-                    descriptions.changed::<Light>(index, changes)?;
-                    let read = descriptions.light(index, changes, &mut unheard);
-                    read.ok().map(AnimatedProperty::Light)
-                }
-                Described::Camera(index) => {
-                    descriptions.changed::<json::Camera>(index, changes)?;
-                    let read = descriptions.camera(index, changes);
-                    read.ok().map(AnimatedProperty::Camera)
-                }
-            })
+        let mut read = |changes: &[Change<'_>]| -> Result<_, Fault> {
+            Ok(descriptions.read(described, changes, self.materials, &mut unheard)?.ok())
         };
         match described {
             Described::Material(i) => model.check(&Index::<json::Material>::new(i as u32), place)?,
@@ -308,14 +289,6 @@ impl ChannelReader<'_, '_> {
         self.context.warn(&Fault::new(place, reason));
         Ok(())
     }
-}
-
-/// Properties of a description that affect the image.
-#[derive(PartialEq)]
-enum AnimatedProperty {
-    Material(Box<Material>),
-    Light(light::Light),
-    Camera(SceneProjection),
 }
 
 /// Numbers of an accessor of up to four components.

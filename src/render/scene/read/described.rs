@@ -12,14 +12,23 @@ use super::{
     model::{Element, Model, typed},
 };
 use crate::scene::{
+    document::Described,
     error::{Fault, Warnings},
     light::Light,
-    material::Material,
+    material::{Material, TextureUse},
     view::SceneProjection,
 };
 
 /// A JSON pointer, relative to a description and without a leading slash, and the numbers to set there.
 pub type Change<'c> = (&'c str, Vec<f64>);
+
+/// What a description says about the image, with the description's index.
+#[derive(PartialEq)]
+pub enum AnimatedProperty {
+    Material(usize, Box<Material>),
+    Light(usize, Light),
+    Camera(usize, SceneProjection),
+}
 
 /// The descriptions of materials, lights and cameras as they are at rest.
 #[derive(Clone, Debug, Default)]
@@ -52,36 +61,43 @@ impl Descriptions {
         Self { model: Model::of(root, value) }
     }
 
-    /// A material with changes. Its textures are those of the material `at_rest`; their coordinates may have changed.
-    pub fn material(
+    /// Reads a description with changes. The textures of a material stay those of the material at rest, among `materials`;
+    /// their coordinates may change. The inner error is that of a description which can't be used.
+    ///
+    /// # Errors
+    /// If the description can't have these numbers.
+    pub fn read(
         &self,
-        index: usize,
+        described: Described,
         changes: &[Change<'_>],
-        at_rest: &Material,
+        materials: &[Material],
         warnings: &mut Warnings,
-    ) -> Result<Material, Fault> {
-        let (item, place) = self.changed::<json::Material>(index, changes)?;
-        let mut material = self.with_context(warnings, |context| material::read(&item, &place, true, context))?;
-        for (role, slot) in material.texture_slots() {
-            let known = at_rest.textures().find(|(other, _)| *other == role);
-            *slot = slot.zip(known).map(|(mut used, (_, known))| {
-                used.texture = known.texture;
-                used
-            });
-        }
-        Ok(material)
-    }
-
-    /// A light with changes.
-    pub fn light(&self, index: usize, changes: &[Change<'_>], warnings: &mut Warnings) -> Result<Light, Fault> {
-        let (item, place) = self.changed::<khr_lights_punctual::Light>(index, changes)?;
-        self.with_context(warnings, |context| light::read(&item, &place, context))
-    }
-
-    /// A camera with changes.
-    pub fn camera(&self, index: usize, changes: &[Change<'_>]) -> Result<SceneProjection, Fault> {
-        let (item, place) = self.changed::<Camera>(index, changes)?;
-        camera::read(&item, &place, &self.model)
+    ) -> Result<Result<AnimatedProperty, Fault>, Fault> {
+        Ok(match described {
+            Described::Material(index) => {
+                let (item, place) = self.changed::<json::Material>(index, changes)?;
+                let read = self.with_context(warnings, |context| material::read(&item, &place, true, context));
+                read.map(|mut material| {
+                    for (role, slot) in material.texture_slots() {
+                        let at_rest = materials
+                            .get(index)
+                            .and_then(|at_rest| at_rest.textures().find(|(other, _)| *other == role));
+                        *slot =
+                            slot.zip(at_rest).map(|(used, (_, known))| TextureUse { texture: known.texture, ..used });
+                    }
+                    AnimatedProperty::Material(index, Box::new(material))
+                })
+            }
+            Described::Light(index) => {
+                let (item, place) = self.changed::<khr_lights_punctual::Light>(index, changes)?;
+                let read = self.with_context(warnings, |context| light::read(&item, &place, context));
+                read.map(|light| AnimatedProperty::Light(index, light))
+            }
+            Described::Camera(index) => {
+                let (item, place) = self.changed::<Camera>(index, changes)?;
+                camera::read(&item, &place, &self.model).map(|camera| AnimatedProperty::Camera(index, camera))
+            }
+        })
     }
 
     /// Calls `read` with a description, and collects its warnings.
@@ -99,7 +115,7 @@ impl Descriptions {
     }
 
     /// The description at `index` with changes, and its place.
-    pub fn changed<T: Element>(&self, index: usize, changes: &[Change<'_>]) -> Result<(T, String), Fault> {
+    fn changed<T: Element>(&self, index: usize, changes: &[Change<'_>]) -> Result<(T, String), Fault> {
         let place = format!("{}/{index}", T::PLACE);
         let mut value = self.model.at(&place).cloned().unwrap_or_default();
         if value.is_null() {

@@ -58,7 +58,7 @@ use gltf::json::{self, Index};
 
 use accessor::Accessor;
 use buffer::Buffers;
-pub use described::{Change, Descriptions};
+pub use described::{AnimatedProperty, Change, Descriptions};
 use limits::Budget;
 #[cfg(feature = "cli")]
 pub use limits::check_texels;
