@@ -108,17 +108,20 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>, variant: Option<&str>
     }
     let original = bytes;
     let bytes = &*text::utf8(bytes);
-    let loaded = if stl::is_stl(bytes) {
-        stl::read(bytes, file)?
+    let mut warnings = Warnings::new(file);
+    let (format, drawing) = if stl::is_stl(bytes) {
+        ("STL", stl::read(bytes, &mut warnings))
     } else if ply::is_ply(bytes) {
-        ply::read(bytes, file, base)?
+        ("PLY", ply::read(bytes, base, &mut warnings))
     } else if obj::is_obj(bytes) {
-        obj::read(bytes, file, base)?
+        ("OBJ", obj::read(bytes, base, &mut warnings))
     } else if stl::is_named(bytes, file) {
-        stl::read(bytes, file)?
+        ("STL", stl::read(bytes, &mut warnings))
     } else {
         return read_gltf(original, file, base, variant);
     };
+    let loaded = drawing.and_then(|drawing| drawing.into_scene(format, file, warnings));
+    let loaded = loaded.map_err(|fault| fault.into_error(file))?;
     find_variant(&loaded.scene.document.root, variant, file)?;
     Ok(loaded)
 }

@@ -12,14 +12,11 @@ use super::{
     mtl::{self, Description},
     obj_part::{Corner, Part, Pool, Welder},
     shape::{Drawing, origin_of, plain},
-    text::{self, keyword, no_number, number, statements, words},
+    text::{self, broken, keyword, no_number, number, statements, words},
     texture_file::{NamedTextures, fetch},
     uri,
 };
-use crate::scene::{
-    Loaded, SceneError,
-    error::{Fault, Warnings},
-};
+use crate::scene::error::{Fault, Warnings};
 
 /// Statements with which OBJ files start, apart from comments.
 const STATEMENTS: [&[u8]; 12] = [b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl"];
@@ -36,20 +33,13 @@ pub fn is_obj(bytes: &[u8]) -> bool {
 }
 
 /// Reads an OBJ file; files that it names are in the folder `base`.
-pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
-    let mut warnings = Warnings::new(file);
+pub fn read(bytes: &[u8], base: Option<&Path>, warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let mut reader = Reader::default();
     for (line, statement) in statements(bytes) {
-        reader.add(&statement, line, &mut warnings).map_err(|reason| broken(line, &reason).into_error(file))?;
+        reader.add(&statement, line, warnings).map_err(|reason| broken("OBJ", format!("line {line}"), &reason))?;
     }
-    let drawing = reader.check().and_then(|()| reader.into_drawing(base, &mut warnings));
-    let drawing = drawing.map_err(|fault| fault.into_error(file))?;
-    drawing.into_scene("OBJ", file, warnings)
-}
-
-fn broken(line: usize, reason: &str) -> Fault {
-    let reason = format!("the OBJ file is broken: {reason}; export it again");
-    Fault::new(format!("line {line}"), reason)
+    reader.check()?;
+    reader.into_drawing(base, warnings)
 }
 
 /// Elements to which indices refer, in the order of a face's corner.
@@ -232,7 +222,7 @@ impl Reader {
             let (index, line) = self.largest[kind];
             let is_ignored = kind > 0 && count == 0;
             if index > count as i64 && !is_ignored {
-                return Err(broken(line, &out_of_range(kind, index, count)));
+                return Err(broken("OBJ", format!("line {line}"), &out_of_range(kind, index, count)));
             }
         }
         Ok(())

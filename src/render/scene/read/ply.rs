@@ -13,7 +13,6 @@ use super::{
     texture_file::{NamedTextures, TextureFiles},
 };
 use crate::scene::{
-    Loaded, SceneError,
     error::{Fault, Warnings},
     material::{AlphaMode, Material, TextureTransform, TextureUse},
 };
@@ -30,11 +29,8 @@ fn from_start(bytes: &[u8]) -> &[u8] {
 }
 
 /// Reads a PLY file; images that it names are in the folder `base`.
-pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
-    let mut warnings = Warnings::new(file);
-    let drawing = decode(from_start(bytes), &mut warnings).and_then(|decoded| decoded.draw(base, &mut warnings));
-    let drawing = drawing.map_err(|fault| fault.into_error(file))?;
-    drawing.into_scene("PLY", file, warnings)
+pub fn read(bytes: &[u8], base: Option<&Path>, warnings: &mut Warnings) -> Result<Drawing, Fault> {
+    decode(from_start(bytes), warnings)?.draw(base, warnings)
 }
 
 /// Contents of a file.

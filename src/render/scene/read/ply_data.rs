@@ -1,6 +1,6 @@
 //! Elements and properties of PLY files, as text or in binary.
 
-use super::text::{no_number, number, text, words};
+use super::text::{broken, no_number, number, text, words};
 use crate::scene::error::{Fault, Warnings};
 
 /// Type of a number in a file.
@@ -118,11 +118,6 @@ pub struct Data<'b> {
     at: usize,
 }
 
-fn broken(place: String, reason: &str) -> Fault {
-    let reason = format!("the PLY file is broken: {reason}; export it again");
-    Fault::new(place, reason)
-}
-
 impl<'b> Data<'b> {
     /// Reads the header.
     pub fn new(bytes: &'b [u8], warnings: &mut Warnings) -> Result<Self, Fault> {
@@ -134,12 +129,12 @@ impl<'b> Data<'b> {
         for line in 1.. {
             let rest = &bytes[data.at..];
             let Some(length) = rest.iter().position(|byte| *byte == end) else {
-                return Err(broken(format!("line {line}"), "its header does not end"));
+                return Err(broken("PLY", format!("line {line}"), "its header does not end"));
             };
             data.at += length + 1;
             let statement = &rest[..length];
             let mut words = words(statement);
-            let fault = |reason: &str| broken(format!("line {line}"), reason);
+            let fault = |reason: &str| broken("PLY", format!("line {line}"), reason);
             match words.next() {
                 Some(b"end_header") => break,
                 Some(b"format") => {
@@ -180,7 +175,7 @@ impl<'b> Data<'b> {
                 Some(other) => warnings.leave_out("header lines", 1, &text(other)),
             }
         }
-        data.encoding = encoding.ok_or_else(|| broken("header".to_owned(), "it names no format"))?;
+        data.encoding = encoding.ok_or_else(|| broken("PLY", "header", "it names no format"))?;
         data.check()?;
         Ok(data)
     }
@@ -210,7 +205,7 @@ impl<'b> Data<'b> {
             Encoding::BigEndian => self.read_rows(element, each, |data, kind| data.read_binary::<true>(kind)),
         });
         self.elements = elements;
-        result.map_err(|reason: String| broken(self.place(), &reason))
+        result.map_err(|reason: String| broken("PLY", self.place(), &reason))
     }
 
     /// Reads elements whose numbers `next` reads.

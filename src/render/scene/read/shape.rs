@@ -4,7 +4,7 @@ use gltf::json::{self, Index, mesh::Mode};
 
 use super::{limits::Budget, mesh::unlit_materials};
 use crate::scene::{
-    Loaded, Scene, SceneError,
+    Loaded, Scene,
     document::{Document, Node, Parts, Primitive, Transform},
     error::{Fault, Warnings},
     material::{Image, Material, Texture},
@@ -80,12 +80,7 @@ pub fn origin_of(positions: impl Iterator<Item = DVec3>) -> DVec3 {
 
 impl Drawing {
     /// Makes a scene of the drawing; `format` is the file's format.
-    pub fn into_scene(
-        mut self,
-        format: &'static str,
-        file: &str,
-        mut warnings: Warnings,
-    ) -> Result<Loaded, SceneError> {
+    pub fn into_scene(mut self, format: &'static str, file: &str, mut warnings: Warnings) -> Result<Loaded, Fault> {
         let mut document = Document { file: file.to_owned(), format, default_scene: Some(0), ..Document::default() };
         let root = &mut document.root;
         let mut roots = Vec::new();
@@ -98,7 +93,7 @@ impl Drawing {
                 strokes::number(Mode::Lines, 2 * shape.lines.len()) + strokes::number(Mode::Points, shape.points.len());
             let surfaces = shape.positions.len().max(3 * shape.triangles.len());
             let vertices = (surfaces + 4 * strokes) as u64;
-            budget.add_vertices(vertices, &place).map_err(|fault| fault.into_error(file))?;
+            budget.add_vertices(vertices, &place)?;
             let material = shape.material.min(self.materials.len() - 1);
             let name = shape.name.clone();
             let uses_uvs = self.materials[material].textures().next().is_some();

@@ -4,10 +4,9 @@ use super::{
     foreign,
     shape::{Drawing, FileObject, plain},
     stl_text,
-    text::{BOM, words},
+    text::{BOM, broken, words},
 };
 use crate::scene::{
-    Loaded, SceneError,
     error::{Fault, Warnings},
     read::shape::linear,
 };
@@ -83,15 +82,12 @@ fn vectors(facet: &[u8; TRIANGLE]) -> [Vec3; 4] {
 }
 
 /// Reads an STL file.
-pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
-    let mut warnings = Warnings::new(file);
-    let drawing = if is_text(bytes) || stated(bytes).is_none() || !bytes.contains(&0) {
-        stl_text::read(bytes, &mut warnings)
+pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
+    if is_text(bytes) || stated(bytes).is_none() || !bytes.contains(&0) {
+        stl_text::read(bytes, warnings)
     } else {
-        read_binary(bytes, &mut warnings)
-    };
-    let drawing = drawing.map_err(|fault| fault.into_error(file))?;
-    drawing.into_scene("STL", file, warnings)
+        read_binary(bytes, warnings)
+    }
 }
 
 fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
@@ -100,11 +96,10 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     let count = if stated == 0 { whole } else { stated.min(whole) };
     if stated > 0 && whole == 0 {
         let reason = format!(
-            "the STL file is broken: it has no text of the format, and as a binary file it states {stated} triangles \
-             and has {} bytes; export it again",
+            "it has no text of the format, and as a binary file it states {stated} triangles and has {} bytes",
             bytes.len()
         );
-        return Err(Fault::new("triangles", reason));
+        return Err(broken("STL", "triangles", &reason));
     }
     if count != stated {
         let reason = format!("the file states {stated} triangles, and the {count} that it has are read");

@@ -6,7 +6,7 @@ use super::{
     polygon::Triangulator,
     shape::{Drawing, FileObject, linear, origin_of, plain},
     stl::CONTRARY,
-    text::{BOM, Lines, no_number, number, text},
+    text::{BOM, Lines, broken, no_number, number, text},
 };
 use crate::scene::error::{Fault, Warnings};
 
@@ -41,7 +41,7 @@ pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
         bytes = rest;
     }
     for (index, line) in Lines(bytes).enumerate() {
-        reader.add(line, warnings).map_err(|reason| broken(index + 1, &reason))?;
+        reader.add(line, warnings).map_err(|reason| broken("STL", format!("line {}", index + 1), &reason))?;
     }
     let open = reader.open();
     if open > 0 {
@@ -49,22 +49,17 @@ pub fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
         let has_facets = reader.solids.iter().chain([&reader.solid]).any(|s| !s.ends.is_empty());
         let end = Lines(bytes).count();
         if !has_facets {
-            return Err(broken(end, "it ends within its first facet"));
+            return Err(broken("STL", format!("line {end}"), "it ends within its first facet"));
         }
         let reason = "the file ends within a facet, which is left out";
         warnings.push(&Fault::new(format!("line {end}"), reason));
     }
     reader.end_solid();
     if reader.solids.is_empty() {
-        return Err(broken(1, "it has no facets"));
+        return Err(broken("STL", "line 1", "it has no facets"));
     }
     warnings.leave_out(CONTRARY, reader.contrary, "");
     draw(&reader.solids, warnings)
-}
-
-fn broken(line: usize, reason: &str) -> Fault {
-    let reason = format!("the STL file is broken: {reason}; export it again");
-    Fault::new(format!("line {line}"), reason)
 }
 
 impl Reader {

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::scene::error::Fault;
+
 /// Statements of a text with the numbers of the lines in which they begin, from 1. Lines end with LF, CR or both. A
 /// statement that ends in a backslash continues in the next line.
 pub fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
@@ -88,6 +90,11 @@ fn is_none(word: &[u8]) -> bool {
     let name = &unsigned[..end.unwrap_or(unsigned.len())];
     let names: [&[u8]; 8] = [b"nan", b"nanq", b"nans", b"qnan", b"snan", b"inf", b"infinity", b"ind"];
     names.contains(&name) || unsigned.starts_with(b"1.#")
+}
+
+/// The fault of a file that its format does not allow.
+pub fn broken(format: &str, place: impl Into<String>, reason: &str) -> Fault {
+    Fault::new(place, format!("the {format} file is broken: {reason}; export it again"))
 }
 
 /// The reason why a word is refused as a number.
