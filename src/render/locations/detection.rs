@@ -3,7 +3,7 @@
 //! other, by the rules that frames use for pixels; the host copies data between bands.
 
 use super::crossings::CrossingFinder;
-use super::image::{OutputImage, chosen};
+use super::image::OutputImage;
 use super::partition::Partition;
 use super::plan::LocationPlan;
 use super::{ListSettings, PinholeLists, PointSample};
@@ -123,8 +123,11 @@ impl Headless {
                 masks[tile] & bit != 0
             }
         };
-        let chosen = chosen(rig, is_found);
-        self.sample_cells(scene, &chosen, &settings, image)
+        let found = rig.iter().map(|(pinhole, locations)| {
+            let locations = locations.iter().filter(|location| is_found(location.output)).copied();
+            (*pinhole, locations.collect())
+        });
+        self.sample_cells(scene, &found.collect::<Vec<_>>(), &settings, image)
     }
 
     /// Marks the cells in which a probe sees the location's triangle but is reached by other lights: the shadow of

@@ -125,15 +125,6 @@ impl Headless {
     }
 }
 
-/// Locations of the cells of an output for which `is_chosen` is true.
-pub(super) fn chosen(rig: PinholeLists<'_>, is_chosen: impl Fn(u32) -> bool) -> Vec<(Pinhole, Vec<SampleLocation>)> {
-    let of = |locations: &[SampleLocation]| {
-        let all = locations.iter().copied();
-        all.filter(|location| is_chosen(location.output)).collect()
-    };
-    rig.iter().map(|(pinhole, locations)| (*pinhole, of(locations))).collect()
-}
-
 impl OutputImage {
     fn new(count: usize, settings: &Settings) -> Self {
         let background = settings.sampler().background_rgba();
@@ -149,29 +140,17 @@ impl OutputImage {
     }
 
     fn put(&mut self, cell: usize, seen: &PointSample) {
-        if let (Some(color), Some(attributes), Some(blend_id), Some(code), Some(shadows)) = (
-            self.colors.get_mut(cell),
-            self.attributes.get_mut(cell),
-            self.blend_ids.get_mut(cell),
-            self.codes.get_mut(cell),
-            self.shadows.get_mut(cell),
-        ) {
-            *color = seen.color;
-            attributes.depth = seen.depth;
-            attributes.id = seen.id;
-            attributes.normal = seen.normal;
-            *blend_id = seen.blend_id;
-            *code = seen.code;
-            *shadows = seen.shadows;
-        }
+        self.colors[cell] = seen.color;
+        let PointSample { depth, id, normal, .. } = *seen;
+        self.attributes[cell] = PixelAttributes { depth, id, normal, ..self.attributes[cell] };
+        self.blend_ids[cell] = seen.blend_id;
+        self.codes[cell] = seen.code;
+        self.shadows[cell] = seen.shadows;
     }
 
     fn resolve(&mut self, cell: usize, resolved: [f32; 4], samples: u32) {
-        if let (Some(color), Some(attributes)) = (self.colors.get_mut(cell), self.attributes.get_mut(cell)) {
-            *color = resolved;
-            attributes.samples = samples;
-            attributes.superpixel = 1;
-        }
+        self.colors[cell] = resolved;
+        self.attributes[cell] = PixelAttributes { samples, superpixel: 1, ..self.attributes[cell] };
     }
 
     /// Number of cells.
@@ -181,8 +160,7 @@ impl OutputImage {
 
     /// Whether a cell has been sampled as a superpixel.
     pub fn is_superpixel(&self, cell: u32) -> bool {
-        let attributes = self.attributes.get(cell as usize);
-        attributes.is_some_and(|attributes| attributes.superpixel == 1)
+        self.attributes[cell as usize].superpixel == 1
     }
 
     /// Surface at the location of a cell. The cell's index in the result is relative to `first`.

@@ -78,13 +78,6 @@ impl ListSettings {
     }
 }
 
-/// Values at the locations of a run.
-struct RunValues<'a> {
-    /// Range of the run in the order of the partition.
-    places: Range<usize>,
-    seen: LocationValues<'a>,
-}
-
 /// Values at a list of locations, in the order of the list, and statistics of sampling them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sampled<T> {
@@ -131,13 +124,13 @@ impl Headless {
         };
         let partition = Partition::new(locations, Cells::Points)?;
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
-        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
-            partition.put(&run.places, &mut values, |i| {
-                let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
+        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run, seen| {
+            partition.put(run, &mut values, |i| {
+                let [[depth, id, blend_id, code], normal] = seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
                 let [.., shadows] = normal;
                 PointSample {
-                    color: run.seen.colors[i],
+                    color: seen.colors[i],
                     depth: f32::from_bits(depth),
                     id,
                     blend_id,
@@ -188,23 +181,23 @@ impl Headless {
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let mut spreads = Vec::new();
-        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run| {
-            partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
+        let statistics = self.run_locations(&partition, scene, pinhole, settings, |run, seen| {
+            partition.put(run, &mut values, |i| seen.colors[i]);
             if spread.is_some() {
-                partition.put(&run.places, &mut spreads, |i| run.seen.spreads[i]);
+                partition.put(run, &mut spreads, |i| seen.spreads[i]);
             }
         })?;
         Ok((Sampled { values, statistics }, spreads))
     }
 
-    /// Samples locations run by run, in the partition's order, and passes the values of each run to `take`.
+    /// Samples locations run by run, in the partition's order, and passes each run and its values to `take`.
     fn run_locations(
         &mut self,
         partition: &Partition<'_>,
         scene: &PreparedScene,
         pinhole: &Pinhole,
         settings: &ListSettings,
-        mut take: impl FnMut(&RunValues<'_>),
+        mut take: impl FnMut(&Range<usize>, &LocationValues<'_>),
     ) -> Result<Statistics, RenderError> {
         self.check(&scene.gpu_scene)?;
         settings.scene.check()?;
@@ -237,7 +230,7 @@ impl Headless {
             },
             |sampler, run| {
                 sampler.add_statistics(scene, &partition.window(&run), &mut statistics)?;
-                take(&RunValues { seen: sampler.values(run.len())?, places: run });
+                take(&run, &sampler.values(run.len())?);
                 Ok(())
             },
         )?;
