@@ -48,7 +48,7 @@ impl PlaneWindow {
 
     /// Matrix from the scene's coordinates to clip space around the window's middle.
     pub fn to_clip(self, scene: &GpuScene, pinhole: &Pinhole) -> DMat4 {
-        pinhole.pixel_matrix(scene.origin(), DVec2::from_array(self.middle))
+        pinhole.pixel_matrix(scene.geometry.origin, DVec2::from_array(self.middle))
     }
 
     /// Uniform block for a list of cells in this window, each with a number of samples.

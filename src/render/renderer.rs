@@ -92,7 +92,7 @@ impl PreparedScene {
     /// Number of triangles.
     #[must_use]
     pub fn triangle_count(&self) -> u64 {
-        self.gpu_scene.triangle_count()
+        self.gpu_scene.geometry.triangle_count
     }
 
     /// Records the copies of the scene and of its casters to the device, to be executed before the first frame that
@@ -104,7 +104,7 @@ impl PreparedScene {
     /// - The scene outlives the execution of the commands, and [`Self::discard_uploads`] is not called before it.
     pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
         // SAFETY: guaranteed by the caller.
-        let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
+        let recorder = unsafe { Recorder::new(self.gpu_scene.memory.gpu(), commands, None) };
         self.uploads.record(&recorder, &self.gpu_scene);
         if let Some(casters) = &self.casters {
             self.caster_uploads.record(&recorder, casters.scene());
@@ -227,7 +227,7 @@ impl Renderer {
 
     /// Checks that a scene belongs to this renderer's device.
     pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
-        if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) { Ok(()) } else { Err(RenderError::OtherDevice) }
+        if Arc::ptr_eq(scene.memory.gpu(), &self.gpu) { Ok(()) } else { Err(RenderError::OtherDevice) }
     }
 
     pub(super) fn prepare_like(&self, frame: &SceneFrame, capacity: Capacity) -> Result<SceneFrame, RenderError> {

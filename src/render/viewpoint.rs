@@ -36,16 +36,16 @@ impl SceneBlock {
     pub(super) fn of(scene: &GpuScene, viewpoint: &EyePoint) -> Self {
         let parallel = if viewpoint.is_parallel { 1.0 } else { 0.0 };
         Self {
-            eye: (viewpoint.eye - scene.origin()).as_vec3().extend(1.0).to_array(),
+            eye: (viewpoint.eye - scene.geometry.origin).as_vec3().extend(1.0).to_array(),
             view_direction: viewpoint.direction.as_vec3().extend(parallel).to_array(),
-            irradiance: scene.environment().irradiance,
-            environment: scene.environment().axes,
+            irradiance: scene.environment.uniform.irradiance,
+            environment: scene.environment.uniform.axes,
             triangle_count: scene.triangle_slots(),
-            first_mask: scene.first_mask(),
-            first_blend: scene.first_blend(),
-            material_vectors: scene.material_vectors(),
+            first_mask: scene.first_mask,
+            first_blend: scene.first_blend,
+            material_vectors: scene.material_vectors,
             bin_count: scene.bin_count(),
-            light_count: scene.light_features().count,
+            light_count: scene.light_features.count,
         }
     }
 }

@@ -308,7 +308,7 @@ fn read_by_shader(headless: &mut Headless, scene: &Scene, pose: &Pose, instanced
     let look = FrameLook::new(&memory, scene).unwrap();
     let frame = spirv::Frame {
         transform: to_clip().as_mat4().to_cols_array(),
-        material_vectors: scene.material_vectors(),
+        material_vectors: scene.material_vectors,
         ..spirv::Frame::default()
     };
     let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;

@@ -71,7 +71,7 @@ impl SceneFrame {
             Shadows::None => None,
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
         };
-        let gpu = scene.memory().gpu().clone();
+        let gpu = scene.memory.gpu().clone();
         let taken = scene.memory_bytes() + reserved;
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
         let shadows = casters.map(|casters| ShadowRequest {

@@ -36,7 +36,7 @@ impl SceneFrame {
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         self.shortfall()?.check()?;
         let superpixels = self.passes.superpixels.as_ref();
-        let (triangles, of_scene) = (self.scene.triangle_count(), self.scene.memory_bytes());
+        let (triangles, of_scene) = (self.scene.geometry.triangle_count, self.scene.memory_bytes());
         let mut statistics = self.job.statistics(superpixels, &self.tiles(), triangles, of_scene)?;
         statistics.regions = self.plan.regions.len() as u64;
         if self.passes.blended.is_none() {

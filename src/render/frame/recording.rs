@@ -102,7 +102,7 @@ impl FrameRecording<'_> {
             pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
             whole: [DVec2::ZERO, place(self.settings.size)],
             part: [low, low + place(region.outer())],
-            origin: self.scene.origin(),
+            origin: self.scene.geometry.origin,
         }))
     }
 

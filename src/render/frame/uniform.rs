@@ -49,7 +49,7 @@ impl FrameRecording<'_> {
 pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) -> DMat4 {
     let side = settings.method.side();
     let [width, height] = settings.size.map(|pixels| f64::from(pixels * side));
-    camera.pixel_matrix(scene.origin(), width, height)
+    camera.pixel_matrix(scene.geometry.origin, width, height)
 }
 
 /// Difference in depth of two surfaces whose distances differ by a pixel's width: a factor that is multiplied by the

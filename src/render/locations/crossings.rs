@@ -128,7 +128,7 @@ impl CrossingFinder {
     /// If the times can't be read.
     pub fn add_statistics(&self, scene: &PreparedScene, total: &mut Statistics) -> Result<(), VulkanError> {
         let scene = &scene.gpu_scene;
-        total.append(self.run.job.statistics(None, &[], scene.triangle_count(), scene.memory_bytes())?);
+        total.append(self.run.job.statistics(None, &[], scene.geometry.triangle_count, scene.memory_bytes())?);
         Ok(())
     }
 }

@@ -220,7 +220,7 @@ impl Headless {
                     pinhole: *pinhole,
                     whole: [low - beyond, high + beyond],
                     part: window.rectangle(beyond),
-                    origin: scene.gpu_scene.origin(),
+                    origin: scene.gpu_scene.geometry.origin,
                 };
                 // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
                 headless.submit(|commands| unsafe {

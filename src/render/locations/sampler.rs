@@ -183,7 +183,7 @@ impl LocationSampler {
         total: &mut Statistics,
     ) -> Result<(), VulkanError> {
         let scene = &scene.gpu_scene;
-        let (triangles, of_scene) = (scene.triangle_count(), scene.memory_bytes());
+        let (triangles, of_scene) = (scene.geometry.triangle_count, scene.memory_bytes());
         let tiles = [window.tile_count()];
         total.append(self.run.job.statistics(Some(&self.sampler), &tiles, triangles, of_scene)?);
         Ok(())

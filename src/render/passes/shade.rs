@@ -37,14 +37,14 @@ pub(crate) fn pass(
     shadow_words: u32,
     output: &ColorConstants,
 ) -> Result<Pass, VulkanError> {
-    let lights = scene.light_features();
+    let lights = scene.light_features;
     let (pixels, cells, merged) = match source {
         ShadeSource::Pixels { .. } => (true, Cells::Pixels, false),
         ShadeSource::Fragments { cells, merged } => (false, cells, merged),
     };
     let display_codes = source == ShadeSource::Pixels { display_codes: true };
     let one_bin = scene.bins.len() <= 1 && !merged;
-    let common = spirv::Shade {
+    let shader = |bin: &MaterialBin| spirv::Shade {
         pixels,
         one_bin,
         display_codes,
@@ -53,13 +53,13 @@ pub(crate) fn pass(
         blended: !pixels && scene.has_blend(),
         box_filter: output.box_filter,
         tinted: output.tinted,
-        environment: scene.has_environment(),
+        environment: scene.has_environment,
         locations: cells.are_locations(),
         instanced: scene.is_instanced(),
         shadow_words,
         tonemap: output.tonemap,
         tonemap_codes: output.tonemap_codes,
-        ..spirv::Shade::default()
+        ..bin.shader
     };
     let dispatch = |(number, bin): (u32, &MaterialBin)| {
         let textures = if output.box_filter { &bin.averaged_textures } else { &bin.textures };
@@ -68,7 +68,7 @@ pub(crate) fn pass(
         } else {
             Size::Indirect(Argument::Shade as u32 + number)
         };
-        let kernel = layout.kernel(&bin.features.shader(common))?;
+        let kernel = layout.kernel(&shader(bin))?;
         let pushed = spirv::ShadePush { bin: number };
         Ok(kernel.dispatch(pushed, size).with(textures))
     };

@@ -80,6 +80,7 @@ pub(in crate::render) struct GpuGeometry {
     pub(in crate::render) triangle_count: u64,
     /// Number of triangle slots; some may be empty.
     pub(in crate::render) triangle_slots: u32,
+    /// World position to which positions are relative.
     pub(in crate::render) origin: DVec3,
 }
 

@@ -14,7 +14,7 @@ use half::f16;
 pub(in crate::render) struct GpuEnvironment {
     image: Image,
     sampler: DeviceSampler,
-    pub(super) uniform: EnvironmentUniform,
+    pub(in crate::render) uniform: EnvironmentUniform,
     /// Side of each level's faces in texels, and the index of its first texel in the source of the copy.
     levels: Vec<(u32, u32)>,
 }

@@ -127,7 +127,7 @@ impl FrameLook {
         }
         if self.lights.is_some() {
             let lights = moment.lights.iter();
-            let lights: Vec<_> = lights.map(|light| GpuLight::of_scene(light, scene.origin())).collect();
+            let lights: Vec<_> = lights.map(|light| GpuLight::of_scene(light, scene.geometry.origin)).collect();
             self.updates.push(Update {
                 of_materials: false,
                 first_byte: 0,

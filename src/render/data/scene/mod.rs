@@ -13,7 +13,6 @@ mod texture_set;
 mod triangles;
 
 pub(in crate::render) use bins::MaterialBin;
-pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
 pub use look::FrameLook;
 
@@ -28,7 +27,6 @@ pub use alpha_atlas::AlphaUse;
 use ash::vk;
 use bins::Bins;
 use environment::{EnvironmentUpload, GpuEnvironment};
-use glam::DVec3;
 use light::GpuLight;
 use look::ChangingLook;
 use material::MaterialTable;
@@ -42,21 +40,25 @@ use triangles::Triangles;
 pub struct GpuScene {
     pub(in crate::render) geometry: GpuGeometry,
     materials: TexelBuffer,
-    material_vectors: u32,
+    /// Number of vectors of a material in the buffer of materials.
+    pub(in crate::render) material_vectors: u32,
     is_tinted: bool,
     lights: Buffer,
     changing: Option<ChangingLook>,
     pub(in crate::render) alpha_atlas: TexelBuffer,
     pub(in crate::render) environment: GpuEnvironment,
-    has_environment: bool,
+    /// Whether an environment map lights surfaces, instead of the built-in studio.
+    pub(in crate::render) has_environment: bool,
     pub(in crate::render) bins: Vec<MaterialBin>,
-    first_mask: u32,
-    first_blend: u32,
+    /// Index of the first MASK triangle; if there is none, the index at which MASK triangles would begin.
+    pub(in crate::render) first_mask: u32,
+    /// Index of the first BLEND triangle; if there is none, the number of indices.
+    pub(in crate::render) first_blend: u32,
     high_frequency_triangles: u64,
-    light_features: LightFeatures,
+    pub(in crate::render) light_features: LightFeatures,
     textures: Vec<GpuTexture>,
     _samplers: Vec<DeviceSampler>,
-    memory: Memory,
+    pub(in crate::render) memory: Memory,
     /// Whether the copies that fill the device memory have been executed.
     uploaded: AtomicBool,
 }
@@ -163,20 +165,10 @@ impl GpuScene {
         self.uploaded.load(Ordering::Relaxed)
     }
 
-    pub(crate) fn memory(&self) -> &Memory {
-        &self.memory
-    }
-
     /// Bytes of device memory, including staged uploads that have not been discarded.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.memory.used()
-    }
-
-    /// Number of triangles that are drawn.
-    #[must_use]
-    pub fn triangle_count(&self) -> u64 {
-        self.geometry.triangle_count
     }
 
     /// Whether a motion moves vertices.
@@ -198,52 +190,10 @@ impl GpuScene {
         motion.is_some_and(|motion| motion.has(moment))
     }
 
-    /// Index of the first MASK triangle; if there is none, the index at which MASK triangles would begin.
-    #[must_use]
-    pub fn first_mask(&self) -> u32 {
-        self.first_mask
-    }
-
-    /// Index of the first BLEND triangle; if there is none, the number of indices.
-    #[must_use]
-    pub fn first_blend(&self) -> u32 {
-        self.first_blend
-    }
-
-    /// Number of vectors of a material in the buffer of materials.
-    #[must_use]
-    pub fn material_vectors(&self) -> u32 {
-        self.material_vectors
-    }
-
-    /// Whether an environment map lights surfaces, instead of the built-in studio.
-    #[must_use]
-    pub fn has_environment(&self) -> bool {
-        self.has_environment
-    }
-
-    /// Fields of the uniform block that belong to the environment.
-    #[must_use]
-    pub fn environment(&self) -> &EnvironmentUniform {
-        &self.environment.uniform
-    }
-
-    /// Lights of the scene, as far as shading pipelines depend on them.
-    #[must_use]
-    pub fn light_features(&self) -> LightFeatures {
-        self.light_features
-    }
-
     /// Whether light from behind shines through some surfaces.
     #[must_use]
     pub fn is_backlit(&self) -> bool {
-        self.bins.iter().any(|bin| bin.features.is_backlit())
-    }
-
-    /// World position to which device positions are relative.
-    #[must_use]
-    pub fn origin(&self) -> DVec3 {
-        self.geometry.origin
+        self.bins.iter().any(|bin| bin.shader.diffuse_transmission)
     }
 }
 

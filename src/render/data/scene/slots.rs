@@ -8,13 +8,11 @@ use crate::vulkan::VulkanError;
 /// many as every Vulkan device supports.
 pub(super) const SLOTS: usize = shade_set::TEXTURES.count as usize;
 
-/// Slot of each role, by the role's number.
-pub(in crate::render) type RoleSlots = [Option<u8>; TextureRole::COUNT];
-
 /// Slots of a material; the base colour has the first.
 #[derive(Clone)]
 pub(super) struct Slots {
-    pub(super) of_role: RoleSlots,
+    /// Slot of each role, by the role's number.
+    pub(super) of_role: [Option<u8>; TextureRole::COUNT],
     /// Texture of each slot, and whether it is in sRGB.
     pub(super) uses: Vec<(TextureUse, bool)>,
     /// Whether all textures have the same width and height.
