@@ -3,7 +3,7 @@
 use super::content::HostContent;
 use super::draw::{DrawRun, PlacedDraws};
 use super::indirect::IndirectPlacing;
-use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared, Topology, VertexFormat};
+use super::{Geometry, HostError, Indices, Mesh, PositionSpace, Shared, VertexFormat};
 use crate::engine::data::Draws;
 use crate::engine::passes::adopt::{self, AdoptedCounts};
 use crate::engine::passes::coordinates;
@@ -38,20 +38,6 @@ struct MeshSets {
 
 /// Number of types of the components of vertices.
 const VERTEX_KINDS: usize = spirv::VERTEX_SNORM as usize + 1;
-
-/// Draws of a recording whose triangles and positions are made by the same dispatches: of a run of the CPU's draws, or of a
-/// list of indirect draws.
-struct DrawGroup {
-    mesh: usize,
-    topology: Topology,
-    front_face: vk::FrontFace,
-    /// First draw and number of draws among which those of the triangles are searched.
-    draws: [u32; 2],
-    /// First triangle and number of triangles.
-    triangles: [u32; 2],
-    /// First position and number of positions, if positions are in object space.
-    positions: [u32; 2],
-}
 
 /// Index into `adopt` of the kernel that reads these indices.
 fn kernel(indices: Option<Indices>) -> usize {
@@ -155,56 +141,31 @@ impl Adoption {
         if let Some(indirect) = &self.indirect {
             indirect.record(recorder, &self.geometry, &placed.indirect);
         }
-        let groups = self.groups(placed);
-        self.record_vertices(recorder, &groups);
+        self.record_vertices(recorder, &placed.runs);
         let limits = self.shared.gpu.limits();
-        for group in &groups {
-            let indices = self.geometry.meshes[group.mesh].indices;
+        for run in &placed.runs {
+            let indices = self.geometry.meshes[run.mesh].indices;
             let Some(adopt) = &self.adopt[kernel(indices)] else {
                 continue;
             };
             let counts = AdoptedCounts {
-                first_triangle: group.triangles[0],
-                triangle_count: group.triangles[1],
-                first_draw: group.draws[0],
-                draw_count: group.draws[1],
+                first_triangle: run.triangles[0],
+                triangle_count: run.triangles[1],
+                first_draw: run.draws[0],
+                draw_count: run.draws[1],
                 first_index: indices.map_or(0, |indices| indices.first_lent(limits)),
                 index_count: indices.map_or(0, |indices| indices.capacity),
-                topology: group.topology as u32,
-                clockwise: u32::from(group.front_face == vk::FrontFace::CLOCKWISE),
+                topology: run.topology as u32,
+                clockwise: u32::from(run.front_face == vk::FrontFace::CLOCKWISE),
             };
-            recorder.show(&self.sets[group.mesh].adopt);
+            recorder.show(&self.sets[run.mesh].adopt);
             adopt.record(recorder, &counts, counts.triangle_count);
         }
     }
 
-    /// Runs of the CPU's draws, and lists of indirect draws.
-    fn groups(&self, placed: &PlacedDraws) -> Vec<DrawGroup> {
-        let drawn = placed.runs.iter().map(|run: &DrawRun| DrawGroup {
-            mesh: run.mesh,
-            topology: run.topology,
-            front_face: run.front_face,
-            draws: [0, placed.draws.len() as u32],
-            triangles: run.triangles,
-            positions: run.positions,
-        });
-        let indirect = placed.indirect.iter().map(|part| {
-            let list = &self.geometry.indirect[part.list];
-            DrawGroup {
-                mesh: list.mesh as usize,
-                topology: list.topology,
-                front_face: list.front_face,
-                draws: [part.first_draw, list.draws() as u32],
-                triangles: [part.first_triangle, list.triangle_capacity],
-                positions: [part.first_position, list.positions(self.geometry.position_space) as u32],
-            }
-        });
-        drawn.chain(indirect).collect()
-    }
-
-    fn record_vertices(&self, recorder: &Recorder<'_>, groups: &[DrawGroup]) {
+    fn record_vertices(&self, recorder: &Recorder<'_>, runs: &[DrawRun]) {
         let limits = self.shared.gpu.limits();
-        let parts = self.vertex_parts(groups);
+        let parts = self.vertex_parts(runs);
         let counts = |part: &VertexPart, format: VertexFormat, before: u32, stride: u32| {
             let [x, y, z] = format.bias;
             VertexCounts {
@@ -241,17 +202,16 @@ impl Adoption {
         }
     }
 
-    /// Parts of meshes to transform. With positions in object space, each group of draws is a part; with positions in clip
+    /// Parts of meshes to transform. With positions in object space, each run of draws is a part; with positions in clip
     /// space, each mesh that is drawn.
-    fn vertex_parts(&self, groups: &[DrawGroup]) -> Vec<VertexPart> {
+    fn vertex_parts(&self, runs: &[DrawRun]) -> Vec<VertexPart> {
         if self.geometry.position_space != PositionSpace::Clip {
-            let part =
-                |group: &DrawGroup| VertexPart { mesh: group.mesh, draws: group.draws, positions: group.positions };
-            return groups.iter().map(part).collect();
+            let part = |run: &DrawRun| VertexPart { mesh: run.mesh, draws: run.draws, positions: run.positions };
+            return runs.iter().map(part).collect();
         }
         let mut is_drawn = vec![false; self.geometry.meshes.len()];
-        for group in groups {
-            is_drawn[group.mesh] = true;
+        for run in runs {
+            is_drawn[run.mesh] = true;
         }
         let meshes = self.geometry.meshes.iter().enumerate();
         let parts = meshes.zip(self.geometry.first_positions());

@@ -66,13 +66,16 @@ impl Default for Draw {
     }
 }
 
-/// Consecutive draws of the same mesh, topology and front face, which are read together.
+/// Draws whose triangles and positions are made by the same dispatches: consecutive draws of the same mesh, topology and front
+/// face, or a list of indirect draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DrawRun {
     /// Index of the mesh.
     pub mesh: usize,
     pub topology: Topology,
     pub front_face: vk::FrontFace,
+    /// First draw and number of draws among which those of the triangles are searched.
+    pub draws: [u32; 2],
     /// First triangle of the run, counted over all draws, and number of triangles.
     pub triangles: [u32; 2],
     /// First position of the run in clip space and number of positions, if positions are in object space.
@@ -101,7 +104,7 @@ pub(super) struct PlacedDraws {
     pub draws: Vec<HostDraw>,
     /// Matrix of each draw if positions are in object space; otherwise empty.
     pub matrices: Vec<[[f32; 4]; 4]>,
-    /// Runs of the draws that have triangles.
+    /// Runs of the draws that have triangles, and of the lists of indirect draws.
     pub runs: Vec<DrawRun>,
     /// Parts of the lists of indirect draws.
     pub indirect: Vec<IndirectPart>,
@@ -177,7 +180,7 @@ impl PlacedDraws {
                     ..common
                 }
             });
-            placed.extend_runs(draw, [made, vertices]);
+            placed.extend_runs(draw, draws.len() as u32, [made, vertices]);
             let comes_late = |before: u32| before < placed.triangles;
             if !draw.blended {
                 if comes_late(placed.solid) {
@@ -204,28 +207,25 @@ impl PlacedDraws {
         Ok(placed)
     }
 
-    /// Adds a draw to the last run, or begins a run if the draw's mesh, topology or front face differs.
-    fn extend_runs(&mut self, draw: &Draw, [first, vertices]: [u32; 2]) {
+    /// Adds one of `count` draws to the last run, or begins a run if the draw's mesh, topology or front face differs.
+    fn extend_runs(&mut self, draw: &Draw, count: u32, positions: [u32; 2]) {
         if draw.triangle_count == 0 {
             return;
         }
-        let kind = (draw.mesh as usize, draw.topology, draw.front_face);
+        let next = DrawRun {
+            mesh: draw.mesh as usize,
+            topology: draw.topology,
+            front_face: draw.front_face,
+            draws: [0, count],
+            triangles: [self.triangles, draw.triangle_count],
+            positions,
+        };
         match self.runs.last_mut() {
-            // Indirect draws may come between.
-            Some(run)
-                if (run.mesh, run.topology, run.front_face) == kind
-                    && run.triangles.iter().sum::<u32>() == self.triangles =>
-            {
+            Some(run) if (DrawRun { triangles: next.triangles, positions, ..*run }) == next => {
                 run.triangles[1] += draw.triangle_count;
-                run.positions[1] += vertices;
+                run.positions[1] += positions[1];
             }
-            _ => self.runs.push(DrawRun {
-                mesh: kind.0,
-                topology: kind.1,
-                front_face: kind.2,
-                triangles: [self.triangles, draw.triangle_count],
-                positions: [first, vertices],
-            }),
+            _ => self.runs.push(next),
         }
     }
 }
@@ -234,6 +234,7 @@ impl PlacedDraws {
 struct Lists<'a> {
     /// Lists that are not placed yet, in the order of their classes, with their parts as far as these are known.
     left: std::iter::Peekable<std::vec::IntoIter<(&'a IndirectDraws, IndirectPart)>>,
+    space: PositionSpace,
 }
 
 impl<'a> Lists<'a> {
@@ -252,7 +253,7 @@ impl<'a> Lists<'a> {
             first_made += list.positions(geometry.position_space);
         }
         lists.sort_by_key(|(list, _)| list.class());
-        Self { left: lists.into_iter().peekable() }
+        Self { left: lists.into_iter().peekable(), space: geometry.position_space }
     }
 
     /// Places the next lists, as far as their classes are `due`.
@@ -260,6 +261,14 @@ impl<'a> Lists<'a> {
         while let Some((list, part)) = self.left.next_if(|(list, _)| due(list.class())) {
             let first_triangle = placed.triangles;
             placed.indirect.push(IndirectPart { first_triangle, ..part });
+            placed.runs.push(DrawRun {
+                mesh: list.mesh as usize,
+                topology: list.topology,
+                front_face: list.front_face,
+                draws: [part.first_draw, list.draws() as u32],
+                triangles: [first_triangle, list.triangle_capacity],
+                positions: [part.first_position, list.positions(self.space) as u32],
+            });
             placed.parts.push(TrianglePart {
                 first_triangle,
                 triangle_count: list.triangle_capacity,
@@ -450,6 +459,7 @@ mod tests {
             mesh: 0,
             topology: Topology::List,
             front_face: vk::FrontFace::COUNTER_CLOCKWISE,
+            draws: [0, 4],
             triangles: [0, 3],
             positions: [0, 40],
         };
@@ -604,6 +614,7 @@ mod tests {
             mesh,
             topology,
             front_face: vk::FrontFace::COUNTER_CLOCKWISE,
+            draws: [0, 6],
             triangles,
             positions: [0, 0],
         };

@@ -206,17 +206,6 @@ impl Frame {
         geometry: &Geometry,
         kinds: &ImageKinds,
         options: &Options,
-    ) -> Result<Self, HostError> {
-        let capacity = Capacity::default();
-        // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, kinds, options, capacity) }
-    }
-
-    unsafe fn with_capacity(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
-        kinds: &ImageKinds,
-        options: &Options,
         capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
@@ -298,12 +287,8 @@ impl Frame {
         if self.options.fixed_memory {
             return Ok(());
         }
-        let Some(capacity) = self.growth.wanted(&self.work.sampling)? else {
-            return Ok(());
-        };
-        let (shared, lending) = (&self.shared, &self.lending);
-        let larger = Work::new(shared, lending, &self.kinds, &self.options, capacity);
-        if let Some(larger) = self.growth.made(capacity, larger)? {
+        let make = |capacity| Work::new(&self.shared, &self.lending, &self.kinds, &self.options, capacity);
+        if let Some(larger) = self.growth.larger(&self.work.sampling, make)? {
             self.lending.note(&self.work.sampling.job);
             self.work = larger;
         }
@@ -322,7 +307,7 @@ impl Frame {
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
         let capacity = self.work.sampling.next_capacity()?;
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(&self.shared, &self.lending.geometry, &self.kinds, &self.options, capacity) }
+        unsafe { Self::new(&self.shared, &self.lending.geometry, &self.kinds, &self.options, capacity) }
     }
 
     /// Records the antialiasing of a frame, of which the host has drawn what it lends: in any images of the kinds and the size

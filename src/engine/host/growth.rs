@@ -13,27 +13,29 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Capacity with more of what the last recording lacked. `None` if it lacked nothing, if its commands are not done, or if
-    /// more would not help or can't be had.
+    /// What `make` makes with more of what the last recording lacked. `None` if it lacked nothing, if its commands are not done,
+    /// or if more would not help or can't be had.
     ///
     /// # Errors
-    /// If the device is lost, or counters can't be read.
-    pub fn wanted(&self, sampling: &Sampling) -> Result<Option<Capacity>, HostError> {
-        match sampling.shortfall() {
-            Ok(shortfall) => {
-                let more = sampling.job.capacity().next(&shortfall);
-                Ok(more.filter(|more| self.refused != Some(*more)))
-            }
-            Err(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone | VulkanError::NotRecorded))) => Ok(None),
-            Err(error) => Err(error),
+    /// If the device is lost, or counters can't be read; if anything but a lack of memory prevents `make`.
+    pub fn larger<T>(
+        &mut self,
+        sampling: &Sampling,
+        make: impl FnOnce(Capacity) -> Result<T, HostError>,
+    ) -> Result<Option<T>, HostError> {
+        let more = match sampling.shortfall() {
+            Ok(shortfall) => sampling.job.capacity().next(&shortfall),
+            Err(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone | VulkanError::NotRecorded))) => None,
+            Err(error) => return Err(error),
+        };
+        match more.filter(|more| self.refused != Some(*more)) {
+            Some(more) => self.made(more, make(more)),
+            None => Ok(None),
         }
     }
 
-    /// What was `made` with a capacity that was wanted; `None` if there is no memory for it.
-    ///
-    /// # Errors
-    /// If anything else prevented it.
-    pub fn made<T>(&mut self, capacity: Capacity, made: Result<T, HostError>) -> Result<Option<T>, HostError> {
+    /// What was `made` with a capacity; `None` if there is no memory for it.
+    fn made<T>(&mut self, capacity: Capacity, made: Result<T, HostError>) -> Result<Option<T>, HostError> {
         match made {
             Ok(made) => Ok(Some(made)),
             Err(error) if is_refusal(&error) => {

@@ -172,17 +172,6 @@ impl List {
         geometry: &Geometry,
         list: &LocationList,
         options: &ListOptions,
-    ) -> Result<Self, HostError> {
-        let capacity = Capacity::default();
-        // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, list, options, capacity) }
-    }
-
-    unsafe fn with_capacity(
-        shared: &Arc<Shared>,
-        geometry: &Geometry,
-        list: &LocationList,
-        options: &ListOptions,
         capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
@@ -235,9 +224,8 @@ impl List {
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
         let capacity = self.work.sampling.next_capacity()?;
-        let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
+        unsafe { Self::new(&self.shared, &self.lending.geometry, &self.list, &self.options, capacity) }
     }
 
     /// Gives the list more of the memory that the last recording lacked, if its commands are done and the host allows it.
@@ -248,12 +236,9 @@ impl List {
         if self.options.fixed_memory {
             return Ok(());
         }
-        let Some(capacity) = self.growth.wanted(&self.work.sampling)? else {
-            return Ok(());
-        };
         // SAFETY: passed on to the caller.
-        let larger = unsafe { Work::new(&self.shared, &self.lending, &self.list, &self.options, capacity) };
-        if let Some(larger) = self.growth.made(capacity, larger)? {
+        let make = |capacity| unsafe { Work::new(&self.shared, &self.lending, &self.list, &self.options, capacity) };
+        if let Some(larger) = self.growth.larger(&self.work.sampling, make)? {
             self.lending.note(&self.work.sampling.job);
             self.work = larger;
         }

@@ -62,6 +62,7 @@ pub use viewport::Viewport;
 
 use crate::engine::data::visibility_layout;
 use crate::engine::pipelines::FrameLayout;
+use crate::engine::sampler::Capacity;
 use crate::vulkan::{Gpu, Host, SetLayout, VulkanError};
 use ash::vk;
 use scratch::ScratchPool;
@@ -140,7 +141,7 @@ impl Antialiaser {
         options: &Options,
     ) -> Result<Frame, HostError> {
         // SAFETY: passed on to the caller.
-        unsafe { Frame::new(&self.shared, geometry, images, options) }
+        unsafe { Frame::new(&self.shared, geometry, images, options, Capacity::default()) }
     }
 
     /// Makes the pipelines and memory to sample a list of locations, for one frame in flight. With one sample, each
@@ -159,6 +160,6 @@ impl Antialiaser {
         options: &ListOptions,
     ) -> Result<List, HostError> {
         // SAFETY: passed on to the caller.
-        unsafe { List::new(&self.shared, geometry, list, options) }
+        unsafe { List::new(&self.shared, geometry, list, options, Capacity::default()) }
     }
 }
