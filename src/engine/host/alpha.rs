@@ -1,6 +1,5 @@
 //! Alpha maps that a host lends.
 
-use super::content::HostContent;
 use super::geometry::Geometry;
 use super::{HostError, Member};
 use crate::engine::data::alpha_flags::{
@@ -156,17 +155,22 @@ impl Places {
     }
 }
 
-/// Alpha maps on the device.
+/// Alpha maps on the device, and the pass that reads the host's images into the atlas, once.
 pub(super) struct Alpha {
     pub atlas: TexelBuffer,
     pub rows: TexelBuffer,
     /// Texture coordinates of each position in clip space.
     pub coordinates: TexelBuffer,
     places: Places,
+    kernel: Kernel<spirv::AlphaMap>,
+    /// Descriptor set of each map.
+    sets: Vec<DescriptorSets>,
 }
 
 impl Alpha {
-    pub fn new(memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
+    /// # Safety
+    /// The views of the alpha maps outlive the returned value.
+    pub unsafe fn new(layout: &FrameLayout, memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
         let places = Places::new(&geometry.alpha_maps);
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
             | vk::BufferUsageFlags::STORAGE_BUFFER
@@ -174,48 +178,28 @@ impl Alpha {
         let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
         let limit = memory.gpu().limits().max_storage_bytes;
         VulkanError::check_limit("alpha maps", 4 * places.words, "bytes", limit)?;
-        let positions = geometry.all_positions();
+        let atlas = texels("alpha maps", places.words, vk::Format::R32_UINT)?;
+        let set = |map: &AlphaMap| {
+            // SAFETY: passed on to the caller.
+            unsafe { alpha_map::set(layout, map.view, &atlas.buffer) }
+        };
         Ok(Self {
-            atlas: texels("alpha maps", places.words, vk::Format::R32_UINT)?,
             rows: texels("rows of alpha maps", places.rows.len() as u64, vk::Format::R32G32B32A32_UINT)?,
-            coordinates: texels("texture coordinates", positions, vk::Format::R32G32_SFLOAT)?,
+            coordinates: texels("texture coordinates", geometry.all_positions(), vk::Format::R32G32_SFLOAT)?,
+            kernel: alpha_map::kernel(layout)?,
+            sets: geometry.alpha_maps.iter().map(set).collect::<Result<_, _>>()?,
+            atlas,
             places,
         })
     }
-}
 
-/// Pass that reads the host's alpha maps into the atlas, once.
-pub(super) struct AlphaReading {
-    kernel: Kernel<spirv::AlphaMap>,
-    sets: Vec<DescriptorSets>,
-}
-
-impl AlphaReading {
-    /// # Safety
-    /// The views of the alpha maps outlive the returned value.
-    pub unsafe fn new(layout: &FrameLayout, geometry: &Geometry, content: &HostContent) -> Result<Self, VulkanError> {
-        let set = |alpha: &Alpha, map: &AlphaMap| {
-            // SAFETY: passed on to the caller.
-            unsafe { alpha_map::set(layout, map.view, &alpha.atlas.buffer) }
-        };
-        let sets = |alpha| geometry.alpha_maps.iter().map(move |map| set(alpha, map));
-        Ok(Self {
-            kernel: alpha_map::kernel(layout)?,
-            sets: content.alpha().into_iter().flat_map(sets).collect::<Result<_, _>>()?,
-        })
-    }
-
-    /// Records the pass, if there are alpha maps.
-    pub fn record(&self, recorder: &Recorder<'_>, content: &HostContent) {
-        let Some(alpha) = content.alpha() else {
-            return;
-        };
-        let places = &alpha.places;
-        recorder.update(&alpha.rows.buffer, 0, bytemuck::cast_slice(&places.rows));
-        recorder.update(&alpha.atlas.buffer, 0, bytemuck::cast_slice(&places.tables));
+    /// Records the pass.
+    pub fn record(&self, recorder: &Recorder<'_>) {
+        recorder.update(&self.rows.buffer, 0, bytemuck::cast_slice(&self.places.rows));
+        recorder.update(&self.atlas.buffer, 0, bytemuck::cast_slice(&self.places.tables));
         recorder.pass(spirv::AlphaMap::INTERFACE, || {
             recorder.unordered(|| {
-                for (set, levels) in self.sets.iter().zip(&places.levels) {
+                for (set, levels) in self.sets.iter().zip(&self.places.levels) {
                     for level in levels {
                         recorder.show(set);
                         self.kernel.record(recorder, level, level.words());
@@ -255,19 +239,5 @@ mod tests {
         assert_eq!(places.rows[ROW + ALPHA], [3, 1 | 1 << 16, 1, 9 | 2 << 10]);
         assert_eq!(places.levels[0][1].size, [2, 1]);
         assert_eq!(places.levels[0][1].repeats, 1);
-    }
-
-    #[test]
-    fn maps_that_can_not_be_read_are_named() {
-        let refused = |map: AlphaMap| map.check().unwrap_err().to_string();
-        assert!(map([4, 4], 3).check().is_ok());
-        assert_eq!(refused(map([0, 4], 1)), "AlphaMap::size[0] is 0; it can be 1 to 65535");
-        assert_eq!(refused(map([4, 4], 4)), "AlphaMap::levels is 4; it can be 1 to 3");
-        let border = AlphaMap { address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2], ..map([4, 4], 1) };
-        assert!(refused(border).starts_with("AlphaMap::address is 3; it can be REPEAT (0)"));
-        let cubic = AlphaMap { min_filter: vk::Filter::CUBIC_EXT, ..map([4, 4], 1) };
-        assert_eq!(refused(cubic), "AlphaMap::min_filter is 1000015000; it can be NEAREST (0) or LINEAR (1)");
-        let broken = AlphaMap { cutoff: f32::NAN, ..map([4, 4], 1) };
-        assert_eq!(refused(broken), "AlphaMap::cutoff has a number that is not finite");
     }
 }

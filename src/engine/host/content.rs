@@ -3,10 +3,10 @@
 use super::Geometry;
 use super::alpha::Alpha;
 use crate::engine::data::Content;
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv::frame_set;
-use crate::vulkan::{BoundDescriptor, Buffer, Gpu, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError};
+use crate::vulkan::{BoundDescriptor, Buffer, Memory, MemoryUse, TexelBuffer, TexelView, VulkanError};
 use ash::vk;
-use std::sync::Arc;
 
 /// Positions in clip space.
 enum Positions {
@@ -32,14 +32,14 @@ pub(super) struct HostContent {
 
 impl HostContent {
     /// # Safety
-    /// The host's buffer of positions is as [`Geometry`] says, and outlives the returned value.
-    pub unsafe fn new(gpu: &Arc<Gpu>, memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
+    /// The host's buffer of positions and the views of its alpha maps are as [`Geometry`] says, and outlive the returned value.
+    pub unsafe fn new(layout: &FrameLayout, memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
         let texels = |name, elements, format| memory.texel_buffer(name, elements, format, usage, MemoryUse::Device);
         let triangles = geometry.all_triangles();
-        let limits = gpu.limits();
+        let (gpu, limits) = (&layout.gpu, layout.gpu.limits());
         let read_in_place = geometry.meshes.first();
         let read_in_place = read_in_place.filter(|_| geometry.is_read_in_place(limits));
         let positions = if let Some(mesh) = read_in_place {
@@ -54,11 +54,13 @@ impl HostContent {
             let positions = geometry.all_positions();
             Positions::Made(texels("positions", positions, float4)?)
         };
+        // SAFETY: passed on to the caller.
+        let alpha = || unsafe { Alpha::new(layout, memory, geometry) };
         Ok(Self {
             triangles: texels("triangles", triangles, uint4)?,
             draw_of: memory.storage_buffer("draws of triangles", 4 * triangles, usage, MemoryUse::Device)?,
             positions,
-            alpha: (!geometry.alpha_maps.is_empty()).then(|| Alpha::new(memory, geometry)).transpose()?,
+            alpha: (!geometry.alpha_maps.is_empty()).then(alpha).transpose()?,
             unread_floats: texels("unread vectors", 1, float4)?,
             unread_words: texels("unread words", 1, uint4)?,
             triangle_capacity: triangles as u32,

@@ -1,7 +1,6 @@
 //! Device objects for a host's geometry: its triangles for the passes, and the data that its shaders read.
 
 use super::adoption::Adoption;
-use super::alpha::AlphaReading;
 use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
@@ -17,7 +16,6 @@ use std::sync::Arc;
 pub(super) struct Lending {
     pub geometry: Geometry,
     pub content: HostContent,
-    alpha: AlphaReading,
     adoption: Adoption,
     visibility: Buffer,
     /// Whether the device has executed a recording that reads the alpha maps.
@@ -30,9 +28,7 @@ impl Lending {
     /// The host's buffers and views are as [`Geometry`] says, and outlive the returned value.
     pub unsafe fn new(shared: &Arc<Shared>, memory: Memory, geometry: &Geometry) -> Result<Self, HostError> {
         // SAFETY: passed on to the caller.
-        let content = unsafe { HostContent::new(&shared.gpu, &memory, geometry) }?;
-        // SAFETY: passed on to the caller.
-        let alpha = unsafe { AlphaReading::new(&shared.frame, geometry, &content) }?;
+        let content = unsafe { HostContent::new(&shared.frame, &memory, geometry) }?;
         // SAFETY: passed on to the caller.
         let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
         let visibility = memory.buffer(
@@ -41,7 +37,7 @@ impl Lending {
             vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryUse::Device,
         )?;
-        Ok(Self { geometry: geometry.clone(), content, alpha, adoption, visibility, has_alpha: false, memory })
+        Ok(Self { geometry: geometry.clone(), content, adoption, visibility, has_alpha: false, memory })
     }
 
     /// Makes the descriptor set for the host's shaders; `locations` is the buffer of a list's locations, if a list is
@@ -73,8 +69,8 @@ impl Lending {
 
     /// Records the reading of the alpha maps, until the device has executed a recording with it.
     pub fn record_alpha(&self, recorder: &Recorder<'_>) {
-        if !self.has_alpha {
-            self.alpha.record(recorder, &self.content);
+        if let Some(alpha) = self.content.alpha().filter(|_| !self.has_alpha) {
+            alpha.record(recorder);
         }
     }
 
