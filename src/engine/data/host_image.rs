@@ -2,7 +2,7 @@
 
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv::{self, take_set};
-use crate::vulkan::{DescriptorSets, Image, Memory, Recorder, Specialized, VulkanError, read_image};
+use crate::vulkan::{DescriptorSets, Image, Memory, Recorder, Specialized, VulkanError, flat_image, read_image};
 use ash::vk;
 use std::sync::Arc;
 
@@ -30,16 +30,9 @@ impl HostImage {
     ///
     /// # Errors
     /// If memory runs out.
-    pub fn for_copy(memory: &Memory, format: vk::Format, [width, height]: [u32; 2]) -> Result<Image, VulkanError> {
-        let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(format)
-            .extent(vk::Extent3D { width, height, depth: 1 })
-            .mip_levels(1)
-            .array_layers(1)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::SAMPLED);
-        memory.image("copy of the colours", &info, vk::ImageAspectFlags::COLOR)
+    pub fn for_copy(memory: &Memory, format: vk::Format, size: [u32; 2]) -> Result<Image, VulkanError> {
+        let usage = vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::SAMPLED;
+        memory.image("copy of the colours", &flat_image(format, size, usage), vk::ImageAspectFlags::COLOR)
     }
 
     /// Records the copy of the part of a host's image that begins at `corner` of a layer, if kernels read a copy. The host's

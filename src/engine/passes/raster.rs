@@ -5,7 +5,9 @@ use super::filter::{self, Filter, FilteredDraws};
 use crate::engine::data::{Content, IdViews};
 use crate::engine::pipelines::FrameLayout;
 use crate::engine::spirv::{self, frame_set};
-use crate::vulkan::{Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError};
+use crate::vulkan::{
+    Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError, flat_image,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -34,18 +36,9 @@ impl RasterTargets {
         samples: vk::SampleCountFlags,
         has_blend: bool,
     ) -> Result<Self, VulkanError> {
-        let make = |name, extent: [u32; 2], samples, format, usage, aspect| {
-            let info = vk::ImageCreateInfo::default()
-                .image_type(vk::ImageType::TYPE_2D)
-                .format(format)
-                .extent(vk::Extent3D { width: extent[0], height: extent[1], depth: 1 })
-                .mip_levels(1)
-                .array_layers(1)
-                .samples(samples)
-                .usage(usage);
-            memory.image(name, &info, aspect)
+        let image = |name, format, usage, aspect| {
+            memory.image(name, &flat_image(format, [width, height], usage).samples(samples), aspect)
         };
-        let image = |name, format, usage, aspect| make(name, [width, height], samples, format, usage, aspect);
         let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let format = id_format(samples);
         let single = vk::SampleCountFlags::TYPE_1;
@@ -62,9 +55,8 @@ impl RasterTargets {
                 .transpose()?,
             placeholder: (samples != single)
                 .then(|| {
-                    let format = id_format(single);
-                    let aspect = vk::ImageAspectFlags::COLOR;
-                    make("placeholder", [1, 1], single, format, color, aspect)
+                    let info = flat_image(id_format(single), [1, 1], color);
+                    memory.image("placeholder", &info, vk::ImageAspectFlags::COLOR)
                 })
                 .transpose()?,
         })

@@ -207,6 +207,29 @@ impl<'a> Recorder<'a> {
         );
     }
 
+    /// Records the copy of colours from a buffer to the levels of an image, which shaders can read afterwards. A level is
+    /// given as its first byte in the buffer and its size in texels; there, its layers follow one another. What else
+    /// the image held is lost. Both were created for copies and are large enough.
+    pub(crate) fn fill_image(&self, image: &Image, texels: &Buffer, levels: impl IntoIterator<Item = (u64, [u32; 2])>) {
+        let copy = |(level, (first_byte, [width, height])): (u32, (u64, [u32; 2]))| {
+            vk::BufferImageCopy::default()
+                .buffer_offset(first_byte)
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask: vk::ImageAspectFlags::COLOR,
+                    mip_level: level,
+                    base_array_layer: 0,
+                    layer_count: image.layers,
+                })
+                .image_extent(vk::Extent3D { width, height, depth: 1 })
+        };
+        let copies: Vec<_> = (0..).zip(levels).map(copy).collect();
+        let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        self.transition(image, vk::ImageLayout::UNDEFINED, written);
+        // SAFETY: `new`'s contract; callers respect the sizes of the buffer and the image, which has this layout.
+        unsafe { self.device().cmd_copy_buffer_to_image(self.raw(), texels.raw, image.raw, written, &copies) };
+        self.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+    }
+
     /// Records the change of an image, after all earlier commands. Later commands may use the image as it says, and everything else
     /// that was written before.
     pub(crate) fn change_image(&self, change: vk::ImageMemoryBarrier2<'_>) {

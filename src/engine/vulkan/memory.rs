@@ -348,6 +348,22 @@ impl Drop for TexelView {
     }
 }
 
+/// Description of an image of two dimensions that has one level, one layer and one sample.
+pub(crate) fn flat_image(
+    format: vk::Format,
+    [width, height]: [u32; 2],
+    usage: vk::ImageUsageFlags,
+) -> vk::ImageCreateInfo<'static> {
+    vk::ImageCreateInfo::default()
+        .image_type(vk::ImageType::TYPE_2D)
+        .format(format)
+        .extent(vk::Extent3D { width, height, depth: 1 })
+        .mip_levels(1)
+        .array_layers(1)
+        .samples(vk::SampleCountFlags::TYPE_1)
+        .usage(usage)
+}
+
 /// An image, its view and its memory.
 pub struct Image {
     gpu: Arc<Gpu>,
@@ -359,7 +375,8 @@ pub struct Image {
     pub extent: vk::Extent2D,
     /// Number of mipmap levels.
     pub levels: u32,
-    layers: u32,
+    /// Number of layers; a cube has six.
+    pub(super) layers: u32,
     aspect: vk::ImageAspectFlags,
 }
 

@@ -31,7 +31,7 @@ pub use instance::{DeviceInfo, Instance, InstanceOptions};
 pub(crate) use interface::{Access, Binding, Compiled, Interface, Invocations, Specialized, Use};
 pub(crate) use loader::alone;
 pub use memory::MemoryUse;
-pub(crate) use memory::{Buffer, Image, Memory, TexelBuffer, TexelView};
+pub(crate) use memory::{Buffer, Image, Memory, TexelBuffer, TexelView, flat_image};
 pub(crate) use pass_layout::{PassLayout, SetLayout, SharedLayout};
 pub(crate) use pipeline::{Constants, GraphicsPipeline, Pipeline, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};

@@ -2,7 +2,7 @@
 
 use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{Data, IdViews, Resources};
-use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError, flat_image};
 use ash::vk;
 
 /// Kind of data about the cells, stored row by row. Each cell has one word, except for marks and colours.
@@ -45,27 +45,19 @@ pub struct OutputCells {
 }
 
 impl OutputCells {
-    /// Allocates memory for `width` x `height` cells.
+    /// Allocates memory for `size` = [width, height] cells.
     ///
     /// # Errors
     /// If memory runs out.
-    pub fn new(memory: &Memory, [width, height]: [u32; 2]) -> Result<Self, VulkanError> {
-        let image = |name| {
-            let info = vk::ImageCreateInfo::default()
-                .image_type(vk::ImageType::TYPE_2D)
-                .format(vk::Format::R32_UINT)
-                .extent(vk::Extent3D { width, height, depth: 1 })
-                .mip_levels(1)
-                .array_layers(1)
-                .samples(vk::SampleCountFlags::TYPE_1)
-                .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
-            memory.image(name, &info, vk::ImageAspectFlags::COLOR)
-        };
+    pub fn new(memory: &Memory, size: [u32; 2]) -> Result<Self, VulkanError> {
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let info = flat_image(vk::Format::R32_UINT, size, usage);
+        let image = |name| memory.image(name, &info, vk::ImageAspectFlags::COLOR);
         Ok(Self {
-            size: [width, height],
+            size,
             words: memory.buffer(
                 "what cells show",
-                Self::bytes_of([width, height]) * OutputPlane::WORDS,
+                Self::bytes_of(size) * OutputPlane::WORDS,
                 vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryUse::Upload,
             )?,
@@ -103,23 +95,8 @@ impl OutputCells {
     pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
         let planes = [(&self.ids, OutputPlane::Ids), (&self.blend_ids, OutputPlane::BlendIds)];
         for (image, plane) in planes {
-            let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-            recorder.transition(image, vk::ImageLayout::UNDEFINED, written);
-            let copies = [vk::BufferImageCopy::default()
-                .buffer_offset(plane.range()[0] * Self::bytes_of(self.size))
-                .image_subresource(vk::ImageSubresourceLayers {
-                    aspect_mask: vk::ImageAspectFlags::COLOR,
-                    mip_level: 0,
-                    base_array_layer: 0,
-                    layer_count: 1,
-                })
-                .image_extent(vk::Extent3D { width: self.size[0], height: rows, depth: 1 })];
-            // SAFETY: guaranteed by the recorder's caller; the buffer has the words of these rows, and the image has
-            // their size and this layout.
-            unsafe {
-                recorder.device().cmd_copy_buffer_to_image(recorder.raw(), self.words.raw, image.raw, written, &copies);
-            }
-            recorder.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+            let first_byte = plane.range()[0] * Self::bytes_of(self.size);
+            recorder.fill_image(image, &self.words, [(first_byte, [self.size[0], rows])]);
         }
         let bytes = Self::bytes_of([self.size[0], rows]);
         self.record_copy(recorder, OutputPlane::Codes, resources.buffer(Data::Display), bytes);

@@ -2,7 +2,7 @@
 
 use super::Resources;
 use crate::engine::spirv::frame_set;
-use crate::vulkan::{BoundDescriptor, Image, Memory, VulkanError, read_image};
+use crate::vulkan::{BoundDescriptor, Image, Memory, VulkanError, flat_image, read_image};
 use ash::vk;
 
 /// Views of triangle IDs and depth for passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
@@ -38,14 +38,7 @@ pub enum ShownIds {
 
 /// Image of a pixel, which no pass reads.
 pub(super) fn unread(memory: &Memory) -> Result<Image, VulkanError> {
-    let info = vk::ImageCreateInfo::default()
-        .image_type(vk::ImageType::TYPE_2D)
-        .format(vk::Format::R32_UINT)
-        .extent(vk::Extent3D { width: 1, height: 1, depth: 1 })
-        .mip_levels(1)
-        .array_layers(1)
-        .samples(vk::SampleCountFlags::TYPE_1)
-        .usage(vk::ImageUsageFlags::SAMPLED);
+    let info = flat_image(vk::Format::R32_UINT, [1, 1], vk::ImageUsageFlags::SAMPLED);
     memory.image("unread IDs", &info, vk::ImageAspectFlags::COLOR)
 }
 

@@ -5,7 +5,7 @@ use crate::engine::data::upload::Uploader;
 use crate::engine::pipelines::FrameLayout;
 use crate::render::passes::prefilter::{self, Prefilter};
 use crate::scene::{Environment, Filter, Sampler, Wrap};
-use crate::vulkan::{Buffer, Image, Recorder, VulkanError, read_image};
+use crate::vulkan::{Buffer, Image, Recorder, VulkanError, flat_image, read_image};
 use ash::vk;
 use half::f16;
 
@@ -83,15 +83,11 @@ impl GpuEnvironment {
             let prefilter = Prefilter::new(layout, uploader.memory, buffer, finest)?;
             EnvironmentUpload::Averages(Box::new(prefilter))
         };
-        let info = vk::ImageCreateInfo::default()
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let info = flat_image(vk::Format::R16G16B16A16_SFLOAT, [finest; 2], usage)
             .flags(vk::ImageCreateFlags::CUBE_COMPATIBLE)
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(vk::Format::R16G16B16A16_SFLOAT)
-            .extent(vk::Extent3D { width: finest, height: finest, depth: 1 })
             .mip_levels(levels.len() as u32)
-            .array_layers(6)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
+            .array_layers(6);
         let image = uploader.memory.image("environment", &info, vk::ImageAspectFlags::COLOR)?;
         let uniform = environment.map_or(EnvironmentUniform::default(), |environment| {
             let rows = environment.rotation().transpose();
@@ -121,27 +117,8 @@ impl GpuEnvironment {
                 averages.texels()
             }
         };
-        let write = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        recorder.transition(&self.image, vk::ImageLayout::UNDEFINED, write);
-        let copies: Vec<_> = (0..)
-            .zip(&self.levels)
-            .map(|(level, &(side, first))| {
-                vk::BufferImageCopy::default()
-                    .buffer_offset(u64::from(first) * size_of::<[f16; 4]>() as u64)
-                    .image_subresource(vk::ImageSubresourceLayers {
-                        aspect_mask: vk::ImageAspectFlags::COLOR,
-                        mip_level: level,
-                        base_array_layer: 0,
-                        layer_count: 6,
-                    })
-                    .image_extent(vk::Extent3D { width: side, height: side, depth: 1 })
-            })
-            .collect();
-        // SAFETY: guaranteed by the recorder's caller; the buffer holds all levels, which are in the named layout.
-        unsafe {
-            recorder.device().cmd_copy_buffer_to_image(recorder.raw(), texels.raw, self.image.raw, write, &copies);
-        }
-        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-        recorder.transition(&self.image, write, shown);
+        let first_byte = |first: u32| u64::from(first) * size_of::<[f16; 4]>() as u64;
+        let levels = self.levels.iter().map(|&(side, first)| (first_byte(first), [side; 2]));
+        recorder.fill_image(&self.image, texels, levels);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::mipmaps;
 use crate::scene::{Filter, Image as SceneImage, Sampler, Wrap};
-use crate::vulkan::{Buffer, Gpu, Image, Memory, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Image, Memory, Recorder, VulkanError, flat_image};
 use ash::vk;
 use std::sync::Arc;
 
@@ -17,14 +17,9 @@ impl GpuTexture {
         let limit = u64::from(memory.gpu().limits().max_image_side);
         let side = u64::from(source.width.max(source.height));
         VulkanError::check_limit("a texture's side", side, "texels", limit)?;
-        let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM })
-            .extent(vk::Extent3D { width: source.width, height: source.height, depth: 1 })
-            .mip_levels(source.full_levels())
-            .array_layers(1)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
+        let format = if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let info = flat_image(format, [source.width, source.height], usage).mip_levels(source.full_levels());
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
         let upload = memory.upload("texture upload", &mipmaps::levels(source, srgb))?;
         Ok((Self { image }, upload))
@@ -33,30 +28,14 @@ impl GpuTexture {
     /// Records the copy of all levels.
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &Buffer) {
         let image = &self.image;
-        let write = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        let mut offset = 0;
-        let copies: Vec<_> = (0..image.levels)
-            .map(|level| {
-                let [width, height] = [image.extent.width, image.extent.height].map(|side| (side >> level).max(1));
-                let copy = vk::BufferImageCopy::default()
-                    .buffer_offset(offset)
-                    .image_subresource(vk::ImageSubresourceLayers {
-                        aspect_mask: vk::ImageAspectFlags::COLOR,
-                        mip_level: level,
-                        base_array_layer: 0,
-                        layer_count: 1,
-                    })
-                    .image_extent(vk::Extent3D { width, height, depth: 1 });
-                offset += 4 * u64::from(width) * u64::from(height);
-                copy
-            })
-            .collect();
-        recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
-        // SAFETY: guaranteed by the recorder's caller; the buffer holds these levels, which are in the named layout.
-        unsafe {
-            recorder.device().cmd_copy_buffer_to_image(recorder.raw(), upload.raw, image.raw, write, &copies);
-        };
-        recorder.transition(image, write, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+        let mut end = 0;
+        let levels = (0..image.levels).map(|level| {
+            let [width, height] = [image.extent.width, image.extent.height].map(|side| (side >> level).max(1));
+            let first_byte = end;
+            end += 4 * u64::from(width) * u64::from(height);
+            (first_byte, [width, height])
+        });
+        recorder.fill_image(image, upload, levels);
     }
 }
 
