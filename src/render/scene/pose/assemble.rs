@@ -15,7 +15,7 @@ use crate::scene::{
     read::{MAX_DISPLACEMENTS, MAX_ELEMENTS},
 };
 
-/// Number of vertices that one task transforms; a multiple of 3, so that triangles with flat normals stay whole.
+/// Smallest number of vertices that one task transforms.
 const CHUNK: usize = 24_576;
 /// Largest distance of a vertex from the world's origin. This is so far below the largest float that differences and
 /// products of coordinates stay finite in double precision, and relative positions in single precision.
@@ -178,34 +178,29 @@ fn jobs<'p, 'd>(scene: &Scene, placed: &[(usize, &'p Placement<'d>)], origin: DV
         // Points and lines have a different shape at each place.
         mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED && !mesh.is_strokes()
     };
+    let job_at = |placement: Placement<'d>, index, class, origin| PlacementJob {
+        placement,
+        index,
+        class,
+        first_vertex: 0,
+        origin,
+        instances: Vec::new(),
+    };
     let mut jobs: Vec<PlacementJob<'p, 'd>> = Vec::new();
     let mut job_of: HashMap<*const Primitive, usize> = HashMap::new();
     for &(index, placement) in placed {
         let material = scene.materials.get(placement.primitive.material);
         let class = material.map_or(DrawClass::Opaque, DrawClass::of);
         let Some(mesh) = placement.mesh().filter(|mesh| is_instanced(mesh)) else {
-            jobs.push(PlacementJob {
-                placement: placement.clone(),
-                index,
-                class,
-                first_vertex: 0,
-                origin,
-                instances: Vec::new(),
-            });
+            jobs.push(job_at(placement.clone(), index, class, origin));
             continue;
         };
         let job = *job_of.entry(std::ptr::from_ref(mesh)).or_insert_with(|| {
             let own = placement.at(DAffine3::IDENTITY);
             let (low, high) = bounds(&own);
-            jobs.push(PlacementJob {
-                placement: own,
-                index,
-                class,
-                first_vertex: 0,
-                // Rounding to single precision keeps small coordinates of the file unchanged.
-                origin: ((low + high) / 2.0).as_vec3().as_dvec3(),
-                instances: Vec::new(),
-            });
+            // Rounding to single precision keeps small coordinates of the file unchanged.
+            let origin = ((low + high) / 2.0).as_vec3().as_dvec3();
+            jobs.push(job_at(own, index, class, origin));
             jobs.len() - 1
         });
         if let Some(job) = jobs.get_mut(job) {
@@ -356,34 +351,21 @@ impl PlacementJob<'_, '_> {
         let primitive = placement.primitive;
         copy(parts.uvs, &primitive.uvs);
         copy(parts.colors, &primitive.colors);
-        for (v, scale) in parts.scales.iter_mut().enumerate() {
-            *scale = placement.frame(v).scale();
-        }
         for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
             // Points and lines always face the camera.
             let triangle = if placement.mirrored && !primitive.is_strokes() { [a, c, b] } else { [a, b, c] };
             *to = triangle.map(|v| v + self.first_vertex);
         }
-        parts.positions.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, positions)| {
-            for (v, to) in (chunk * CHUNK..).zip(positions) {
-                *to = (placement.position(v) - origin).as_vec3().to_array();
-            }
-        });
-        parts.normals.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, normals)| {
-            if primitive.is_flat() {
-                self.flat_normals(chunk * CHUNK, normals);
-                return;
-            }
-            for (v, to) in (chunk * CHUNK..).zip(normals) {
-                *to = placement.normal(v, &placement.frame(v));
-            }
-        });
+        each_vertex(parts.scales, |v| placement.frame(v).scale());
+        each_vertex(parts.positions, |v| (placement.position(v) - origin).as_vec3().to_array());
+        if primitive.is_flat() {
+            let triangles = parts.normals.par_chunks_mut(3).with_min_len(CHUNK / 3).enumerate();
+            triangles.for_each(|(triangle, normals)| normals.fill(self.flat_normal(triangle)));
+        } else {
+            each_vertex(parts.normals, |v| placement.normal(v, &placement.frame(v)));
+        }
         if !primitive.tangents.is_empty() {
-            parts.tangents.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, tangents)| {
-                for (v, to) in (chunk * CHUNK..).zip(tangents) {
-                    *to = placement.tangent(v, &placement.frame(v));
-                }
-            });
+            each_vertex(parts.tangents, |v| placement.tangent(v, &placement.frame(v)));
         }
     }
 
@@ -409,16 +391,18 @@ impl PlacementJob<'_, '_> {
         edges.map(|edge| edge.placed(self.first_vertex, self.placement.mirrored))
     }
 
-    /// Computes the normals of triangles that have three vertices each to themselves, from vertex `first` on.
-    fn flat_normals(&self, first: usize, normals: &mut [[f32; 3]]) {
-        for (triangle, normals) in normals.chunks_mut(3).enumerate() {
-            let v = first + 3 * triangle;
-            let [a, b, c] = [v, v + 1, v + 2].map(|v| self.placement.position(v));
-            let face = (b - a).cross(c - a).normalize_or(DVec3::Z);
-            let outward = if self.placement.mirrored { -face } else { face };
-            normals.fill(outward.as_vec3().to_array());
-        }
+    /// Normal of a triangle of a primitive whose triangles have three vertices each to themselves.
+    fn flat_normal(&self, triangle: usize) -> [f32; 3] {
+        let [a, b, c] = [0, 1, 2].map(|corner| self.placement.position(3 * triangle + corner));
+        let face = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        let outward = if self.placement.mirrored { -face } else { face };
+        outward.as_vec3().to_array()
     }
+}
+
+/// Computes a stream, whose length is that of the vertices or 0.
+fn each_vertex<T: Send>(to: &mut [T], value: impl Fn(usize) -> T + Sync) {
+    to.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(v, to)| *to = value(v));
 }
 
 /// Copies a stream if the primitive has it; otherwise the defaults stay.
