@@ -96,23 +96,24 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
 }
 
 pub(super) fn pose_in_motion(scene: &Scene, request: &PoseRequest) -> Result<(Pose, Motion), SceneError> {
-    let document = &scene.document;
     // At time 0 no animation is chosen by default, but a motion needs the animation that is chosen at later times.
     let later = PoseRequest { time: f64::MAX, ..request.clone() };
-    let moving = Moving::new(scene, keyframes::choose(document, &later)?);
-    let (pose, placements) = posed(scene, request, &moving)?;
-    let mut warnings = Warnings::new(&document.file);
-    let shown = show(scene, request, &moving, &mut warnings)?;
-    let motion = Motion::new(request, &pose, &shown, &moving, &placements);
+    let moving = Moving::new(scene, keyframes::choose(&scene.document, &later)?);
+    let (pose, placements, placed) = posed(scene, request, &moving)?;
+    let motion = Motion::new(request, &pose, &placements, &moving, &placed);
     Ok((pose, motion))
 }
 
-/// A pose, and the vertices of moving placements in it.
-fn posed(scene: &Scene, request: &PoseRequest, moving: &Moving) -> Result<(Pose, Vec<MovingPlacement>), SceneError> {
+/// A pose, its placements, and the vertices of those that move.
+fn posed<'d>(
+    scene: &'d Scene,
+    request: &PoseRequest,
+    moving: &Moving,
+) -> Result<(Pose, Vec<Placement<'d>>, Vec<MovingPlacement>), SceneError> {
     let document = &scene.document;
     let mut warnings = Warnings::new(&document.file);
     let shown = show(scene, request, moving, &mut warnings)?;
-    let (geometry, placements) = assemble::assemble(scene, &shown.placements, &mut warnings)?;
+    let (geometry, placed) = assemble::assemble(scene, &shown.placements, &mut warnings)?;
     if geometry.triangles.is_empty() {
         let place = match request.scene.or(document.default_scene) {
             Some(index) => format!("/scenes/{index}"),
@@ -128,7 +129,7 @@ fn posed(scene: &Scene, request: &PoseRequest, moving: &Moving) -> Result<(Pose,
         cameras: shown.cameras,
         warnings: warnings.into_vec(),
     };
-    Ok((pose, placements))
+    Ok((pose, shown.placements, placed))
 }
 
 /// Environment of a scene of the file, or of its default scene.

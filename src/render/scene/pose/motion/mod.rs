@@ -15,7 +15,7 @@ use std::{
 use glam::{DAffine3, DVec3};
 use gltf::json::animation::Property;
 
-use super::{MovingPlacement, Placement, Pose, PoseContents, PoseRequest, light_of, looks, show};
+use super::{MovingPlacement, Placement, Pose, PoseRequest, light_of, looks, show};
 use crate::scene::{
     Light, Material, Scene, SceneCamera, SceneError,
     document::{Animated, Channel, Described, Displacements},
@@ -159,7 +159,7 @@ impl Motion {
     pub(super) fn new(
         request: &PoseRequest,
         pose: &Pose,
-        shown: &PoseContents<'_>,
+        placements: &[Placement<'_>],
         moving: &Moving,
         placed: &[MovingPlacement],
     ) -> Self {
@@ -171,14 +171,14 @@ impl Motion {
             lights: pose.lights.clone(),
             changes_lights: moving.lights,
             materials: moving.materials.clone(),
-            placements: shown.placements.len(),
+            placements: placements.len(),
             parts: Vec::new(),
             vertices: Vec::new(),
             influences: Vec::new(),
             displacements: Vec::new(),
         };
         for part in placed {
-            if let Some(placement) = shown.placements.get(part.placement) {
+            if let Some(placement) = placements.get(part.placement) {
                 motion.add(part, placement);
             }
         }
@@ -280,9 +280,7 @@ impl Motion {
         let finite = |vector: &[f32; 4]| vector.iter().all(|value| value.is_finite());
         Ok(Some(moment).filter(|moment| moment.vectors.iter().all(finite)))
     }
-}
 
-impl Motion {
     /// Materials that may change: from `shown` if they are there, otherwise as they are at rest.
     fn materials_of(&self, scene: &Scene, shown: Vec<(usize, Material)>) -> Vec<(usize, Material)> {
         let mut shown: BTreeMap<usize, Material> = shown.into_iter().collect();
