@@ -114,7 +114,7 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     }
     let mut shape = FileObject::default();
     let mut contrary = 0;
-    let (mut unused, mut colored) = (0, false);
+    let mut unused = 0;
     let attributes = |facet: &[u8; TRIANGLE]| u16::from_le_bytes([facet[48], facet[49]]);
     let has_colors = facets(bytes).take(count).any(|r| colors.of(attributes(r)).is_some());
     shape.positions.reserve(3 * count);
@@ -126,7 +126,6 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
         let color = colors.of(attributes);
         unused += usize::from(color.is_none() && attributes != 0);
         if has_colors {
-            colored = true;
             let [r, g, b] = color.unwrap_or([plain().base_color[0]; 3]);
             shape.colors.extend([[r, g, b, 1.0]; 3]);
         }
@@ -135,7 +134,7 @@ fn read_binary(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> 
     warnings.leave_out(CONTRARY, contrary, "");
     warnings.leave_out("attributes of triangles", unused, "");
     let mut material = plain();
-    if colored {
+    if has_colors {
         material.base_color = [1.0; 4];
     }
     Ok(Drawing { shapes: vec![shape], materials: vec![material], ..Drawing::default() })
