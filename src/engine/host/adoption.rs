@@ -10,9 +10,8 @@ use crate::engine::passes::coordinates;
 use crate::engine::passes::transform::{self, VertexCounts};
 use crate::engine::pipelines::Kernel;
 use crate::engine::spirv;
-use crate::vulkan::{DescriptorSets, Memory, Recorder};
+use crate::vulkan::{DescriptorSets, Memory, Recorder, VulkanError};
 use ash::vk;
-use std::sync::Arc;
 
 /// Passes that read a host's buffers, and the draws of a frame.
 pub(super) struct Adoption {
@@ -21,12 +20,10 @@ pub(super) struct Adoption {
     /// Kernels of `transform` and of `coordinates`, for each type of components.
     transform: [Option<Kernel<spirv::Transform>>; VERTEX_KINDS],
     coordinates: [Option<Kernel<spirv::Coordinates>>; VERTEX_KINDS],
-    /// Kernels of `adopt`: for meshes without indices, with 16-bit indices, and with 32-bit indices.
-    adopt: [Option<Kernel<spirv::Adopt>>; 3],
+    /// Kernels of `adopt`, for each type of indices.
+    adopt: [Option<Kernel<spirv::Adopt>>; INDEX_KINDS.len()],
     /// Descriptor sets of each mesh.
     sets: Vec<MeshSets>,
-    geometry: Geometry,
-    shared: Arc<Shared>,
 }
 
 /// Descriptor sets with which passes read a mesh.
@@ -39,9 +36,27 @@ struct MeshSets {
 /// Number of types of the components of vertices.
 const VERTEX_KINDS: usize = spirv::VERTEX_SNORM as usize + 1;
 
-/// Index into `adopt` of the kernel that reads these indices.
-fn kernel(indices: Option<Indices>) -> usize {
+/// Whether indices have 16 bits instead of 32, for each type of indices; the first type stands for no indices.
+const INDEX_KINDS: [Option<bool>; 3] = [None, Some(true), Some(false)];
+
+/// Index into [`INDEX_KINDS`].
+fn index_kind(indices: Option<Indices>) -> u32 {
     indices.map_or(0, |indices| if indices.are_short() { 1 } else { 2 })
+}
+
+/// Makes a kernel for each of the kinds, which may repeat.
+fn kernels<S, const N: usize>(
+    kinds: impl Iterator<Item = u32>,
+    make: impl Fn(u32) -> Result<Kernel<S>, VulkanError>,
+) -> Result<[Option<Kernel<S>>; N], VulkanError> {
+    let mut kernels = [const { None }; N];
+    for kind in kinds {
+        let kernel = &mut kernels[kind as usize];
+        if kernel.is_none() {
+            *kernel = Some(make(kind)?);
+        }
+    }
+    Ok(kernels)
 }
 
 impl MeshSets {
@@ -82,7 +97,7 @@ impl Adoption {
     /// # Safety
     /// The host's buffers are as [`Geometry`] says, and outlive the returned value.
     pub unsafe fn new(
-        shared: &Arc<Shared>,
+        shared: &Shared,
         memory: &Memory,
         geometry: &Geometry,
         content: &HostContent,
@@ -97,55 +112,38 @@ impl Adoption {
             unsafe { MeshSets::new(shared, &draws, geometry, mesh, content) }
         });
         let sets = sets.collect::<Result<Vec<_>, _>>()?;
-        let mut adopt = [None, None, None];
-        for mesh in &geometry.meshes {
-            let kernel = &mut adopt[kernel(mesh.indices)];
-            if kernel.is_none() {
-                let are_short = mesh.indices.map(|indices| indices.are_short());
-                *kernel = Some(adopt::kernel(layout, are_short)?);
-            }
-        }
-        let (mut transform, mut coordinates) = ([const { None }; VERTEX_KINDS], [const { None }; VERTEX_KINDS]);
-        for mesh in &geometry.meshes {
-            let kind = mesh.position_format.kind();
-            let kernel = &mut transform[kind as usize];
-            if kernel.is_none() && content.made_positions().is_some() {
-                *kernel = Some(transform::kernel(layout, &draws, kind)?);
-            }
-            let Some(lent) = mesh.coordinates.filter(|_| content.alpha().is_some()) else {
-                continue;
-            };
-            let kernel = &mut coordinates[lent.format.kind() as usize];
-            if kernel.is_none() {
-                *kernel = Some(coordinates::kernel(layout, &draws, lent.format.kind())?);
-            }
-        }
+        let meshes = || geometry.meshes.iter();
+        let transformed = meshes().filter(|_| content.made_positions().is_some());
+        let positions = transformed.map(|mesh| mesh.position_format.kind());
+        let mapped = meshes().filter(|_| content.alpha().is_some()).filter_map(|mesh| mesh.coordinates);
+        let indices = meshes().map(|mesh| index_kind(mesh.indices));
         Ok(Self {
-            transform,
-            coordinates,
-            adopt,
+            transform: kernels(positions, |kind| transform::kernel(layout, &draws, kind))?,
+            coordinates: kernels(mapped.map(|lent| lent.format.kind()), |kind| {
+                coordinates::kernel(layout, &draws, kind)
+            })?,
+            adopt: kernels(indices, |kind| adopt::kernel(layout, INDEX_KINDS[kind as usize]))?,
             sets,
             indirect,
             draws,
-            geometry: geometry.clone(),
-            shared: shared.clone(),
         })
     }
 
-    /// Records the conversion of the placed draws: positions in clip space, and triangles.
-    pub fn record(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
+    /// Records the conversion of the placed draws: positions in clip space, and triangles. `geometry` is that for which this
+    /// was made.
+    pub fn record(&self, recorder: &Recorder<'_>, geometry: &Geometry, placed: &PlacedDraws) {
         if placed.triangles == 0 {
             return;
         }
         self.draws.record_upload(recorder, &placed.draws, &placed.matrices);
         if let Some(indirect) = &self.indirect {
-            indirect.record(recorder, &self.geometry, &placed.indirect);
+            indirect.record(recorder, geometry, &placed.indirect);
         }
-        self.record_vertices(recorder, &placed.runs);
-        let limits = self.shared.gpu.limits();
+        self.record_vertices(recorder, geometry, &placed.runs);
+        let limits = recorder.limits();
         for run in &placed.runs {
-            let indices = self.geometry.meshes[run.mesh].indices;
-            let Some(adopt) = &self.adopt[kernel(indices)] else {
+            let indices = geometry.meshes[run.mesh].indices;
+            let Some(adopt) = &self.adopt[index_kind(indices) as usize] else {
                 continue;
             };
             let counts = AdoptedCounts {
@@ -163,9 +161,9 @@ impl Adoption {
         }
     }
 
-    fn record_vertices(&self, recorder: &Recorder<'_>, runs: &[DrawRun]) {
-        let limits = self.shared.gpu.limits();
-        let parts = self.vertex_parts(runs);
+    fn record_vertices(&self, recorder: &Recorder<'_>, geometry: &Geometry, runs: &[DrawRun]) {
+        let limits = recorder.limits();
+        let parts = vertex_parts(geometry, runs);
         let counts = |part: &VertexPart, format: VertexFormat, before: u32, stride: u32| {
             let [x, y, z] = format.bias;
             VertexCounts {
@@ -180,7 +178,7 @@ impl Adoption {
             }
         };
         for part in &parts {
-            let lent = self.geometry.meshes[part.mesh].lent_coordinates(limits);
+            let lent = geometry.meshes[part.mesh].lent_coordinates(limits);
             if let Some((set, (lent, bytes))) = self.sets[part.mesh].coordinates.as_ref().zip(lent)
                 && let Some(kernel) = &self.coordinates[lent.format.kind() as usize]
             {
@@ -190,8 +188,8 @@ impl Adoption {
             }
         }
         for part in &parts {
-            let lent = &self.geometry.meshes[part.mesh];
-            let before = lent.lent_positions(self.geometry.position_space, limits).before;
+            let lent = &geometry.meshes[part.mesh];
+            let before = lent.lent_positions(geometry.position_space, limits).before;
             if let Some(set) = &self.sets[part.mesh].transform
                 && let Some(kernel) = &self.transform[lent.position_format.kind() as usize]
             {
@@ -201,28 +199,28 @@ impl Adoption {
             }
         }
     }
+}
 
-    /// Parts of meshes to transform. With positions in object space, each run of draws is a part; with positions in clip
-    /// space, each mesh that is drawn.
-    fn vertex_parts(&self, runs: &[DrawRun]) -> Vec<VertexPart> {
-        if self.geometry.position_space != PositionSpace::Clip {
-            let part = |run: &DrawRun| VertexPart { mesh: run.mesh, draws: run.draws, positions: run.positions };
-            return runs.iter().map(part).collect();
-        }
-        let mut is_drawn = vec![false; self.geometry.meshes.len()];
-        for run in runs {
-            is_drawn[run.mesh] = true;
-        }
-        let meshes = self.geometry.meshes.iter().enumerate();
-        let parts = meshes.zip(self.geometry.first_positions());
-        // Positions in clip space are not those of a draw.
-        let part = |((mesh, lent), first): ((usize, &Mesh), u32)| VertexPart {
-            mesh,
-            draws: [0, 0],
-            positions: [first, lent.vertex_capacity],
-        };
-        parts.map(part).filter(|part| is_drawn[part.mesh]).collect()
+/// Parts of meshes to transform. With positions in object space, each run of draws is a part; with positions in clip
+/// space, each mesh that is drawn.
+fn vertex_parts(geometry: &Geometry, runs: &[DrawRun]) -> Vec<VertexPart> {
+    if geometry.position_space != PositionSpace::Clip {
+        let part = |run: &DrawRun| VertexPart { mesh: run.mesh, draws: run.draws, positions: run.positions };
+        return runs.iter().map(part).collect();
     }
+    let mut is_drawn = vec![false; geometry.meshes.len()];
+    for run in runs {
+        is_drawn[run.mesh] = true;
+    }
+    let meshes = geometry.meshes.iter().enumerate();
+    let parts = meshes.zip(geometry.first_positions());
+    // Positions in clip space are not those of a draw.
+    let part = |((mesh, lent), first): ((usize, &Mesh), u32)| VertexPart {
+        mesh,
+        draws: [0, 0],
+        positions: [first, lent.vertex_capacity],
+    };
+    parts.map(part).filter(|part| is_drawn[part.mesh]).collect()
 }
 
 /// Positions in clip space that are made from a mesh.

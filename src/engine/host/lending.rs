@@ -81,7 +81,7 @@ impl Lending {
 
     /// Records positions in clip space and triangles.
     pub fn record_triangles(&self, recorder: &Recorder<'_>, placed: &PlacedDraws) {
-        self.adoption.record(recorder, placed);
+        self.adoption.record(recorder, &self.geometry, placed);
     }
 
     /// Uniform block for the host's shaders. Textures are filtered over squares with the side `place_side`, or, with
