@@ -31,14 +31,10 @@ impl ChangingLook {
 pub struct FrameLook {
     materials: Option<TexelBuffer>,
     lights: Option<Buffer>,
-    /// Updates of the materials and lights for the next recording.
-    updates: Vec<Update>,
-}
-
-struct Update {
-    of_materials: bool,
-    first_byte: usize,
-    bytes: Vec<u8>,
+    /// Rows of materials that the next recording writes, each with its first byte in the buffer.
+    shown_materials: Vec<(u64, Vec<[u32; 4]>)>,
+    /// Lights that the next recording writes; empty if they do not change.
+    shown_lights: Vec<GpuLight>,
 }
 
 impl FrameLook {
@@ -72,7 +68,7 @@ impl FrameLook {
         Ok(Self {
             materials: has_materials.then(|| materials(&scene.materials)).transpose()?,
             lights: changing.lights.then(|| lights(&scene.lights)).transpose()?,
-            updates: Vec::new(),
+            ..Self::default()
         })
     }
 
@@ -115,40 +111,26 @@ impl FrameLook {
         let Some(changing) = &scene.changing else {
             return;
         };
-        self.updates.clear();
+        let first_byte = |index: usize| 16 * index as u64 * u64::from(scene.material_vectors);
         let changed = changing.materials.iter().zip(&moment.materials);
-        for ((index, row), (_, material)) in changed {
-            let words = row.words(material);
-            self.updates.push(Update {
-                of_materials: true,
-                first_byte: index * scene.material_vectors as usize * 16,
-                bytes: bytemuck::cast_slice(&words).to_vec(),
-            });
-        }
-        if self.lights.is_some() {
+        self.shown_materials =
+            changed.map(|((index, row), (_, material))| (first_byte(*index), row.words(material))).collect();
+        if changing.lights {
             let lights = moment.lights.iter();
-            let lights: Vec<_> = lights.map(|light| GpuLight::of_scene(light, scene.geometry.origin)).collect();
-            self.updates.push(Update {
-                of_materials: false,
-                first_byte: 0,
-                bytes: bytemuck::cast_slice(&lights).to_vec(),
-            });
+            self.shown_lights = lights.map(|light| GpuLight::of_scene(light, scene.geometry.origin)).collect();
         }
     }
 
     /// Records the prepared updates.
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
-        if self.updates.is_empty() {
-            return;
+        // Updates stay within the buffers: a moment has no more materials and lights than its scene.
+        if let Some(materials) = &self.materials {
+            for (first_byte, row) in &self.shown_materials {
+                recorder.update(&materials.buffer, *first_byte, bytemuck::cast_slice(row));
+            }
         }
-        for update in &self.updates {
-            let to = match update.of_materials {
-                true => self.materials.as_ref().map(|view| &view.buffer),
-                false => self.lights.as_ref(),
-            };
-            let Some(to) = to else { continue };
-            // Updates stay within the buffer: a moment has no more materials and lights than its scene.
-            recorder.update(to, update.first_byte as u64, &update.bytes);
+        if let Some(lights) = self.lights.as_ref().filter(|_| !self.shown_lights.is_empty()) {
+            recorder.update(lights, 0, bytemuck::cast_slice(&self.shown_lights));
         }
     }
 }
