@@ -183,11 +183,11 @@ pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[
     sources.par_iter().with_min_len(16_384).map(|&source| accessor.floats(source as usize)).collect()
 }
 
-/// Reads the indices of a primitive, if it has any, and the number of vertices that it passes through.
+/// Index of each vertex that a primitive passes through, by its indices or in order, and the number of these vertices.
 fn read_indices<'a>(
     reader: &vertex::Reader<'a, '_>,
     positions: &Accessor<'_>,
-) -> Result<(Option<Accessor<'a>>, usize), Fault> {
+) -> Result<(impl Fn(usize) -> u32 + use<'a>, usize), Fault> {
     let place = reader.place;
     let indices = match reader.packed {
         Some(packed) => Some(Accessor::of_stream(&packed.indices, false, place)),
@@ -203,7 +203,14 @@ fn read_indices<'a>(
     let defining = indices.as_ref().unwrap_or(positions);
     defining.check_justified()?;
     let count = defining.count;
-    Ok((indices, count))
+    let index = move |place: usize| match &indices {
+        Some(indices) => {
+            let [index] = indices.integers(place);
+            index
+        }
+        None => place as u32,
+    };
+    Ok((index, count))
 }
 
 /// Points or lines that can be drawn, and the file's vertices that they use.
@@ -213,14 +220,7 @@ fn read_strokes(
     positions: &Accessor<'_>,
     notes: &mut Vec<Fault>,
 ) -> Result<Option<(Strokes, Vec<u32>)>, Fault> {
-    let (indices, count) = read_indices(reader, positions)?;
-    let index = |i: usize| match &indices {
-        Some(indices) => {
-            let [index] = indices.integers(i);
-            index
-        }
-        None => i as u32,
-    };
+    let (index, count) = read_indices(reader, positions)?;
     let position = |v: u32| positions.floats::<3>(v as usize);
     let bound = positions.count as u32;
     let usable = |v: u32| v < bound && position(v).iter().all(|x| x.is_finite());
@@ -253,14 +253,8 @@ fn read_triangles(
     notes: &mut Vec<Fault>,
 ) -> Result<Option<(Triangles, Vec<u32>)>, Fault> {
     let (item, place) = (reader.primitive, reader.place);
-    let (indices, count) = read_indices(reader, positions)?;
-    let (mut triangles, left_over) = match &indices {
-        Some(indices) => triangles::assemble(mode, count, |i| {
-            let [index] = indices.integers(i);
-            index
-        }),
-        None => triangles::assemble(mode, count, |i| i as u32),
-    };
+    let (index, count) = read_indices(reader, positions)?;
+    let (mut triangles, left_over) = triangles::assemble(mode, count, index);
     if left_over > 0 {
         let reason = format!("{left_over} of {count} indices make no triangle and are left out");
         notes.push(Fault::new(place, reason));

@@ -164,11 +164,8 @@ impl FileObject {
         }
         let count = self.positions.len();
         let mut sources = triangles::compact(&mut self.triangles, count);
-        let mut positions = pick(&self.positions, &sources);
-        let mut normals = match self.normals.len() == count {
-            true => pick(&self.normals, &sources),
-            false => Vec::new(),
-        };
+        let mut positions = pick(&self.positions, count, &sources);
+        let mut normals = pick(&self.normals, count, &sources);
         turn_to_normals(&mut self.triangles, &positions, &normals);
         let mended = mend_normals(&self.triangles, &positions, &mut normals);
         if mended > 0 {
@@ -178,14 +175,14 @@ impl FileObject {
         if normals.is_empty() {
             let corners = self.triangles.as_flattened();
             sources = corners.iter().map(|&v| sources[v as usize]).collect();
-            positions = pick(&self.positions, &sources);
+            positions = pick(&self.positions, count, &sources);
             let corners = 0..self.triangles.len() as u32;
             self.triangles = corners.map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         }
         Some(Primitive {
             material,
             uvs: self.uvs_of(uses_uvs, &sources, place, warnings),
-            colors: self.colors_of(&sources),
+            colors: pick(&self.colors, count, &sources),
             triangles: self.triangles,
             positions,
             normals,
@@ -218,19 +215,16 @@ impl FileObject {
         let mut strokes = strokes::assemble(mode, &whole, same);
         let count = self.positions.len();
         let sources = strokes.compact(count);
-        let mut normals = match self.normals.len() == count {
-            true => pick(&self.normals, &sources),
-            false => Vec::new(),
-        };
+        let mut normals = pick(&self.normals, count, &sources);
         if !normals.iter().all(is_usable) {
             normals.clear();
         }
         (!strokes.corners.is_empty()).then(|| Primitive {
             material,
-            positions: pick(&self.positions, &sources),
+            positions: pick(&self.positions, count, &sources),
             normals,
             uvs: self.uvs_of(uses_uvs, &sources, place, warnings),
-            colors: self.colors_of(&sources),
+            colors: pick(&self.colors, count, &sources),
             triangles: strokes.triangles,
             corners: strokes.corners,
             ..Primitive::default()
@@ -245,7 +239,7 @@ impl FileObject {
             warnings.leave_out("textures of surfaces without texture coordinates", 1, place);
             return vec![[0.0; 4]; sources.len()];
         }
-        let uvs = pick(&self.uvs, sources);
+        let uvs = pick(&self.uvs, self.uvs.len(), sources);
         let lost = uvs.iter().filter(|uv| !uv.iter().all(|x| x.is_finite())).count();
         if lost > 0 {
             let reason = format!("{lost} texture coordinates are infinite or undefined, and 0 is used");
@@ -254,15 +248,12 @@ impl FileObject {
         let uvs = uvs.into_iter().map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
         uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 })).collect()
     }
-
-    fn colors_of(&self, sources: &[u32]) -> Vec<[f32; 4]> {
-        match self.colors.len() == self.positions.len() {
-            true => pick(&self.colors, sources),
-            false => Vec::new(),
-        }
-    }
 }
 
-fn pick<T: Copy>(stream: &[T], sources: &[u32]) -> Vec<T> {
+/// Entries of a stream for some of the `count` vertices; none if the stream does not have an entry for each vertex.
+fn pick<T: Copy>(stream: &[T], count: usize, sources: &[u32]) -> Vec<T> {
+    if stream.len() != count {
+        return Vec::new();
+    }
     sources.iter().map(|&v| stream[v as usize]).collect()
 }
