@@ -74,6 +74,7 @@ const VARIANTS: &[Variant] = &[
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("setup", "setup.comp", &[]),
+    ("refine", "refine.comp", &[]),
     ("scatter", "scatter.comp", &[]),
     ("spans", "spans.comp", &[]),
     ("tally", "tally.comp", &[]),

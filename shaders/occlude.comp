@@ -1,20 +1,23 @@
 // occlude: finds the receivers of a light in front of which other triangles lie, in the lists of candidates that the tiles of
-// the light's plane have. It then stores that the light is blocked there or, behind BLEND triangles, how much of it passes. With
-// probes it instead marks pixels for `detect`: those at whose centre and probe different shares of the light arrive. A team takes
-// 64 receivers: those of a superpixel, or of 8 x 8 pixels. They lie side by side, so that they have most candidates in common.
-// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`, or
+// the light's plane have. It then stores that the light is blocked there or, behind BLEND triangles, how much of it passes. If
+// pixels have several points, it also marks pixels for `detect`: those at whose centre and another point different shares of the
+// light arrive. A team takes 64 receivers: those of a superpixel, of 8 x 8 pixels, or of 4 x 4 pixels with four points each. They
+// lie side by side, so that they have most candidates in common.
+// Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`,
 // marks_of_pixels. Receivers in tiles without a list are counted as left, with what such a list needs.
 // Twin: `gpc::reference::shadow`.
 //
-// In each trip of the outer loop, the receivers in one tile are tested. The team searches the tile's list for candidates
-// that may touch a pixel with receivers and may lie in front of one. As soon as each member holds such a candidate, it
-// tests it against the rectangle around the receivers. Candidates that pass are shown to the receivers, one after the other.
+// In each trip of the outer loop, the receivers in one tile are tested; in one pixel of a tile whose list is refined. The team
+// searches the list for candidates that may touch a pixel (or a part of one) with receivers, and may lie in front of one. As soon as
+// each member holds such a candidate, it tests it against the rectangle around the receivers. Candidates that pass are shown to the
+// receivers, one after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/work.glsl"
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
+#include "include/refined.glsl"
 #include "include/shadows.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = OCCLUDE_CONSTANT_TRANSLUCENT) const bool TRANSLUCENT = false;    // some casters are alpha-tested or BLEND
@@ -31,10 +34,12 @@ layout(push_constant) uniform Push {
     vec4 light;         // xyz: unit direction to a distant light (w = 0) or position of a local one (w = 1)
     vec4 cone;          // xyz: axis of a local light, unit; w: cosine of the cone's half angle, -2 for light in all directions
     float range;        // how far the light of a local light reaches
-    uint step_;         // light and probe, see OCCLUDE_LIGHT
+    uint number;        // of the light
     uint face;          // which of the six planes of a cube this is, as `face_of` numbers them, or SINGLE_PLANE
     uint first_place;   // place of the first receiver
     uvec2 region;       // size in pixels of the region whose pixels are the receivers; 0 if these are fragments
+    uint points;        // number of points of a pixel: 1 or SHADOW_POINTS
+    uint begins;        // 1 if this step is the first, which begins the shadow words; 0 otherwise
 } push;
 #include "include/light_plane.glsl"
 
@@ -48,21 +53,30 @@ const float STEPS = 1048576.0;
 const uint MOST_ABSORBED = 1u << 28;
 
 uint trips = 0u;                                        // MOST_TRIPS of workarounds.glsl
+uint my_left = 0u, my_longest = 0u;                     // receivers in tiles without a list, and the fullest of these tiles
 
-// The receivers of an invocation.
-uint receiver[ROWS];        // index in the list
-uint tile_of[ROWS];
+// Bits of `where`: 5 for the part, 5 for the pixel, and the others for the tile.
+const uint PIXEL_SHIFT = 5u, TILE_SHIFT = 10u;
+
+// The receivers of an invocation. If pixels have several points, it takes all points of its pixels: those of the centres in its
+// first rows.
+uint receiver[ROWS];        // pixel or fragment; ~0 for none
+uint where[ROWS];           // its tile, pixel of the tile and part of the pixel, see TILE_SHIFT; ~0 if nothing can hide it
 vec2 place[ROWS];           // relative to its tile's centre
 float least[ROWS];          // depth from which on a triangle lies in front of it
 uint own[ROWS];             // the triangle that it lies on, which can't hide it
 uint absorbed[ROWS];        // what BLEND triangles keep from it
 uint hidden = 0u;           // a bit for each
 
-// The receiver that row `g` of this invocation takes; ~0 for none.
+// Rows of an invocation that hold the same point of pixels.
+uint rows_of_point() { return push.points == 1u ? ROWS : ROWS / SHADOW_POINTS; }
+
+// The pixel or fragment that row `g` of this invocation takes; ~0 for none.
 uint receiver_of(uint g) {
-    uint n = g * TEAM + member(), group = team_number();
+    uint group = team_number(), n = (g & (rows_of_point() - 1u)) * TEAM + member();
     if (push.region.x == 0u) return group * 64u + n;
-    uvec2 pixel = split(group, (push.region.x + 7u) >> 3) * 8u + uvec2(n & 7u, n >> 3);
+    uint log_side = push.points == 1u ? 3u : 2u, side = 1u << log_side;
+    uvec2 pixel = split(group, (push.region.x + side - 1u) >> log_side) * side + uvec2(n & (side - 1u), n >> log_side);
     return all(lessThan(pixel, push.region)) ? pixel.y * push.region.x + pixel.x : ~0u;
 }
 
@@ -71,17 +85,18 @@ uint turned = 0u;           // a bit for each whose surface is turned away from 
 
 // Loads the receivers. Returns a bit for each that other triangles may hide from the light.
 uint load_receivers() {
-    uint asked = 0u;
+    uint asked = 0u, points_apart = push.region.x * push.region.y;
     ivec2 first = ivec2(floor(frame.origin));
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint i = receiver_of(g);
         bool some = i != ~0u;
         receiver[g] = i;
-        i = some ? i : 0u;
-        uvec4 at = texelFetch(locations, int(2u * i)), facing_ = texelFetch(locations, int(2u * i + 1u));
+        int surface = int(2u * (g / rows_of_point() * points_apart + (some ? i : 0u)));
+        uvec4 at = texelFetch(locations, surface), facing_ = texelFetch(locations, surface + 1);
         some = some && at.w != 0u;
         Projected r = project(uintBitsToFloat(at.xyz), uintBitsToFloat(facing_.xyz), facing_.w != 0u, first, ivec2(frame.size));
-        tile_of[g] = some && r.asked ? (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3) : ~0u;
+        uint tile = (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3), pixel = (r.pixel.y & 3u) * 8u + (r.pixel.x & 7u);
+        where[g] = some && r.asked ? tile << TILE_SHIFT | pixel << PIXEL_SHIFT | part_at(r.within) : ~0u;
         place[g] = place_in_tile(uvec4(r.pixel, floatBitsToUint(r.within)));
         least[g] = r.least;
         own[g] = at.w;
@@ -92,12 +107,6 @@ uint load_receivers() {
         asked |= some && r.asked ? bit : 0u;
     }
     return asked;
-}
-
-// The pixel of its tile in which a place lies, as a bit.
-uint pixel_at(vec2 p) {
-    uvec2 pixel = uvec2(clamp(ivec2(floor(p + vec2(4.0, 2.0))), ivec2(0), ivec2(7, 3)));
-    return 1u << (pixel.y * 8u + pixel.x);
 }
 
 // Shows a candidate to the receivers `rows` of this invocation.
@@ -139,31 +148,40 @@ void show_translucent_to(Candidate t, uint rows, vec2 center) {
     } while (pending != 0u);
 }
 
-// Tests the receivers of tile `its`: those with a bit in `mine`.
-void test_in(uint its, uint mine) {
+// Tests receivers of tile `its`, among those with a bit in `mine`: all of them, or those of a pixel if the list is refined. Returns
+// their bits.
+uint test_in(uint its, uint mine) {
     uint lane = member();
     uvec4 header = tiles[its];
     bool listed = (header.w & TILE_LISTED) != 0u;
     uint count = listed ? header.w >> TILE_COUNT_SHIFT : 0u;
-    if (mine != 0u && !listed) {
-        atomicAdd(left, 1u);
-        if (counters[COUNTER_PAIRS] > frame.pair_capacity) atomicMax(pairs_needed, counters[COUNTER_PAIRS]);
-        else atomicMax(longest, header.x);
-    }
+    my_left += mine != 0u && !listed ? 1u : 0u;
+    my_longest = max(my_longest, mine != 0u && !listed ? header.x : 0u);
+    uint pixels = 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) pixels |= (mine >> g & 1u) != 0u ? 1u << (where[g] >> PIXEL_SHIFT & 31u) : 0u;
+    pixels = team_or(pixels);
+
+    // Where the list begins that is searched, and its length.
+    bool refined = (header.w & TILE_REFINED) != 0u;
+    uint pixel = pixels == 0u ? 0u : uint(findLSB(pixels));
+    uint word = texelFetch(candidates, int((refined ? header.z : 0u) + (pixel >> 2)))[pixel & 3u];
+    uint begin = refined ? header.z + REFINED_HEADER + (word >> 16) : 4u * header.y, length_ = refined ? word & 0xffffu : count;
+
     vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
     float lowest = 3.4e38;
-    uint pixels = 0u;
+    uint parts = 0u;
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
+        mine &= refined && (where[g] >> PIXEL_SHIFT & 31u) != pixel ? ~(1u << g) : ~0u;
         bool is_mine = (mine >> g & 1u) != 0u;
         low = is_mine ? min(low, place[g]) : low;
         high = is_mine ? max(high, place[g]) : high;
         lowest = is_mine ? min(lowest, least[g]) : lowest;
-        pixels |= is_mine ? pixel_at(place[g]) : 0u;
+        parts |= is_mine ? 1u << (where[g] & 31u) : 0u;
     }
     low = vec2(team_min(low.x), team_min(low.y));
     high = vec2(team_max(high.x), team_max(high.y));
     lowest = team_min(lowest);
-    pixels = team_or(pixels);
+    pixels = refined ? team_or(parts) : pixels;
     vec2 middle = 0.5 * (low + high), half_side = 0.5 * (high - low) + ROUNDING;
 
     uint next = 0u;             // the first entry of the list that has not been looked at
@@ -173,8 +191,8 @@ void test_in(uint its, uint mine) {
         uint held = 0u, my_entry = 0u;
         do {
             uint entry = next + lane;
-            uvec4 last = texelFetch(candidates, last_of_candidate(header.y, min(entry, max(count, 1u) - 1u), true));
-            bool may = entry < count && (last.w & pixels) != 0u && uintBitsToFloat(last.x) > lowest;
+            uvec4 last = texelFetch(candidates, int(begin + min(entry, max(length_, 1u) - 1u)));
+            bool may = entry < length_ && (last.w & pixels) != 0u && uintBitsToFloat(last.x) > lowest;
             uint found = team_ballot(may);
             bool fresh = pending == 0u;
             pending = fresh ? found : pending;
@@ -184,10 +202,11 @@ void test_in(uint its, uint mine) {
             held += taken;
             pending = taken == uint(bitCount(pending)) ? 0u : pending & ~((1u << bit_of_cell(pending, taken)) - 1u);
             trips++;
-        } while (held < TEAM && (pending != 0u || next < count) && trips <= MOST_TRIPS);
-        my_entry = min(my_entry, max(count, 1u) - 1u);
-        uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, my_entry, true));
-        Candidate k = unpack_candidate(candidate_at(header.y, my_entry, count, true), its_last);
+        } while (held < TEAM && (pending != 0u || next < length_) && trips <= MOST_TRIPS);
+        my_entry = min(my_entry, max(length_, 1u) - 1u);
+        uint rank = refined ? texelFetch(candidates, int(begin + my_entry)).z : my_entry;
+        uvec4 its_last = texelFetch(candidates, last_of_candidate(header.y, rank, true));
+        Candidate k = unpack_candidate(candidate_at(header.y, rank, count, true), its_last);
         RectangleTest test = test_rectangle(k, middle, half_side, TRANSLUCENT);
         bool shows = lane < held && test.touches && test.near > lowest, translucent = TRANSLUCENT && k.id > frame.first_mask;
         uint showing = team_ballot(shows && !translucent);
@@ -205,43 +224,70 @@ void test_in(uint its, uint mine) {
                 showing &= showing - 1u;
             } while (showing != 0u);
         }
-        more = (pending != 0u || next < count) && team_any((mine & ~hidden) != 0u) && trips <= MOST_TRIPS;
+        more = (pending != 0u || next < length_) && team_any((mine & ~hidden) != 0u) && trips <= MOST_TRIPS;
     } while (more);
+    return mine;
 }
 
-// Stores how much of the light passes to receiver `i`.
-void store(uint i, float share) {
-    uint light = push.step_ & OCCLUDE_LIGHT;
-    if (push.step_ >> OCCLUDE_PROBE_SHIFT == 0u) {
-        uint place = (push.first_place + i) * SHADOW_WORDS;
-        words[place] = ((push.step_ & OCCLUDE_BEGINS) != 0u ? 0u : words[place]) | (share < 1.0 ? 1u << light : 0u);
-        if (BLENDS && share < 1.0) words[place + 1u + light] = floatBitsToUint(share);
-        return;
+// The share of the light that passes to the receiver of row `g`.
+float share_of(uint g) {
+    return (hidden >> g & 1u) != 0u ? 0.0 : BLENDS ? exp2(-float(absorbed[g]) / STEPS) : 1.0;
+}
+
+// Stores what reaches centres and fragments. The first step begins their words. Others change those of receivers that something
+// keeps light from, which most teams have in few rows, or in none.
+void store_words() {
+    bool begins = push.begins != 0u;
+    uint stored = 0u;
+    [[unroll]] for (uint g = 0u; g < ROWS; g++) stored |= g < rows_of_point() && (begins || share_of(g) < 1.0) ? exists & 1u << g : 0u;
+    uint pending = team_or(stored);
+    do {
+        uint row = pending == 0u ? 0u : uint(findLSB(pending)), i = receiver[0];
+        float share = share_of(0u);
+        [[unroll]] for (uint g = 1u; g < ROWS; g++) {
+            i = row == g ? receiver[g] : i;
+            share = row == g ? share_of(g) : share;
+        }
+        if ((stored >> row & 1u) != 0u) {
+            uint place = (push.first_place + i) * SHADOW_WORDS;
+            words[place] = (begins ? 0u : words[place]) | (share < 1.0 ? 1u << push.number : 0u);
+            if (BLENDS && share < 1.0) words[place + 1u + push.number] = floatBitsToUint(share);
+        }
+        pending &= pending - 1u;
+    } while (pending != 0u);
+}
+
+// Marks pixels of which another point gets another share of the light than the centre. All lie in one tile of the image.
+void mark_pixels(uint asked) {
+    uint differing = 0u;
+    [[unroll]] for (uint g = ROWS / SHADOW_POINTS; g < ROWS; g++) {
+        uint centre = g % (ROWS / SHADOW_POINTS);
+        uvec2 pixel = split(receiver[g], push.region.x);
+        bool differs = (asked >> g & 1u) != 0u && abs(share_of(g) - share_of(centre)) > ALIKE;
+        differing |= differs ? 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)) : 0u;
     }
-    uint at_centre = i * SHADOW_WORDS;
-    bool lit = (words[at_centre] >> light & 1u) == 0u;
-    float centre = lit ? 1.0 : BLENDS ? uintBitsToFloat(words[at_centre + 1u + light]) : 0.0;
-    uvec2 pixel = split(i, push.region.x);
-    uint tile = (pixel.y >> 2) * ((push.region.x + 7u) >> 3) + (pixel.x >> 3);
-    if (abs(share - centre) > ALIKE) atomicOr(marks_of_pixels[tile], 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)));
+    differing = team_or(differing);
+    uvec2 corner = split(team_number(), (push.region.x + 3u) >> 2) * 4u;
+    uint tile = (corner.y >> 2) * ((push.region.x + 7u) >> 3) + (corner.x >> 3);
+    if (differing != 0u && member() == 0u) atomicOr(marks_of_pixels[tile], differing);
 }
 
 void main() {
     uint asked = load_receivers(), waits = asked;
     do {
         uint waiting = team_ballot(waits != 0u), my_next = 0u;
-        [[unroll]] for (uint g = 0u; g < ROWS; g++) my_next = (waits & (0u - waits)) == 1u << g ? tile_of[g] : my_next;
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) my_next = (waits & (0u - waits)) == 1u << g ? where[g] >> TILE_SHIFT : my_next;
         uint its = waiting != 0u ? of_member(my_next, uint(findLSB(waiting))) : 0u, mine = 0u;
-        [[unroll]] for (uint g = 0u; g < ROWS; g++) mine |= tile_of[g] == its ? waits & 1u << g : 0u;
-        waits &= ~mine;
-        test_in(its, mine);
+        [[unroll]] for (uint g = 0u; g < ROWS; g++) mine |= where[g] >> TILE_SHIFT == its ? waits & 1u << g : 0u;
+        waits &= ~test_in(its, mine);
     } while (team_any(waits != 0u) && trips <= MOST_TRIPS);
-    if (trips > MOST_TRIPS && member() == 0u) atomicAdd(left, 1u);
-    // Probes whose surface is turned away show nothing of the shadows of others.
-    uint stored = push.step_ >> OCCLUDE_PROBE_SHIFT == 0u ? exists : asked;
-    hidden |= turned;
-    [[unroll]] for (uint g = 0u; g < ROWS; g++) {
-        float share = (hidden >> g & 1u) != 0u ? 0.0 : BLENDS ? exp2(-float(absorbed[g]) / STEPS) : 1.0;
-        if ((stored >> g & 1u) != 0u) store(receiver[g], share);
+    my_left += trips > MOST_TRIPS ? 1u : 0u;
+    if (my_left != 0u) {
+        atomicAdd(left, my_left);
+        if (counters[COUNTER_PAIRS] > frame.pair_capacity) atomicMax(pairs_needed, counters[COUNTER_PAIRS]);
+        else atomicMax(longest, my_longest);
     }
+    hidden |= turned;
+    store_words();
+    if (push.points != 1u) mark_pixels(asked);
 }

@@ -293,6 +293,7 @@
 #define COUNTER_OWNERS 36
 #define COUNTER_LAYERS 37
 #define COUNTER_MOST_CELLS 38
+#define COUNTER_REFINED 39
 
 // Indices into `arguments`.
 #define ARGUMENT_CULL 0
@@ -458,11 +459,8 @@
 // Number of samples from which on more pixels become superpixels, and a triangle is shaded once only where colours do not differ.
 #define MANY_SAMPLES 128u
 
-// What `occlude` takes in a word: the number of the light; a flag of the first step of all, which clears the shadow words; and,
-// shifted, the number of the probe, from 1 on, or 0 for none.
-#define OCCLUDE_LIGHT 31u
-#define OCCLUDE_BEGINS 32u
-#define OCCLUDE_PROBE_SHIFT 6u
+// Number of points of a pixel that `receivers` finds where shadows narrower than pixels are looked for: the centre and three others.
+#define SHADOW_POINTS 4u
 
 // Words that `distribute` has for a tile, see tile_locations.glsl.
 #define LOAD_WORDS 35u

@@ -58,6 +58,7 @@ vec2 tile_center(ivec2 tile) {
 #define TILE_HAS_BLEND 2u
 #define TILE_LISTED 4u
 #define TILE_OVERFLOW 8u    // a pair of the tile was not kept
+#define TILE_REFINED 16u     // tiles[].z is the first vector of a refined list, see refine.comp
 #define TILE_COUNT_SHIFT 8
 
 // Whether a tile is in the current round. What `enlist` wrote for tiles of earlier rounds is no longer valid.

@@ -1517,10 +1517,12 @@ pub struct OccludePush {
     pub light: [f32; 4],
     pub cone: [f32; 4],
     pub range: f32,
-    pub step: u32,
+    pub number: u32,
     pub face: u32,
     pub first_place: u32,
     pub region: [u32; 2],
+    pub points: u32,
+    pub begins: u32,
 }
 
 /// The set beside the frame's that `shaders/occlude.comp` binds.
@@ -1582,7 +1584,7 @@ impl Specialized for Occlude {
             Use { set: 2, binding: occlude_set::LEFT, access: Access::ReadWrite },
             Use { set: 2, binding: occlude_set::MARKS_OF_PIXELS, access: Access::ReadWrite },
         ],
-        push_bytes: 120,
+        push_bytes: 128,
         invocations: Invocations::Constant,
         by_teams: true,
     };
@@ -2020,7 +2022,7 @@ impl Compiled for RasterVertex {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ReceiversPush {
-    pub probe: u32,
+    pub points: u32,
 }
 
 /// The set beside the frame's that `shaders/receivers.comp` binds.
@@ -2086,6 +2088,56 @@ impl Specialized for Receivers {
 impl Compiled for Receivers {
     fn code() -> &'static [u8] {
         RECEIVERS
+    }
+}
+
+/// Constants of `shaders/refine.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Refine {
+    pub local_size: u32,
+    pub team: u32,
+    pub teams: u32,
+}
+
+impl Default for Refine {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            team: 8,
+            teams: 1,
+        }
+    }
+}
+
+impl Specialized for Refine {
+    type Push = ();
+
+    const INTERFACE: &'static Interface = &Interface {
+        name: "refine",
+        in_frame: true,
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 1, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::TILES, access: Access::ReadWrite },
+            Use { set: 1, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 1, binding: frame_set::CANDIDATES_OUT, access: Access::Write },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Constant,
+        by_teams: true,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.team)
+            .with(24, self.teams)
+    }
+}
+
+impl Compiled for Refine {
+    fn code() -> &'static [u8] {
+        REFINE
     }
 }
 
@@ -3234,7 +3286,7 @@ impl Compiled for Transform {
 }
 
 /// Interfaces of all shaders.
-pub const INTERFACES: [&Interface; 46] = [
+pub const INTERFACES: [&Interface; 47] = [
     Adopt::INTERFACE,
     AlphaMap::INTERFACE,
     Arguments::INTERFACE,
@@ -3267,6 +3319,7 @@ pub const INTERFACES: [&Interface; 46] = [
     RasterFragment::INTERFACE,
     RasterVertex::INTERFACE,
     Receivers::INTERFACE,
+    Refine::INTERFACE,
     Resolve::INTERFACE,
     Sample::INTERFACE,
     SampleLines::INTERFACE,
@@ -3326,6 +3379,7 @@ pub struct Counters {
     pub owners: u32,
     pub layers: u32,
     pub most_cells: u32,
+    pub refined: u32,
 }
 
 /// Their places among the words.
@@ -3371,6 +3425,7 @@ pub enum Counter {
     Owners,
     Layers,
     MostCells,
+    Refined,
 }
 
 /// Indices of indirect dispatches.
@@ -3530,9 +3585,7 @@ pub const WRAP_MIRRORED_REPEAT: u32 = 1;
 pub const WRAP_CLAMP_TO_EDGE: u32 = 2;
 pub const SINGLE_PLANE: u32 = 6;
 pub const MANY_SAMPLES: u32 = 128;
-pub const OCCLUDE_LIGHT: u32 = 31;
-pub const OCCLUDE_BEGINS: u32 = 32;
-pub const OCCLUDE_PROBE_SHIFT: u32 = 6;
+pub const SHADOW_POINTS: u32 = 4;
 pub const LOAD_WORDS: u32 = 35;
 pub const THIN_PER_INVOCATION: u32 = 8;
 pub const FILTER_TRIANGLES: u32 = 2048;

@@ -69,7 +69,7 @@ pub fn shadows() -> String {
     headless.render(&mut frame, &camera).unwrap();
     let passes = headless.passes(&mut frame, &camera).unwrap().passes;
     let place = |name: &str| passes.iter().position(|pass| pass.name == name).unwrap();
-    let lists = &passes[place("cull")..=place("setup")];
+    let lists = &passes[place("cull")..=place("refine")];
     let looks = &passes[place("receivers")..=place("occlude")];
     draw(&[lists, looks].concat())
 }

@@ -32,6 +32,7 @@ mod patch;
 pub(crate) mod pixel_filter;
 pub(crate) mod points;
 mod raster;
+pub(crate) mod refine;
 pub(crate) mod resolve;
 pub(crate) mod sample;
 mod sample_lines;

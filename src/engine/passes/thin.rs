@@ -3,7 +3,7 @@
 use super::arguments::{self, CountedBy};
 use crate::engine::data::{Argument, Content};
 use crate::engine::pipelines::{FrameLayout, Pass, Size};
-use crate::engine::spirv::{self, frame_set};
+use crate::engine::spirv;
 use crate::vulkan::{Specialized, VulkanError};
 
 /// Marks pixels that `detect` turns into superpixels, for the triangle slots of a scene. `blend_ids` says whether BLEND
@@ -25,7 +25,6 @@ pub(crate) fn pass(
     let pushed = |long| spirv::ThinPush { long, depth_factor, depth_constant };
     let of_slots = Size::Items(spirv::THIN_PER_INVOCATION);
     Ok(Pass::named(spirv::Thin::INTERFACE)
-        .clear(frame_set::MARKS)
         .dispatch(select.dispatch(pushed(0), of_slots))
         .dispatch(arguments::dispatch(layout, CountedBy::Thin)?)
         .unordered([walk.dispatch(pushed(0), Argument::Thin), walk.dispatch(pushed(1), Argument::ThinLong)]))

@@ -62,9 +62,6 @@ pub(crate) trait RecordShading {
     /// Records the shading of a round's visibility samples, which are sorted by key. The radiance of each sample is
     /// written to its place in the buffer of shaded fragments.
     fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
-
-    /// Records marking of pixels that show more than their centres, in addition to the marks of `thin`.
-    fn record_marks(&self, _recorder: &Recorder<'_>) {}
 }
 
 /// Arguments for making a [`Sampler`].
@@ -228,7 +225,7 @@ impl Sampler {
         self.source.growths().len()
     }
 
-    /// Records a run: finding the cells, sampling and shading them, and their growth. `make figures` writes what a pass of a
+    /// Records a run, after [`Resources::record_unmarked`] and what else marks pixels: finding the cells, sampling and shading them, and their growth. `make figures` writes what a pass of a
     /// frame reads from earlier ones and what it writes.
     pub fn record(&self, recorder: &Recorder<'_>, run: &SamplerRun<'_>, shading: &dyn RecordShading) {
         let SamplerRun { resources, set, uniform, .. } = *run;
@@ -238,7 +235,6 @@ impl Sampler {
                 if let Some(thin) = thin {
                     // thin: ids, blend_ids, raster_depth ─▶ survivors, marks
                     thin.record_for(recorder, uniform.triangle_count);
-                    shading.record_marks(recorder);
                 }
                 // detect: ids, blend_ids, display, marks ─▶ masks
                 detect.record_for(recorder, tiles);

@@ -5,14 +5,14 @@ use crate::engine::data::tiles::tile_count;
 use crate::engine::data::{Cells, Content, FrameUniform, ResourceSizes, Resources, SampleSet};
 use crate::engine::passes::cull::CullFilter;
 use crate::engine::passes::setup::ListOrder;
-use crate::engine::passes::{bin, cull, schedule, setup, tally};
+use crate::engine::passes::{bin, cull, refine, schedule, setup, tally};
 use crate::engine::pipelines::{FrameLayout, Pass};
 use crate::engine::sampler::plan::MOST_CANDIDATES;
 use crate::engine::spirv;
 use crate::vulkan::{Recorder, VulkanError};
 
 /// Passes that list the triangles of all tiles of a plane, in one round.
-pub(crate) struct TriangleLists([Pass; 5]);
+pub(crate) struct TriangleLists([Pass; 6]);
 
 /// Numbers of pairs of a triangle and a tile for which a plane usually has room: for each triangle, for each tile, and at
 /// least.
@@ -51,7 +51,7 @@ impl TriangleLists {
         let usual = (PAIRS_OF_TRIANGLE * triangles + PAIRS_OF_TILE * tiles).clamp(FEWEST_PAIRS, MOST_CANDIDATES);
         // All lists are in memory at once.
         let pairs = capacity.planes.pairs.max(usual as u32);
-        ResourceSizes { pair_capacity: pairs, list_capacity: pairs, fragment_capacity: 0, ..sizes }
+        ResourceSizes { pair_capacity: pairs, list_capacity: pairs, has_refined: true, fragment_capacity: 0, ..sizes }
     }
 
     /// Makes the passes.
@@ -65,6 +65,7 @@ impl TriangleLists {
             tally::pass(layout, PLACES.cells, LOAD)?,
             schedule::pass(layout, PLACES.cells, LOAD)?,
             setup::pass(layout, scene, ListOrder::Scanned)?,
+            refine::pass(layout)?,
         ]))
     }
 

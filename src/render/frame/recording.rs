@@ -13,7 +13,7 @@ use crate::engine::sampler::plan::{Plan, Region};
 use crate::engine::sampler::{RecordShading, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
-use crate::render::passes::{Encoding, Receiving, StrokeSizes, encode};
+use crate::render::passes::{Encoding, StrokeSizes, encode};
 use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{PassTime, Recorder};
@@ -53,19 +53,13 @@ pub(in crate::render) struct SceneShading<'a> {
 impl RecordShading for SceneShading<'_> {
     fn record(&self, recorder: &Recorder<'_>, _resources: &Resources) {
         if let Some((shadows, shadowed)) = self.shadows {
-            shadows.record(recorder, shadowed, Receiving::Fragments);
+            shadows.record_fragments(recorder, shadowed);
         }
         if let Some(merge) = self.merge {
             merge.record(recorder);
         }
         if let Some(shade) = self.shade {
             shade.record(recorder);
-        }
-    }
-
-    fn record_marks(&self, recorder: &Recorder<'_>) {
-        if let Some((shadows, shadowed)) = self.shadows {
-            shadows.record_probes(recorder, shadowed);
         }
     }
 }
@@ -146,6 +140,7 @@ impl FrameRecording<'_> {
             [width, height],
             region.drawn().map(|place| place.map(|pixels| pixels * side)),
         );
+        resources.record_unmarked(recorder);
         if let Some(shadows) = self.shadows {
             shadows.record_planes(recorder, &views, main);
         }
@@ -160,7 +155,7 @@ impl FrameRecording<'_> {
             if let Some(shadows) = self.shadows {
                 // receivers: ─▶ locations
                 // occlude: tiles, candidates, locations ─▶ words, left, marks_of_pixels
-                shadows.record(recorder, shadowed(main), Receiving::Pixels(whole.size));
+                shadows.record_pixels(recorder, shadowed(main), passes.superpixels.is_some());
             }
             // shade: ids, shade_order, bins ─▶ display, color, shaded
             shade.record(recorder);

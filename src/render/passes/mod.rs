@@ -19,9 +19,9 @@ mod unshadowed;
 
 pub use crossings::{MarkedOutput, SeenLocation};
 pub use encode::Encoding;
-pub use occlude::{LightPlane, Occlude, ShadowTarget};
+pub use occlude::{LightPlane, Occlude};
 pub use pose::PosePass;
-pub use receivers::{PROBES, Receivers, Receiving};
+pub use receivers::{PROBES, Receivers, Receiving, SHADOW_POINTS};
 pub(crate) use shade::ShadeSource;
 pub use stroke::{StrokePass, StrokeSizes};
 pub use unshadowed::Unshadowed;

@@ -15,34 +15,10 @@ pub use crate::engine::spirv::OccludePush as LightPlane;
 impl LightPlane {
     /// Face of a plane that does not belong to a cube.
     pub const SINGLE: u32 = spirv::SINGLE_PLANE;
-    /// Flag in `step`: the pass initialises the shadow words.
-    pub const BEGINS: u32 = spirv::OCCLUDE_BEGINS;
 }
-
-/// Use of what is found out about the receivers of a light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShadowTarget {
-    /// Writes shadow words of places, from this index on.
-    Words(u32),
-    /// Marks pixels in which the probe with this number gets another share of the light than the centre.
-    Marks(u32),
-}
-
-impl ShadowTarget {
-    /// Number of the probe whose receivers are tested.
-    pub fn probe(self) -> Option<u32> {
-        match self {
-            Self::Words(_) => None,
-            Self::Marks(probe) => Some(probe),
-        }
-    }
-}
-
-/// Width and height of the pixels of a team, as in `shaders/occlude.comp`.
-const SIDE: u32 = 8;
 
 /// Receivers of a team.
-const RECEIVERS: u32 = SIDE * SIDE;
+const RECEIVERS: u32 = 64;
 
 /// Writes the shadow words of receivers.
 pub struct Occlude {
@@ -85,30 +61,17 @@ impl Occlude {
 
     /// Records the pass for the lists of a plane, whose set passes use, and the surfaces that `receivers` has found. Visibility
     /// samples are those of `resources`.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        receiving: Receiving,
-        resources: &Resources,
-        plane: &LightPlane,
-        target: ShadowTarget,
-    ) {
-        let (first_place, step) = match target {
-            ShadowTarget::Words(first) => (first, plane.step),
-            ShadowTarget::Marks(probe) => (0, plane.step & spirv::OCCLUDE_LIGHT | probe << spirv::OCCLUDE_PROBE_SHIFT),
-        };
-        let region = match receiving {
-            Receiving::Pixels(size) => size,
-            Receiving::Fragments => [0; 2],
-        };
-        let push = LightPlane { step, first_place, region, ..*plane };
+    pub fn record(&self, recorder: &Recorder<'_>, receiving: Receiving, resources: &Resources, plane: &LightPlane) {
         recorder.show(&self.own);
         match receiving {
-            Receiving::Pixels(size) => {
-                let groups = size.map(|side| side.div_ceil(SIDE));
-                self.kernel.record_teams(recorder, &push, groups[0] * groups[1]);
+            Receiving::Pixels { size, points } => {
+                let side = (RECEIVERS / points).isqrt();
+                let teams = size.map(|length| length.div_ceil(side));
+                let push = LightPlane { first_place: 0, region: size, points, ..*plane };
+                self.kernel.record_teams(recorder, &push, teams[0] * teams[1]);
             }
-            Receiving::Fragments => {
+            Receiving::Fragments { first_place } => {
+                let push = LightPlane { first_place, region: [0; 2], points: 1, ..*plane };
                 self.kernel.record_counted(recorder, &push, resources.buffer(Data::Arguments), Argument::Sort);
             }
         }

@@ -1,5 +1,5 @@
 //! receivers: finds the surfaces that are about to be shaded, and that light may reach. It is no
-//! [`Pass`](crate::engine::pipelines::Pass), because the probe is known only when a frame is recorded.
+//! [`Pass`](crate::engine::pipelines::Pass), because what receives light is known only when a frame is recorded.
 
 use crate::engine::data::{Argument, Cells, Content, SampleSet};
 use crate::engine::pipelines::{FrameLayout, Kernel};
@@ -7,17 +7,26 @@ use crate::engine::spirv::{self, receivers_set};
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
 
-/// Further places in a pixel that are tested for shadows, relative to its centre. `shaders/receivers.comp` explains the
-/// choice.
+pub use crate::engine::spirv::SHADOW_POINTS;
+
+/// Points of a pixel that are tested for shadows besides its centre, relative to it. `shaders/receivers.comp` explains the choice.
 pub const PROBES: [[f64; 2]; 3] = [[0.34375, 0.34375], [-0.296875, 0.40625], [0.46875, -0.296875]];
 
 /// Places that are about to be shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Receiving {
-    /// Centres of a region's pixels; holds the region's width and height.
-    Pixels([u32; 2]),
+    /// Pixels of a region.
+    Pixels {
+        /// Width and height of the region in pixels.
+        size: [u32; 2],
+        /// Number of points of a pixel: 1, or [`SHADOW_POINTS`] to mark pixels with narrow shadows.
+        points: u32,
+    },
     /// Visibility samples of a round.
-    Fragments,
+    Fragments {
+        /// Place of the first of them.
+        first_place: u32,
+    },
 }
 
 /// Lists the surfaces that receive light.
@@ -50,18 +59,16 @@ impl Receivers {
         })
     }
 
-    /// Records the pass for the centres of pixels or visibility samples, or for the probe with the number `probe`. Passes
-    /// use the sets `set` from here on.
-    pub fn record(&self, recorder: &Recorder<'_>, set: &SampleSet, receiving: Receiving, probe: Option<u32>) {
-        let push = spirv::ReceiversPush { probe: probe.unwrap_or(0) };
+    /// Records the pass. Passes use the sets `set` from here on.
+    pub fn record(&self, recorder: &Recorder<'_>, set: &SampleSet, receiving: Receiving) {
         set.show(recorder);
         recorder.show(&self.own);
         match receiving {
-            Receiving::Pixels([width, height]) => {
-                self.of_pixels.record(recorder, &push, width * height);
+            Receiving::Pixels { size: [width, height], points } => {
+                self.of_pixels.record(recorder, &spirv::ReceiversPush { points }, width * height);
             }
-            Receiving::Fragments => {
-                self.of_fragments.record_indirect(recorder, &push, Argument::Fragments);
+            Receiving::Fragments { .. } => {
+                self.of_fragments.record_indirect(recorder, &spirv::ReceiversPush { points: 1 }, Argument::Fragments);
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::engine::sampler::{Capacity, SamplerSettings, Shortfall, TriangleLists
 use crate::engine::spirv::frame_set;
 use crate::render::RenderError;
 use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
-use crate::render::passes::{Occlude, PROBES, PosePass, Receivers, Receiving, ShadowTarget, Unshadowed};
+use crate::render::passes::{Occlude, PosePass, Receivers, Receiving, SHADOW_POINTS, Unshadowed};
 use crate::scene::Moment;
 use crate::vulkan::{Memory, PassTime, Recorder, VulkanError};
 use std::sync::Arc;
@@ -201,45 +201,38 @@ impl ShadowFinder {
         self.lists.record(recorder, plane, set, uniform);
     }
 
-    /// Records the search for the lights that reach the places to be shaded next. Passes use the places'
-    /// descriptor sets before and after.
-    pub fn record(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
+    /// Records the search for the lights that reach the centres of pixels, before these are shaded. With `marks`, pixels are marked
+    /// in which a light reaches another point differently. Passes use the places' descriptor sets before and after.
+    pub fn record_pixels(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, marks: bool) {
+        let points = if marks { SHADOW_POINTS } else { 1 };
+        self.record_search(recorder, shaded, Receiving::Pixels { size: shaded.size, points });
+    }
+
+    /// Records the search for the lights that reach the visibility samples of a round. Passes use their descriptor sets before and
+    /// after.
+    pub fn record_fragments(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
+        let first_place = shaded.size[0] * shaded.size[1];
+        self.record_search(recorder, shaded, Receiving::Fragments { first_place });
+    }
+
+    fn record_search(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
         recorder.section(PassTime::SHADOWS, || {
             if shaded.views.is_empty() {
                 recorder.clear(shaded.resources.buffer(Data::ShadowWords));
                 return;
             }
-            let first_place = match receiving {
-                Receiving::Pixels(_) => 0,
-                Receiving::Fragments => shaded.size[0] * shaded.size[1],
-            };
-            self.record_search(recorder, shaded, receiving, ShadowTarget::Words(first_place));
-        });
-    }
-
-    /// Records marks for the pixels of a region in which a probe is reached by other lights than the centre. The
-    /// shadows of the centres must have been found before. Passes use the region's descriptor sets before and after.
-    pub fn record_probes(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>) {
-        recorder.section(PassTime::SHADOWS, || {
-            for probe in 1..=PROBES.len() as u32 {
-                self.record_search(recorder, shaded, Receiving::Pixels(shaded.size), ShadowTarget::Marks(probe));
+            self.receivers.record(recorder, shaded.set, receiving);
+            let has_lists = self.keeps_lists(shaded.views);
+            for (view, plane) in shaded.views.iter().zip(self.planes.iter().cycle()) {
+                if !has_lists {
+                    self.record_lists(recorder, view, plane);
+                } else if let Some(set) = plane.set(0) {
+                    set.show(recorder);
+                }
+                self.occlude.record(recorder, receiving, shaded.resources, &view.plane);
             }
+            shaded.set.show(recorder);
         });
-    }
-
-    /// Records the search for all lights.
-    fn record_search(&self, recorder: &Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving, target: ShadowTarget) {
-        self.receivers.record(recorder, shaded.set, receiving, target.probe());
-        let has_lists = self.keeps_lists(shaded.views);
-        for (view, plane) in shaded.views.iter().zip(self.planes.iter().cycle()) {
-            if !has_lists {
-                self.record_lists(recorder, view, plane);
-            } else if let Some(set) = plane.set(0) {
-                set.show(recorder);
-            }
-            self.occlude.record(recorder, receiving, shaded.resources, &view.plane, target);
-        }
-        shaded.set.show(recorder);
     }
 
     /// Adds the work that the last recording could not finish.

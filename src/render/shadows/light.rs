@@ -22,8 +22,9 @@ const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
 /// Distance of the near plane of point and spot lights, as a share of the scene's diagonal; nothing nearer casts a
 /// shadow.
 const NEAR: f64 = 1e-6;
-/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer.
-const PIXELS_OF_PLACE: u64 = 8;
+/// Number of pixels of a plane for each place. More pixels make the lists of tiles shorter, and their making longer. Long lists are
+/// refined, see `shaders/refine.comp`.
+const PIXELS_OF_PLACE: u64 = 2;
 /// Smallest and largest number of pixels along a side of a light's plane, which is one region of the sampler.
 const SIDES: [f64; 2] = [64.0, 2_000.0];
 /// Margin around the visible part of a distant light's plane, as a share of that part's side. The margin covers the
@@ -80,11 +81,10 @@ pub(super) fn views(lit: &Lit, sight: &Sight, side: u32) -> Vec<LightView> {
         return Vec::new();
     };
     let mut views: Vec<LightView> = Vec::new();
-    for (bit, light) in (0..).zip(&lit.lights) {
+    for (number, light) in (0..).zip(&lit.lights) {
         let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();
         let single = pinholes.len() == 1;
         for (face, pinhole) in (0..).zip(pinholes) {
-            let begins = if views.is_empty() { LightPlane::BEGINS } else { 0 };
             let parallel = pinhole.is_parallel();
             let window = match parallel {
                 true => window_around(&pinhole, side, &sight.corners_within(sight.part, bounds)),
@@ -103,7 +103,8 @@ pub(super) fn views(lit: &Lit, sight: &Sight, side: u32) -> Vec<LightView> {
                     light: place.extend(if parallel { 0.0 } else { 1.0 }).as_vec4().to_array(),
                     cone: light.direction.extend(cosine).as_vec4().to_array(),
                     range: light.range.unwrap_or(f32::INFINITY),
-                    step: bit | begins,
+                    number,
+                    begins: views.is_empty().into(),
                     face: if single { LightPlane::SINGLE } else { face },
                     ..LightPlane::default()
                 },

@@ -11,12 +11,12 @@
 //! through (`KHR_materials_diffuse_transmission`). BLEND triangles absorb light by their opacity, and each of their
 //! layers receives shadows as other surfaces do.
 //!
-//! Before superpixels are detected, three more places of each pixel are probed. If a light reaches them differently
-//! from the centre, the pixel becomes a superpixel, so that shadows narrower than a pixel are found.
+//! Three more points of each pixel are tested together with its centre. If a light reaches them differently from the
+//! centre, the pixel becomes a superpixel, so that shadows narrower than a pixel are found.
 //!
 //! ```text
-//! casters ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ setup ─▶ lists of the tiles of a plane ─┐
-//! shaded next: pixels or fragments ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀──┘ ─▶ words for each ─▶ shade
+//! casters ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ setup ─▶ refine ─▶ lists of a plane ─┐
+//! shaded next: pixels or fragments ─▶ receivers ─▶ positions ─▶ occlude, for each plane ◀┘ ─▶ words for each ─▶ shade
 //! ```
 
 mod casters;

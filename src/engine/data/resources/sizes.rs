@@ -3,7 +3,7 @@
 use super::table::Data;
 use crate::engine::data::tiles::tiles;
 use crate::engine::data::{LocationSizes, STRETCH};
-use crate::engine::spirv::{FILTER_TRIANGLES, TILE_LISTS};
+use crate::engine::spirv::{FILTER_TRIANGLES, SHADOW_POINTS, TILE_LISTS};
 use crate::vulkan::{Limits, VulkanError};
 
 /// Number of bytes of what comes with the buffers of a frame.
@@ -30,6 +30,8 @@ pub struct ResourceSizes {
     pub pair_capacity: u32,
     /// Largest number of candidates in all lists of a round.
     pub list_capacity: u32,
+    /// Whether there is room for refined lists of crowded tiles, see `shaders/refine.comp`: a vector for each candidate.
+    pub has_refined: bool,
     /// Largest number of visibility samples of a round; 0 if no cell is ever sampled.
     pub fragment_capacity: u32,
     /// Number of pixels of a region after a filter; 0 without one.
@@ -65,6 +67,7 @@ impl ResourceSizes {
             filtered_triangles: 0,
             pair_capacity: 0,
             list_capacity: 0,
+            has_refined: false,
             fragment_capacity: 0,
             filtered: 0,
             spreads: false,
@@ -127,13 +130,15 @@ impl ResourceSizes {
         self.locations.map_or(u64::from(self.pixels()), |locations| u64::from(locations.locations))
     }
 
-    /// Largest number of places that are shaded at once with shadows, in whole workgroups of 64; 0 without shadows.
+    /// Largest number of surfaces for which light is searched at once, in whole workgroups of 64; 0 without shadows. If pixels may
+    /// become superpixels, each has several surfaces.
     #[must_use]
-    pub fn receivers(&self) -> u32 {
+    pub fn receivers(&self) -> u64 {
         let pixels = self.locations.map_or(self.pixels(), |_| 0);
+        let points = if self.fragment_capacity == 0 { 1 } else { SHADOW_POINTS };
         match self.shadow_words {
             0 => 0,
-            _ => pixels.max(self.fragment_capacity).next_multiple_of(64),
+            _ => (u64::from(points) * u64::from(pixels)).max(self.fragment_capacity.into()).next_multiple_of(64),
         }
     }
 

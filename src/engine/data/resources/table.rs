@@ -228,7 +228,8 @@ impl Data {
                 Row::new("pairs", UINT2, sizes.pair_capacity).texels_at(frame_set::PAIRS).at(frame_set::PAIRS_OUT)
             }
             Self::Candidates => {
-                let texels = ResourceSizes::CANDIDATE_TEXELS * u64::from(sizes.list_capacity);
+                let of_candidate = ResourceSizes::CANDIDATE_TEXELS + u64::from(sizes.has_refined);
+                let texels = of_candidate * u64::from(sizes.list_capacity);
                 Row::new("candidates", UINT4, texels).texels_at(frame_set::CANDIDATES).at(frame_set::CANDIDATES_OUT)
             }
             Self::Headers => Row::new("fragment headers", Element::Bytes(8), fragments).at(frame_set::HEADERS),
@@ -239,7 +240,7 @@ impl Data {
                 Row::new("shaded fragments", FLOAT4, fragments).texels_at(frame_set::SHADED).at(frame_set::SHADED_OUT)
             }
             Self::ShadowWords => Row::new("shadows", UINT, sizes.all_shadow_words()).texels_at(frame_set::SHADOW_WORDS),
-            Self::Surfaces => Row::new("receivers of light", UINT4, 2 * u64::from(sizes.receivers())),
+            Self::Surfaces => Row::new("receivers of light", UINT4, 2 * sizes.receivers()),
             Self::ShadeOrder => Row::new("shading order", WORD, fragments.max(colors)).at(frame_set::SHADE_ORDER),
             Self::Bins => Row::new("material bins", VECTOR, sizes.bins).at(frame_set::BINS),
             Self::Arguments => Row::new("indirect dispatches", VECTOR, Argument::Shade as u32 + sizes.bins)
