@@ -42,15 +42,17 @@ impl Headless {
         offsets: &[DVec2],
         progress: impl FnMut(),
     ) -> Result<Rendered, RenderError> {
-        self.mean(frame, camera, offsets, progress)
+        let filter = frame.settings().pixel_filter;
+        let weighted = offsets.iter().map(|offset| (offset.to_array(), filter.at((*offset).into())));
+        self.mean(frame, camera, &weighted.collect::<Vec<_>>(), progress)
     }
 
-    /// As [`Self::accumulate`], for a type of pixel that holds light.
+    /// As [`Self::accumulate`], for a type of pixel that holds light, and with a weight for each offset.
     pub(super) fn mean<P: Pixel>(
         &mut self,
         frame: &mut SceneFrame,
         camera: &Camera,
-        offsets: &[DVec2],
+        samples: &[([f64; 2], f64)],
         mut progress: impl FnMut(),
     ) -> Result<Rendered<P>, RenderError> {
         let size = DVec2::from(frame.settings().size.map(f64::from));
@@ -58,19 +60,18 @@ impl Headless {
         let seen = Seen::of(frame.settings());
         let mut sums: Vec<[f64; 5]> = Vec::new();
         let mut statistics = Statistics::default();
-        for offset in offsets {
-            let moved = Camera { shift: camera.shift + *offset / size, ..*camera };
+        for (offset, weight) in samples {
+            let moved = Camera { shift: camera.shift + DVec2::from(*offset) / size, ..*camera };
             let image = self.render_one::<P>(frame, &moved)?;
             let colors: &[[f32; 4]] = bytemuck::cast_slice(&image.colors);
             sums.resize(colors.len(), [0.0; 5]);
-            let weight = filter.at((*offset).into());
             let [columns, rows] = [0, 1].map(|axis| seen.within(axis, offset[axis]));
             let places = rows.iter().flat_map(|row| columns.iter().map(move |column| *row && *column));
             for ((sum, color), _) in sums.iter_mut().zip(colors).zip(places).filter(|(_, is_within)| *is_within) {
                 for (sum, value) in sum.iter_mut().zip(color) {
                     *sum += weight * f64::from(*value);
                 }
-                sum[4] += weight;
+                sum[4] += *weight;
             }
             statistics.append(image.statistics);
             progress();

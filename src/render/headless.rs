@@ -6,7 +6,6 @@ use crate::camera::Camera;
 use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, SharedQueue, VulkanError};
 use ash::vk;
-use glam::DVec2;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Options for opening a device.
@@ -305,10 +304,8 @@ impl Headless {
         match &frame.settings().method {
             Method::Accumulate { samples, pattern } => {
                 let offsets = pattern.offsets(*samples).map_err(EngineError::from)?;
-                let across = 2.0 * frame.settings().pixel_filter.radius;
-                let offsets: Vec<_> =
-                    offsets.into_iter().map(|offset| across * DVec2::from(offset.map(f64::from))).collect();
-                self.mean(frame, camera, &offsets, || {})
+                let samples = frame.settings().pixel_filter.samples(&offsets);
+                self.mean(frame, camera, &samples, || {})
             }
             _ => self.render_one(frame, camera),
         }

@@ -186,7 +186,7 @@ impl Settings {
         match &self.method {
             Method::Superpixel(options) => TextureFilter::of_cells(footprint, options.cells.shading),
             Method::Accumulate { samples, .. } if footprint == Footprint::Sample => {
-                let side = 2.0 * self.pixel_filter.radius as f32 / (*samples as f32).sqrt();
+                let side = self.pixel_filter.sampled_side() as f32 / (*samples as f32).sqrt();
                 TextureFilter::of_pixels(Footprint::Side(side.min(1.0)), 1)
             }
             method => TextureFilter::of_pixels(footprint, method.side()),

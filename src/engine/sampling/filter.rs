@@ -212,6 +212,46 @@ impl PixelFilter {
         self.value(x) * self.value(y)
     }
 
+    /// Samples of the filter. `offsets` lie evenly in a pixel, from -0.5 to 0.5. The returned offsets are as dense as the filter's
+    /// absolute value is large, and each has its sign as its weight.
+    pub(crate) fn samples(&self, offsets: &[[f32; 2]]) -> Vec<([f64; 2], f64)> {
+        let even = offsets.iter().map(|offset| offset.map(f64::from));
+        if self.is_box() {
+            return even.map(|offset| (offset, 1.0)).collect();
+        }
+        let step = 2.0 * self.radius / f64::from(STEPS);
+        let low = |i: usize| i as f64 * step - self.radius;
+        // The integrals of the absolute value up to the beginning of each step, and up to the end.
+        let mut sums = vec![0.0];
+        sums.extend((0..STEPS as usize).scan(0.0, |sum, i| {
+            *sum += self.value(low(i) + 0.5 * step).abs();
+            Some(*sum)
+        }));
+        let whole = sums.last().copied().unwrap_or_default();
+        let place = |offset: f64| {
+            let share = (offset + 0.5) * whole;
+            let i = sums.partition_point(|sum| *sum <= share).clamp(1, STEPS as usize) - 1;
+            low(i) + step * ((share - sums[i]) / (sums[i + 1] - sums[i]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
+        };
+        even.map(|offset| offset.map(place)).map(|offset| (offset, self.at(offset).signum())).collect()
+    }
+
+    /// Side in pixels of the square over which so many even samples would be as dense as [`Self::samples`] are on average; 1 for
+    /// the box.
+    pub(crate) fn sampled_side(&self) -> f64 {
+        if self.is_box() {
+            return 1.0;
+        }
+        let width = 2.0 * self.radius;
+        let step = width / f64::from(STEPS);
+        let places = (0..STEPS).map(|i| (f64::from(i) + 0.5) * step - self.radius);
+        let [sum, squares] = places.fold([0.0, 0.0], |[sum, squares], x| {
+            let value = self.value(x).abs();
+            [sum + value * step, squares + value * value * step]
+        });
+        sum * sum / squares
+    }
+
     /// Integral along an axis over an interval of this width, times a function of the place relative to the interval's
     /// middle, up to a factor.
     fn integral(&self, middle: f64, width: f64, times: impl Fn(f64) -> f64) -> f64 {
@@ -291,6 +331,23 @@ mod tests {
                 assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
                 let turned = weights.iter().rev();
                 assert!(weights.iter().zip(turned).all(|(a, b)| (a - b).abs() < 1e-12), "{filter:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn samples_have_the_moments_of_the_filter() {
+        for filter in filters() {
+            let count = 4096;
+            let even: Vec<_> = (0..count).map(|i| [(i as f32 + 0.5) / count as f32 - 0.5, 0.0]).collect();
+            let samples = filter.samples(&even);
+            assert!(samples.iter().all(|(at, _)| at[0].abs() <= filter.radius && at[1].abs() < 1e-9), "{filter:?}");
+            let whole = filter.integral(0.0, 2.0 * filter.radius, |_| 1.0);
+            let weights: f64 = samples.iter().map(|(_, weight)| weight).sum();
+            for power in 1..4 {
+                let found: f64 = samples.iter().map(|(at, weight)| weight * at[0].powi(power)).sum();
+                let exact = filter.integral(0.0, 2.0 * filter.radius, |x| x.powi(power)) / whole;
+                assert!((found / weights - exact).abs() < 2e-3, "{filter:?}, {power}: {} {exact}", found / weights);
             }
         }
     }
