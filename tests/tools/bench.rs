@@ -2,8 +2,9 @@
 
 use crate::command::{Run, asset, files, gpc};
 use crate::difference::rmse;
-use crate::measurement::{Growth, PixelTriangles, Variant, VariantContender, VariantError, Yardstick, brute_force};
+use crate::measurement::{Growth, PixelTriangles, Variant, Yardstick, brute_force};
 use glam::DVec2;
+use gpc::camera::panorama::PanoramaError;
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
@@ -133,7 +134,7 @@ fn unseen_wires_are_not_missed() {
     let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
     let looks = PixelTriangles::new(&mut headless, &scene, &camera, &plain, || {}).unwrap();
     let [with, without] = [(with, &images[0]), (without, &images[1])].map(|(settings, image)| {
-        let causes = looks.causes(&mut headless, &scene, &camera, &settings).unwrap();
+        let causes = looks.causes(&mut headless, &settings).unwrap();
         yardstick.split(&picture(image), &causes).unwrap().unseen
     });
     assert!(with < 0.02, "{with} of the error was missed");
@@ -472,9 +473,9 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
     let (mut headless, scene, camera) = stage("letters.glb");
     let camera = Camera { projection: Projection::Orthographic { half_height: 1.0, near: 0.0, far: 100.0 }, ..camera };
     let settings = settings(MethodKind::None, 1);
-    let mut warm_up = |variant| VariantContender::warm_up(variant, &mut headless, &scene, &camera, &settings);
+    let mut warm_up = |variant: Variant| variant.warm_up(&mut headless, &scene, &camera, &settings);
     assert!(warm_up(Variant::Planar).is_ok());
-    assert!(matches!(warm_up(Variant::Rig), Err(VariantError::Panorama(_))));
+    assert!(warm_up(Variant::Rig).err().unwrap().is::<PanoramaError>());
 }
 
 /// Results have each method in motion, and superpixels with as many samples as supersampling.

@@ -2,7 +2,7 @@
 
 use crate::difference::rmse;
 use crate::measurement::stress::stage::{Stage, camera, flat, seen_at};
-use crate::measurement::{Half, PixelTriangles, Stripped, Suspects, Within, Yardstick, brute_force};
+use crate::measurement::{PixelTriangles, Stripped, Within, Yardstick, brute_force};
 use crate::textured::textured;
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
@@ -92,15 +92,9 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
         .map_superpixels(|options| options.detection(if superpixels { Detection::Every } else { Detection::Edges }));
     let image = render(&mut headless, &whole, &settings);
     let looks = PixelTriangles::new(&mut headless, &whole, &camera(), &plain, || {}).unwrap();
-    let causes = looks.causes(&mut headless, &whole, &camera(), &settings).unwrap();
-    let suspects = Suspects {
-        scene: &whole,
-        halves: halves.each_ref().map(|(scene, truth)| Half { scene, truth }),
-        camera: &camera(),
-        looks: &looks,
-    };
+    let causes = looks.causes(&mut headless, &settings).unwrap();
     let image = picture(&image);
-    let faults = suspects.faults(&mut headless, &settings, &yardstick, &image, &causes).unwrap();
+    let faults = looks.faults(&mut headless, &halves, &settings, &yardstick, &image, &causes).unwrap();
     yardstick.split_within(&image, &causes, &faults).unwrap()
 }
 

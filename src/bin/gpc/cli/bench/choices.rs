@@ -1,7 +1,7 @@
 //! Superpixels with other thresholds of contrast, and with other shadings.
 
-use super::columns::{Cell, Column, Study, Table, clocks, column, times};
-use super::measurement::{self, Contender, Yardstick};
+use super::columns::{Cell, Column, Study, clocks, column, times};
+use super::measurement::Yardstick;
 use super::results::{ChoiceRow, SceneChoices};
 use super::subject::{self, Bench};
 use clap::ValueEnum;
@@ -52,23 +52,12 @@ impl Bench<'_> {
             contenders.push(contender);
         }
         self.progress.say("taking turns");
-        measurement::take_turns(
-            &mut self.headless,
-            &subject.view.camera,
-            &mut contenders,
-            self.args.repeat,
-            self.args.budget(),
-            |_| {},
-        )?;
-        let measured = measured.into_iter().zip(&contenders);
-        let row = |((option, value, superpixel_fraction, accuracy), contender)| ChoiceRow {
-            option,
-            value,
-            superpixel_fraction,
-            accuracy,
-            cost: Contender::cost(contender),
-        };
-        Ok(SceneChoices { name, textured: subject.is_textured(), rows: measured.map(row).collect() })
+        self.take_turns(&mut contenders, |_, _| {})?;
+        let rows =
+            measured.into_iter().zip(&contenders).map(|((option, value, superpixel_fraction, accuracy), contender)| {
+                ChoiceRow { option, value, superpixel_fraction, accuracy, cost: contender.cost() }
+            });
+        Ok(SceneChoices { name, textured: subject.is_textured(), rows: rows.collect() })
     }
 }
 
@@ -80,32 +69,26 @@ impl Study for SceneChoices {
         format!("{}, superpixels of {} samples with one option changed", self.name, CellOptions::DEFAULT_SAMPLES)
     }
 
-    fn notes(&self) -> Vec<String> {
-        Vec::new()
-    }
-
     fn rows(&self) -> &[ChoiceRow] {
         &self.rows
     }
 
-    fn keys() -> Vec<Column<Self, ChoiceRow>> {
-        vec![
+    fn columns() -> Vec<Column<Self, ChoiceRow>> {
+        let keys = [
             column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
             column("textured", "", |scene: &Self, _| Cell::text(scene.textured)),
             column("option", "option", |_, row: &ChoiceRow| Cell::text(row.option)),
             column("value", "value", |_, row: &ChoiceRow| Cell::text(&row.value)),
             column("samples", "", |_, _| Cell::Count(CellOptions::DEFAULT_SAMPLES.into())),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, ChoiceRow>> {
-        let columns = times(|row: &ChoiceRow| clocks(&row.cost)).into_iter().chain([
+        ];
+        let figures = [
             column("superpixel_fraction", "superpixels", |_, row: &ChoiceRow| {
                 Cell::Percent(row.superpixel_fraction, 2)
             }),
             column("rmse", "RMSE", |_, row: &ChoiceRow| Cell::Number(row.accuracy.rmse, 6)),
             column("flip", "FLIP", |_, row: &ChoiceRow| Cell::Number(row.accuracy.flip, 6)),
-        ]);
-        vec![Table { caption: "", columns: columns.collect() }]
+        ];
+        let times = times(|row: &ChoiceRow| clocks(&row.cost));
+        keys.into_iter().chain(times).chain(figures).collect()
     }
 }

@@ -100,9 +100,9 @@ pub fn clocks(cost: &Cost) -> [&Spread; 2] {
     [&cost.gpu_ms, &cost.wall_ms]
 }
 
-/// A table of a study for people: some of its columns beside the keys.
+/// A further table of a study for people, with some of its columns beside the first ones of its main table.
 pub struct Table<S, R> {
-    /// What the columns are; empty for the main table.
+    /// What the columns are.
     pub caption: &'static str,
     pub columns: Vec<Column<S, R>>,
 }
@@ -116,15 +116,20 @@ pub trait Study: Serialize + Sized + 'static {
     fn title(&self) -> String;
 
     /// Notes on what was left out, and why.
-    fn notes(&self) -> Vec<String>;
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     fn rows(&self) -> &[Self::Row];
 
-    /// Columns that say what a row is about.
-    fn keys() -> Vec<Column<Self, Self::Row>>;
+    /// Columns of the main table.
+    fn columns() -> Vec<Column<Self, Self::Row>>;
 
-    /// Columns of figures. A table leaves out rows without figures.
-    fn tables() -> Vec<Table<Self, Self::Row>>;
+    /// Further tables, and the number of columns of the main table that say what a row is about and stand in all of them. A
+    /// further table leaves out rows without figures.
+    fn more() -> (usize, Vec<Table<Self, Self::Row>>) {
+        (0, Vec::new())
+    }
 
     /// Size of the images, if it is not that of the whole run.
     fn size(&self) -> Option<[u32; 2]> {
@@ -142,25 +147,35 @@ pub struct Shown {
 
 /// The tables of a study, as people see them.
 pub fn shown<S: Study>(study: &S) -> Vec<Shown> {
-    let keys = S::keys();
-    let tables = S::tables().into_iter().map(|table| {
-        let columns: Vec<_> = keys.iter().chain(&table.columns).filter(|column| !column.heading.is_empty()).collect();
-        let keys = keys.iter().filter(|column| !column.heading.is_empty()).count();
-        let mut is_text = vec![false; columns.len()];
-        let mut rows = Vec::new();
-        for row in study.rows() {
-            let cells: Vec<_> = columns.iter().map(|column| (column.cell)(study, row)).collect();
-            if cells.iter().skip(keys).all(|cell| *cell == Cell::Empty) {
-                continue;
-            }
-            for (is_text, cell) in is_text.iter_mut().zip(&cells) {
-                *is_text |= cell.is_text();
-            }
-            rows.push(cells.iter().map(Cell::shown).collect());
+    let main = S::columns();
+    let (keys, more) = S::more();
+    let more = more.iter().map(|more| table(study, more.caption, &main[..keys], &more.columns));
+    std::iter::once(table(study, "", &[], &main)).chain(more).filter(|table| !table.rows.is_empty()).collect()
+}
+
+/// A table of rows that have figures besides the keys.
+fn table<S: Study>(
+    study: &S,
+    caption: &'static str,
+    keys: &[Column<S, S::Row>],
+    figures: &[Column<S, S::Row>],
+) -> Shown {
+    let is_shown = |column: &&Column<S, S::Row>| !column.heading.is_empty();
+    let columns: Vec<_> = keys.iter().chain(figures).filter(is_shown).collect();
+    let keys = keys.iter().filter(is_shown).count();
+    let mut is_text = vec![false; columns.len()];
+    let mut rows = Vec::new();
+    for row in study.rows() {
+        let cells: Vec<_> = columns.iter().map(|column| (column.cell)(study, row)).collect();
+        if cells.iter().skip(keys).all(|cell| *cell == Cell::Empty) {
+            continue;
         }
-        Shown { caption: table.caption, heads: columns.iter().map(|column| column.heading).collect(), rows, is_text }
-    });
-    tables.filter(|table| !table.rows.is_empty()).collect()
+        for (is_text, cell) in is_text.iter_mut().zip(&cells) {
+            *is_text |= cell.is_text();
+        }
+        rows.push(cells.iter().map(Cell::shown).collect());
+    }
+    Shown { caption, heads: columns.iter().map(|column| column.heading).collect(), rows, is_text }
 }
 
 /// Prints a study.
@@ -206,11 +221,9 @@ impl Shown {
 /// The CSV of all studies of a kind, with its name; `None` without studies.
 pub fn csv<S: Study>(studies: &[S], results: &Results) -> Option<(&'static str, String)> {
     let size = studies.first()?.size().unwrap_or(results.size);
-    let columns: Vec<_> = S::keys()
-        .into_iter()
-        .chain(S::tables().into_iter().flat_map(|table| table.columns))
-        .filter(|column| !column.name.is_empty())
-        .collect();
+    let (_, more) = S::more();
+    let columns = S::columns().into_iter().chain(more.into_iter().flat_map(|table| table.columns));
+    let columns: Vec<_> = columns.filter(|column| !column.name.is_empty()).collect();
     let names: Vec<_> = columns.iter().map(|column| column.name).collect();
     let mut text = results.head(size) + &names.join(",") + "\n";
     for study in studies {

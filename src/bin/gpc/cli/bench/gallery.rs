@@ -6,6 +6,7 @@ use super::split::reason;
 use gpc::output::DecodedImage;
 
 /// The pictures of one scene.
+#[derive(Default)]
 pub struct Gallery {
     /// The whole image in several versions, scaled down.
     pub overview: Vec<Version>,

@@ -1,7 +1,7 @@
 //! Times of the methods while one quantity of the scene or the image grows.
 
-use super::columns::{Cell, Column, Study, Table, clocks, column, times};
-use super::measurement::{self, Contender, Growth, GrowthStep};
+use super::columns::{Cell, Column, Study, clocks, column, times};
+use super::measurement::{Contender, Growth, GrowthStep};
 use super::results::{GrowthRow, ScalingCurve};
 use super::subject::{Bench, settings};
 use gpc::render::{CellOptions, MethodKind, RenderError, SceneRequest};
@@ -88,14 +88,7 @@ impl Bench<'_> {
                 }
             }
         });
-        measurement::take_turns(
-            &mut self.headless,
-            &step.camera,
-            &mut contenders,
-            self.args.repeat,
-            self.args.budget(),
-            |_| {},
-        )?;
+        self.take_turns(&mut contenders, |_, _| {})?;
         let rows = methods.iter().zip(&contenders).map(|((method, samples), contender)| GrowthRow {
             value: step.value,
             size: step.size,
@@ -125,8 +118,8 @@ impl Study for ScalingCurve {
         &self.rows
     }
 
-    fn keys() -> Vec<Column<Self, GrowthRow>> {
-        vec![
+    fn columns() -> Vec<Column<Self, GrowthRow>> {
+        let keys = [
             column("quantity", "", |curve: &Self, _| Cell::text(&curve.quantity)),
             column("value", "value", |_, row: &GrowthRow| Cell::text(row.value)),
             column("width", "width", |_, row: &GrowthRow| Cell::Count(row.size[0].into())),
@@ -137,11 +130,7 @@ impl Study for ScalingCurve {
             }),
             column("method", "method", |_, row: &GrowthRow| Cell::text(row.method)),
             column("samples", "N", |_, row: &GrowthRow| Cell::Count(row.samples.into())),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, GrowthRow>> {
-        let columns = times(|row: &GrowthRow| clocks(&row.cost)).into();
-        vec![Table { caption: "", columns }]
+        ];
+        keys.into_iter().chain(times(|row: &GrowthRow| clocks(&row.cost))).collect()
     }
 }

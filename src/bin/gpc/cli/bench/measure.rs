@@ -1,23 +1,17 @@
 //! Measurement of one scene: the cost of every method, and its distance from the reference.
 
 use super::gallery::{Gallery, GalleryImage};
-use super::measurement::{self, Accuracy, Contender, Yardstick};
+use super::measurement::{Accuracy, Yardstick};
 use super::results::{Row, SceneResults};
 use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{CellOptions, EngineError, Footprint, MethodKind, RenderError, Settings};
+use gpc::render::{CellOptions, EngineError, Footprint, MethodKind, RenderError};
 use std::path::Path;
-
-/// A method that takes part, with the figures that are known before it is timed.
-struct Entry {
-    contender: Contender,
-    row: Row,
-}
 
 impl Bench<'_> {
     /// Measures the scene of a file.
-    pub fn measure(&mut self, path: &Path) -> anyhow::Result<(SceneResults, Gallery)> {
+    pub fn measure(&mut self, path: &Path) -> anyhow::Result<SceneResults> {
         let name = subject::name(path);
         self.progress.begin(&name);
         let subject = self.upload(path, self.args.size)?;
@@ -39,7 +33,7 @@ impl Bench<'_> {
         };
 
         let mut notes = SkippedSamples::default();
-        let mut entries = Vec::new();
+        let (mut contenders, mut rows) = (Vec::new(), Vec::new());
         let mut ssaa = None;
         let mut superpixels = None;
         for (method, samples) in self.args.cells() {
@@ -55,29 +49,27 @@ impl Bench<'_> {
             let pieces = match &splitter {
                 Some(splitter) => {
                     self.progress.say(&format!("{method} {samples}, whose fault its errors are"));
-                    Some(splitter.split(self, &subject, &yardstick, &picture, method, samples)?)
+                    Some(splitter.split(self, &yardstick, &picture, method, samples)?)
                 }
                 None => None,
             };
             let statistics = &rendered.statistics;
-            entries.push(Entry {
-                row: Row {
-                    method,
-                    samples,
-                    cost: contender.cost(),
-                    memory_bytes: statistics.memory_bytes,
-                    superpixel_fraction: statistics.superpixels as f64 / rendered.colors.len() as f64,
-                    candidates: statistics.candidates,
-                    accuracy: yardstick.measure(&picture)?,
-                    geometry: match &geometry {
-                        Some(geometry) => Some(self.geometry(&subject, geometry, method, samples)?),
-                        None => None,
-                    },
-                    left: pieces.as_ref().map(|pieces| pieces.split),
-                    left_within: pieces.as_ref().and_then(|pieces| pieces.within),
+            rows.push(Row {
+                method,
+                samples,
+                cost: contender.cost(),
+                memory_bytes: statistics.memory_bytes,
+                superpixel_fraction: statistics.superpixels as f64 / rendered.colors.len() as f64,
+                candidates: statistics.candidates,
+                accuracy: yardstick.measure(&picture)?,
+                geometry: match &geometry {
+                    Some(geometry) => Some(self.geometry(&subject, geometry, method, samples)?),
+                    None => None,
                 },
-                contender,
+                left: pieces.as_ref().map(|pieces| pieces.split),
+                left_within: pieces.as_ref().and_then(|pieces| pieces.within),
             });
+            contenders.push(contender);
             if (method, Some(samples)) == (MethodKind::Ssaa, shown) {
                 ssaa = Some(DecodedImage::from(&picture));
             }
@@ -92,7 +84,15 @@ impl Bench<'_> {
                 });
             }
         }
-        let scene = SceneResults {
+        self.take_turns(&mut contenders, |progress, index| {
+            if let Some(Row { method, samples, .. }) = rows.get(index) {
+                progress.say(&format!("{method} {samples}"));
+            }
+        })?;
+        for (row, contender) in rows.iter_mut().zip(&contenders) {
+            row.cost = contender.cost();
+        }
+        Ok(SceneResults {
             name,
             file: path.display().to_string(),
             triangles,
@@ -100,10 +100,9 @@ impl Bench<'_> {
             surface_fraction,
             reference_seconds,
             notes: notes.lines(),
-            rows: self.time(&subject, entries)?,
-        };
-        let gallery = Gallery::new(&yardstick, ssaa.as_ref(), superpixels.as_ref())?;
-        Ok((scene, gallery))
+            rows,
+            gallery: Gallery::new(&yardstick, ssaa.as_ref(), superpixels.as_ref())?,
+        })
     }
 
     /// Samples of the superpixels that the report shows: the default number, or otherwise the largest that is
@@ -120,7 +119,7 @@ impl Bench<'_> {
         if !self.args.geometry {
             return Ok(None);
         }
-        let settings = for_whole_pixels(self.settings(MethodKind::None, 1));
+        let settings = self.settings(MethodKind::None, 1).footprint(Footprint::Pixel);
         let name = "its reference for geometry alone";
         let (reference, _) = self.reference(&subject.wanted(&settings, self.args.reference, name))?;
         let reference = Picture::new(settings.size, &reference)?;
@@ -135,32 +134,10 @@ impl Bench<'_> {
         method: MethodKind,
         samples: u32,
     ) -> anyhow::Result<Accuracy> {
-        let settings = for_whole_pixels(self.settings(method, samples));
+        let settings = self.settings(method, samples).footprint(Footprint::Pixel);
         let (_, rendered) = self.warm_up(subject, &settings)?;
         Ok(yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?)
     }
-
-    fn time(&mut self, subject: &Subject, mut entries: Vec<Entry>) -> Result<Vec<Row>, RenderError> {
-        let progress = &self.progress;
-        measurement::take_turns(
-            &mut self.headless,
-            &subject.view.camera,
-            entries.iter_mut().map(|entry| &mut entry.contender),
-            self.args.repeat,
-            self.args.budget(),
-            |contender| {
-                let settings = contender.settings();
-                let method = &settings.method;
-                progress.say(&format!("{} {}", method.kind(), method.samples()));
-            },
-        )?;
-        Ok(entries.into_iter().map(|Entry { contender, row }| Row { cost: contender.cost(), ..row }).collect())
-    }
-}
-
-/// Settings whose textures are read over a whole pixel, at every number of samples.
-fn for_whole_pixels(settings: Settings) -> Settings {
-    settings.footprint(Footprint::Pixel)
 }
 
 /// Notes on numbers of samples that were left out: a line for each method and reason.

@@ -23,16 +23,18 @@ mod summary;
 mod variants;
 
 pub use args::BenchArgs;
+pub use measurement::Spread;
 
 use super::{exit, input};
 use anyhow::Context;
+use columns::Study;
 use gpc::output;
 use gpc::render::{Headless, HeadlessOptions, MethodKind};
 use measurement::stress::Check;
 use measurement::{Cache, Growth};
 use progress::Progress;
 use results::Results;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use subject::Bench;
 
@@ -55,12 +57,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         exit::usage!("there is no home folder to keep references in; name a folder with --cache");
     };
     std::fs::create_dir_all(&args.out).with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
-    let curves = if args.growth { Growth::ALL.len() } else { 0 };
-    let checks = if args.stress { Check::ALL.len() } else { 0 };
-    let timed = if args.variants { args.scenes.len() } else { 0 };
-    let chosen = if args.choices { args.scenes.len() } else { 0 };
-    let moved = args.motion.len();
-    let parts = args.scenes.len() + moved + timed + chosen + curves + checks;
+    let scenes = args.scenes.iter().map(PathBuf::as_path);
+    let moved = args.motion.iter().map(PathBuf::as_path);
+    let timed = scenes.clone().filter(|_| args.variants);
+    let chosen = scenes.clone().filter(|_| args.choices);
+    let curves = Growth::ALL.into_iter().filter(|_| args.growth);
+    let checks = Check::ALL.into_iter().filter(|_| args.stress);
+    let scene_parts = [scenes.len(), moved.len(), timed.clone().count(), chosen.clone().count()];
+    let parts = scene_parts.iter().sum::<usize>() + curves.clone().count() + checks.clone().count();
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions::default().device(args.device.clone()))?,
         cache: Cache::new(&cache),
@@ -68,64 +72,40 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         progress: Progress::new(parts),
     };
     let mut results = Results::new(args, bench.headless.gpu().limits());
-    let mut galleries = Vec::new();
-    for path in &args.scenes {
-        let (scene, gallery) = bench.measure(path)?;
-        bench.progress.suspend(|| columns::print(&scene))?;
-        results.scenes.push(scene);
-        galleries.push(gallery);
-        // Files are written after each scene, so that a failure loses no results.
-        results.summary = summary::summarize(&results.scenes);
-        write(&args.out, &results, &galleries)?;
-    }
-    for path in &args.motion {
-        let scene = bench.motion(path, args.motion_size)?;
-        bench.progress.suspend(|| columns::print(&scene))?;
-        results.motion.push(scene);
-        results.motion_summary = Some(motion::summarize(&results.motion));
-        write(&args.out, &results, &galleries)?;
-    }
-    if args.variants {
-        for path in &args.scenes {
-            let scene = bench.variants(path)?;
-            bench.progress.suspend(|| columns::print(&scene))?;
-            results.variants.push(scene);
-            write(&args.out, &results, &galleries)?;
-        }
-    }
-    if args.choices {
-        for path in &args.scenes {
-            let scene = bench.choices(path)?;
-            bench.progress.suspend(|| columns::print(&scene))?;
-            results.choices.push(scene);
-            write(&args.out, &results, &galleries)?;
-        }
-    }
-    if args.growth {
-        for growth in Growth::ALL {
-            let curve = bench.grow(growth)?;
-            bench.progress.suspend(|| columns::print(&curve))?;
-            results.growth.push(curve);
-            write(&args.out, &results, &galleries)?;
-        }
-    }
-    if args.stress {
-        for check in Check::ALL {
-            let stress = bench.stress(check)?;
-            bench.progress.suspend(|| columns::print(&stress))?;
-            results.stress.push(stress);
-            write(&args.out, &results, &galleries)?;
-        }
-    }
+    each(&mut bench, &mut results, scenes, Bench::measure, |results| &mut results.scenes)?;
+    each(&mut bench, &mut results, moved, Bench::motion, |results| &mut results.motion)?;
+    each(&mut bench, &mut results, timed, Bench::variants, |results| &mut results.variants)?;
+    each(&mut bench, &mut results, chosen, Bench::choices, |results| &mut results.choices)?;
+    each(&mut bench, &mut results, curves, Bench::grow, |results| &mut results.growth)?;
+    each(&mut bench, &mut results, checks, Bench::stress, |results| &mut results.stress)?;
     bench.progress.finish();
     results.summary.iter().try_for_each(columns::print)?;
     results.motion_summary.iter().try_for_each(columns::print)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
+/// Makes a study of each subject, and adds it to `studies`. Files are written after each study, so that a failure loses no
+/// results.
+fn each<'a, T, S: Study>(
+    bench: &mut Bench<'a>,
+    results: &mut Results,
+    subjects: impl Iterator<Item = T>,
+    study: impl Fn(&mut Bench<'a>, T) -> anyhow::Result<S>,
+    studies: fn(&mut Results) -> &mut Vec<S>,
+) -> anyhow::Result<()> {
+    for subject in subjects {
+        let study = study(bench, subject)?;
+        bench.progress.suspend(|| columns::print(&study))?;
+        studies(results).push(study);
+        results.summarize();
+        write(&bench.args.out, results)?;
+    }
+    Ok(())
+}
+
+fn write(folder: &Path, results: &Results) -> anyhow::Result<()> {
     let json = serde_json::to_string(results)? + "\n";
-    let files = [("results.json", json), ("report.html", report::page(results, galleries))];
+    let files = [("results.json", json), ("report.html", report::page(results))];
     let tables = [
         columns::csv(&results.scenes, results),
         columns::csv(&results.summary, results),

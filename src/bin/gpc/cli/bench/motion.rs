@@ -1,6 +1,6 @@
 //! Errors and flicker of the methods in motion.
 
-use super::columns::{Cell, Column, Study, Table, column};
+use super::columns::{Cell, Column, Study, column};
 use super::measurement::{Motion, SequenceErrors};
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
@@ -39,8 +39,9 @@ pub struct MotionRatio {
 pub struct MotionSummary(Vec<MotionRatio>);
 
 impl Bench<'_> {
-    /// Measures the scene of a file in motion, in images of `size` = [width, height].
-    pub fn motion(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<SceneMotion> {
+    /// Measures the scene of a file in motion.
+    pub fn motion(&mut self, path: &Path) -> anyhow::Result<SceneMotion> {
+        let size = self.args.motion_size;
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, in motion"));
         let subject = self.upload(path, size)?;
@@ -143,7 +144,7 @@ impl Study for SceneMotion {
         &self.rows
     }
 
-    fn keys() -> Vec<Column<Self, MotionRow>> {
+    fn columns() -> Vec<Column<Self, MotionRow>> {
         vec![
             column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
             column("textured", "", |scene: &Self, _| Cell::text(scene.textured)),
@@ -152,15 +153,9 @@ impl Study for SceneMotion {
             column("motion", "motion", |_, row: &MotionRow| Cell::text(row.motion)),
             column("method", "method", |_, row: &MotionRow| Cell::text(row.method)),
             column("samples", "N", |_, row: &MotionRow| Cell::Count(row.samples.into())),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, MotionRow>> {
-        let columns = vec![
             column("rmse", "RMSE", |_, row: &MotionRow| Cell::Number(row.steadiness.rmse, 5)),
             column("flicker", "flicker", |_, row: &MotionRow| Cell::Number(row.steadiness.flicker, 5)),
-        ];
-        vec![Table { caption: "", columns }]
+        ]
     }
 
     fn size(&self) -> Option<[u32; 2]> {
@@ -176,28 +171,20 @@ impl Study for MotionSummary {
         "superpixel in motion over ssaa, medians over scenes and motions".to_owned()
     }
 
-    fn notes(&self) -> Vec<String> {
-        Vec::new()
-    }
-
     fn rows(&self) -> &[MotionRatio] {
         &self.0
     }
 
-    fn keys() -> Vec<Column<Self, MotionRatio>> {
-        vec![column("samples", "N", |_, row: &MotionRatio| Cell::Count(row.samples.into()))]
-    }
-
-    fn tables() -> Vec<Table<Self, MotionRatio>> {
+    fn columns() -> Vec<Column<Self, MotionRatio>> {
         let number = |name, heading, value: fn(&MotionRatio) -> f64| {
             column(name, heading, move |_: &Self, row| Cell::Number(value(row), 2))
         };
-        let columns = vec![
+        vec![
+            column("samples", "N", |_, row: &MotionRatio| Cell::Count(row.samples.into())),
             number("rmse_ratio", "RMSE", |row| row.rmse.median),
             number("rmse_ratio_worst", "worst", |row| row.rmse.worst),
             number("flicker_ratio", "flicker", |row| row.flicker.median),
             number("flicker_ratio_worst", "worst", |row| row.flicker.worst),
-        ];
-        vec![Table { caption: "", columns }]
+        ]
     }
 }

@@ -5,12 +5,12 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gpc::compare::heat_color;
 use gpc::output::{self, DecodedImage};
-use image::ExtendedColorType;
 use image::codecs::jpeg::JpegEncoder;
+use image::{RgbImage, imageops};
 use std::ops::Range;
 
 /// Largest width of small pictures in pixels.
-const SMALL: usize = 480;
+const SMALL: u32 = 480;
 const JPEG_QUALITY: u8 = 80;
 /// Largest width and height of a window in pixels.
 const WINDOW: [usize; 2] = [48, 30];
@@ -111,22 +111,13 @@ impl CropBox {
 }
 
 /// A JPEG of an image, scaled down by a whole number.
-pub fn small_jpeg(size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
-    let [width, height] = size.map(|side| side as usize);
+pub fn small_jpeg([width, height]: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
+    let whole = RgbImage::from_raw(width, height, colors.iter().flat_map(|color| codes(*color)).collect());
+    let whole = whole.context("a picture of the report has another size than its image")?;
     let step = width.div_ceil(SMALL).min(height).max(1);
-    let [columns, rows] = [width / step, height / step];
-    let mut bytes = Vec::with_capacity(3 * columns * rows);
-    for y in 0..rows {
-        for x in 0..columns {
-            let block = CropBox { low: [x * step, y * step], size: [step, step] };
-            let pixels = block.rows(width).filter_map(|row| colors.get(row)).flatten();
-            let sum = pixels.fold([0.0; 3], |[r, g, b], color| [r + color[0], g + color[1], b + color[2]]);
-            bytes.extend(codes(sum.map(|value| value / (step * step) as f32)));
-        }
-    }
     let mut file = Vec::new();
-    JpegEncoder::new_with_quality(&mut file, JPEG_QUALITY)
-        .encode(&bytes, columns as u32, rows as u32, ExtendedColorType::Rgb8)
+    imageops::thumbnail(&whole, width / step, height / step)
+        .write_with_encoder(JpegEncoder::new_with_quality(&mut file, JPEG_QUALITY))
         .context("a picture of the report can't be encoded")?;
     Ok(data_uri("jpeg", &file))
 }

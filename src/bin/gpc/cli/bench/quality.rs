@@ -5,6 +5,9 @@ use super::front;
 use super::measurement::{Split, Within};
 use super::results::{Row, SceneResults};
 
+/// Number of columns that say what a row is about.
+const KEYS: usize = 6;
+
 impl Study for SceneResults {
     type Row = Row;
     const FILE: &'static str = "results.csv";
@@ -23,21 +26,18 @@ impl Study for SceneResults {
         &self.rows
     }
 
-    fn keys() -> Vec<Column<Self, Row>> {
-        vec![
+    fn columns() -> Vec<Column<Self, Row>> {
+        let keys: [_; KEYS] = [
             column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
             column("triangles", "", |scene: &Self, _| Cell::Count(scene.triangles)),
             column("textured", "", |scene: &Self, _| Cell::text(scene.textured)),
             column("surface_fraction", "", |scene: &Self, _| Cell::Number(scene.surface_fraction, 3)),
             column("method", "method", |_, row: &Row| Cell::text(row.method)),
             column("samples", "N", |_, row: &Row| Cell::Count(row.samples.into())),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, Row>> {
+        ];
         let accuracy = |name, heading, cell: fn(&Row) -> Cell| column(name, heading, move |_: &Self, row| cell(row));
         let decibels = |psnr: Option<f64>| Cell::Number(psnr.unwrap_or(f64::INFINITY), 2);
-        let main = times(|row: &Row| clocks(&row.cost)).into_iter().chain([
+        let figures = [
             accuracy("memory_bytes", "MiB", |row| Cell::Bytes(row.memory_bytes)),
             accuracy("superpixel_fraction", "superpixels", |row| Cell::Percent(row.superpixel_fraction, 1)),
             accuracy("candidates", "", |row| Cell::Count(row.candidates)),
@@ -52,7 +52,11 @@ impl Study for SceneResults {
             column("", "at equal time", |scene: &Self, row: &Row| {
                 Cell::optional(front::ratio_at_equal_time(scene, row), |ratio| Cell::Number(ratio, 2))
             }),
-        ]);
+        ];
+        keys.into_iter().chain(times(|row: &Row| clocks(&row.cost))).chain(figures).collect()
+    }
+
+    fn more() -> (usize, Vec<Table<Self, Row>>) {
         let left = |name, heading, share: fn(&Split) -> f64| {
             column(name, heading, move |_: &Self, row: &Row| {
                 Cell::optional(row.left, |left| Cell::Percent(share(&left), 2))
@@ -82,10 +86,10 @@ impl Study for SceneResults {
             geometry("geometry_flip", "FLIP", |geometry| Cell::Number(geometry.flip, 4)),
             geometry("", "removed", |geometry| Cell::Percent(geometry.removed, 1)),
         ];
-        vec![
-            Table { caption: "", columns: main.collect() },
+        let tables = vec![
             Table { caption: "squared error that is left, in shares of one sample's", columns: causes },
             Table { caption: "geometry alone, with textures read for a whole pixel in all", columns: alone },
-        ]
+        ];
+        (KEYS, tables)
     }
 }

@@ -7,14 +7,13 @@ use super::results::Results;
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole page; `galleries` are in the order of the scenes.
-pub fn page(results: &Results, galleries: &[Gallery]) -> String {
+/// The whole page.
+pub fn page(results: &Results) -> String {
     let [width, height] = results.size;
     let machine = &results.machine;
-    let scenes = results.scenes.iter().zip(galleries);
     let sections = [
         results.summary.iter().map(|study| section(study, "")).collect::<String>(),
-        scenes.map(|(study, gallery)| section(study, &pictures(gallery))).collect(),
+        results.scenes.iter().map(|scene| section(scene, &pictures(&scene.gallery))).collect(),
         results.motion.iter().map(|study| section(study, "")).collect(),
         results.motion_summary.iter().map(|study| section(study, "")).collect(),
         results.variants.iter().map(|study| section(study, "")).collect(),

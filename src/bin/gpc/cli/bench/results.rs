@@ -1,11 +1,12 @@
 //! Contents of `results.json`.
 
 use super::BenchArgs;
+use super::gallery::Gallery;
 use super::machine::{self, Machine};
 use super::measurement::stress::Finding;
-use super::measurement::{Accuracy, Cost, Motion, Split, Steadiness, VariantCost, Within};
-use super::motion::MotionSummary;
-use super::summary::Summary;
+use super::measurement::{Accuracy, Cost, Motion, Split, Spread, Steadiness, Variant, Within};
+use super::motion::{self, MotionSummary};
+use super::summary::{self, Summary};
 use gpc::render::MethodKind;
 use gpc::vulkan::Limits;
 use serde::Serialize;
@@ -74,14 +75,19 @@ pub struct SceneVariants {
     pub notes: Vec<String>,
 }
 
-/// Cost of a variant: total, per sample, and relative to the raster pass.
+/// Cost of a variant: of a run, per sample, and relative to the raster pass.
 #[derive(Serialize)]
 pub struct VariantRow {
-    #[serde(flatten)]
-    pub cost: VariantCost,
-    /// Device time per sample, in nanoseconds.
+    pub variant: Variant,
+    /// Samples of one run.
+    pub samples: u64,
+    /// Milliseconds of a run on the device.
+    pub gpu_ms: Spread,
+    /// Wall-clock milliseconds of a run, from locations to values in host memory.
+    pub wall_ms: Spread,
+    /// Median device time per sample, in nanoseconds.
     pub gpu_ns: f64,
-    /// Wall-clock time per sample, in nanoseconds.
+    /// Median wall-clock time per sample, in nanoseconds.
     pub wall_ns: f64,
     /// Variant / raster pass ratio of device time per sample.
     pub gpu_ratio: f64,
@@ -156,6 +162,9 @@ pub struct SceneResults {
     /// Notes on measurements that were left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
+    /// Pictures for the report.
+    #[serde(skip)]
+    pub gallery: Gallery,
 }
 
 /// Measurements of one method at one number of samples.
@@ -205,6 +214,12 @@ impl Results {
         }
     }
 
+    /// Summarises the scenes, and those in motion.
+    pub fn summarize(&mut self) {
+        self.summary = summary::summarize(&self.scenes);
+        self.motion_summary = (!self.motion.is_empty()).then(|| motion::summarize(&self.motion));
+    }
+
     /// Lines `# key: value` for the head of a CSV, which say where its figures come from. The images have the size
     /// `width` x `height`.
     pub fn head(&self, [width, height]: [u32; 2]) -> String {
@@ -223,14 +238,19 @@ impl Results {
 }
 
 impl VariantRow {
-    /// A row for `cost`, relative to the raster pass.
-    pub fn new(cost: VariantCost, raster: &VariantCost) -> Self {
+    /// A row relative to that of the raster pass; `None` for the raster pass itself.
+    pub fn new(variant: Variant, samples: u64, cost: &Cost, raster: Option<&Self>) -> Self {
+        let ns = |spread: &Spread| 1e6 * spread.median / samples as f64;
+        let (gpu_ns, wall_ns) = (ns(&cost.gpu_ms), ns(&cost.wall_ms));
         Self {
-            cost,
-            gpu_ns: cost.gpu_ns(),
-            wall_ns: cost.wall_ns(),
-            gpu_ratio: cost.gpu_ns() / raster.gpu_ns(),
-            wall_ratio: cost.wall_ns() / raster.wall_ns(),
+            variant,
+            samples,
+            gpu_ms: cost.gpu_ms,
+            wall_ms: cost.wall_ms,
+            gpu_ns,
+            wall_ns,
+            gpu_ratio: raster.map_or(1.0, |raster| gpu_ns / raster.gpu_ns),
+            wall_ratio: raster.map_or(1.0, |raster| wall_ns / raster.wall_ns),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Split of an image's error by cause and by fault.
 
-use super::measurement::{self, Cause, Fault, Half, PixelTriangles, Split, Stripped, Suspects, Within, Yardstick};
+use super::measurement::{self, Cause, Fault, PixelTriangles, Split, Stripped, Within, Yardstick};
 use super::subject::{Bench, Subject, Wanted};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{MethodKind, PreparedScene, SceneRequest};
@@ -9,8 +9,8 @@ use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 const MOST_SAMPLES: u32 = 1024;
 
 /// Images and scenes that tell the causes and faults of errors.
-pub(super) struct Splitter {
-    looks: PixelTriangles,
+pub(super) struct Splitter<'a> {
+    looks: PixelTriangles<'a>,
     /// The scene stripped to its paint and stripped to its light, each with its reference.
     halves: [(PreparedScene, DecodedImage); 2],
     /// Number of samples of the superpixels by which the errors of methods without superpixels are split.
@@ -28,17 +28,17 @@ pub(super) struct Pieces {
     pub faults: Vec<Option<Fault>>,
 }
 
-impl Splitter {
+impl<'a> Splitter<'a> {
     /// Looks up the triangles in each pixel, and renders the references of the scene's paint alone and light alone.
-    pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
+    pub fn new(bench: &mut Bench<'_>, subject: &'a Subject, shown: u32) -> anyhow::Result<Self> {
         let settings = bench.settings(MethodKind::None, 1);
         let progress = &bench.progress;
-        let mut looks = 0;
-        let found =
-            PixelTriangles::new(&mut bench.headless, &subject.prepared, &subject.view.camera, &settings, || {
-                looks += 1;
-                progress.say(&format!("what pixels hold, {looks} of {}", measurement::LOOKS));
-            })?;
+        let mut done = 0;
+        let (scene, camera) = (&subject.prepared, &subject.view.camera);
+        let looks = PixelTriangles::new(&mut bench.headless, scene, camera, &settings, || {
+            done += 1;
+            progress.say(&format!("what pixels hold, {done} of {}", measurement::LOOKS));
+        })?;
         let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
             let scene = stripped.of(&subject.scene);
             let prepared = bench.headless.upload(SceneRequest::new(&scene, &subject.pose))?;
@@ -50,7 +50,7 @@ impl Splitter {
             Ok((prepared, truth))
         };
         Ok(Self {
-            looks: found,
+            looks,
             halves: [
                 half(Stripped::Paint, "the truth of its paint")?,
                 half(Stripped::Light, "the truth of its light")?,
@@ -64,7 +64,6 @@ impl Splitter {
     pub fn split(
         &self,
         bench: &mut Bench<'_>,
-        subject: &Subject,
         yardstick: &Yardstick,
         picture: &Picture<'_>,
         method: MethodKind,
@@ -73,17 +72,9 @@ impl Splitter {
         let superpixels = method == MethodKind::Superpixel;
         let samples = if superpixels { samples } else { self.shown };
         let settings = bench.settings(MethodKind::Superpixel, samples);
-        let camera = &subject.view.camera;
-        let scene = &subject.prepared;
-        let causes = self.looks.causes(&mut bench.headless, scene, camera, &settings)?;
+        let causes = self.looks.causes(&mut bench.headless, &settings)?;
         let faults = if superpixels {
-            let suspects = Suspects {
-                scene,
-                halves: self.halves.each_ref().map(|(scene, truth)| Half { scene, truth }),
-                camera,
-                looks: &self.looks,
-            };
-            suspects.faults(&mut bench.headless, &settings, yardstick, picture, &causes)?
+            self.looks.faults(&mut bench.headless, &self.halves, &settings, yardstick, picture, &causes)?
         } else {
             Vec::new()
         };

@@ -1,6 +1,6 @@
 //! The stress suite at its full length.
 
-use super::columns::{Cell, Column, Study, Table, column};
+use super::columns::{Cell, Column, Study, column};
 use super::measurement::stress::{Check, Finding, Length};
 use super::results::Stress;
 use super::subject::Bench;
@@ -30,30 +30,20 @@ impl Study for Stress {
         )
     }
 
-    fn notes(&self) -> Vec<String> {
-        Vec::new()
-    }
-
     fn rows(&self) -> &[Finding] {
         &self.findings
     }
 
-    fn keys() -> Vec<Column<Self, Finding>> {
+    fn columns() -> Vec<Column<Self, Finding>> {
         vec![
             column("check", "", |check: &Self, _| Cell::text(check.about)),
             column("case", "case", |_, finding: &Finding| Cell::text(&finding.case)),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, Finding>> {
-        let columns = vec![
             column("checked", "checked", |_, finding: &Finding| Cell::Count(finding.checked)),
             column("found", "found", |_, finding: &Finding| figure(finding.measured)),
             column("allowed", "allowed", |_, finding: &Finding| Cell::optional(finding.allowed, figure)),
             column("verdict", "verdict", |_, finding: &Finding| Cell::text(verdict(finding))),
             column("unit", "what", |_, finding: &Finding| Cell::text(finding.unit)),
-        ];
-        vec![Table { caption: "", columns }]
+        ]
     }
 }
 

@@ -9,7 +9,7 @@ use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
 use gpc::render::{Headless, MethodKind, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
-use gpc::scene::{Pose, PoseRequest, PosedGeometry, Scene};
+use gpc::scene::{Pose, PosedGeometry, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -49,8 +49,7 @@ impl Bench<'_> {
     pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
         let camera = &self.args.camera;
         let loaded = input::load_variant(path, camera.variant.as_deref())?;
-        let request = PoseRequest { scene: camera.scene, animation: camera.animation.clone(), time: camera.time };
-        let pose = loaded.scene.pose(&request)?;
+        let pose = loaded.scene.pose(&camera.request(camera.time))?;
         let [width, height] = size.map(f64::from);
         let views = choose_views(camera, &pose, width / height)?;
         let Some(view) = views.into_iter().next() else {
@@ -96,8 +95,18 @@ impl Bench<'_> {
         &mut self,
         subject: &Subject,
         settings: &Settings,
-    ) -> Result<(Contender, Rendered), RenderError> {
+    ) -> Result<(Contender<'static>, Rendered), RenderError> {
         Contender::warm_up(&mut self.headless, &subject.prepared, &subject.view.camera, settings)
+    }
+
+    /// Times contenders as often and as long as the options say. `progress` is called with a contender's index before each run.
+    pub(super) fn take_turns(
+        &mut self,
+        contenders: &mut [Contender<'_>],
+        progress: impl Fn(&Progress, usize),
+    ) -> Result<(), RenderError> {
+        let progress = |index| progress(&self.progress, index);
+        measurement::take_turns(&mut self.headless, contenders, self.args.repeat, self.args.budget(), progress)
     }
 }
 

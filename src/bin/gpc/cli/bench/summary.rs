@@ -1,6 +1,6 @@
 //! Ratios over all scenes, those with and those without textures separately.
 
-use super::columns::{Cell, Column, Study, Table, column};
+use super::columns::{Cell, Column, Study, column};
 use super::front::{TARGETS, ratio_at_equal_time, time_to_error};
 use super::measurement::Spread;
 use super::results::{Row, SceneResults};
@@ -116,15 +116,12 @@ impl Study for Summary {
         &self.at
     }
 
-    fn keys() -> Vec<Column<Self, AtSamples>> {
-        vec![
+    fn columns() -> Vec<Column<Self, AtSamples>> {
+        let keys = [
             column("textured", "", |summary: &Self, _| Cell::text(summary.textured)),
             column("samples", "N", |_, row: &AtSamples| Cell::Count(row.samples.into())),
             column("scenes", "scenes", |_, row: &AtSamples| Cell::Count(row.scenes as u64)),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, AtSamples>> {
+        ];
         let number = |name, heading, value: fn(&AtSamples) -> Option<f64>| {
             column(name, heading, move |_: &Self, row| Cell::optional(value(row), |value| Cell::Number(value, 2)))
         };
@@ -142,35 +139,39 @@ impl Study for Summary {
                 row.equal_time_ratio.as_ref()
             }),
         ];
-        let columns = ratios.into_iter().flatten().chain([
+        let figures = [
             column("removed", "removed", |_: &Self, row: &AtSamples| {
                 Cell::optional(row.removed, |share| Cell::Percent(share, 1))
             }),
             number("speedup", "ssaa/superpixel", |row| row.speedup),
             number("over_none", "superpixel/none", |row| row.over_none),
-        ]);
-        vec![Table { caption: "", columns: columns.collect() }]
+        ];
+        keys.into_iter().chain(ratios.into_iter().flatten()).chain(figures).collect()
     }
 }
 
 fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
-    let each = |ratio: &dyn Fn(&SceneResults) -> Option<f64>| median(scenes.iter().filter_map(|s| ratio(s)));
-    let row = |scene: &SceneResults| {
-        let row = scene.row(MethodKind::Superpixel, samples)?;
-        Some(row.accuracy.removed)
+    let (superpixel, ssaa, none) =
+        ((MethodKind::Superpixel, samples), (MethodKind::Ssaa, samples), (MethodKind::None, 1));
+    type Value = fn(&Row) -> Option<f64>;
+    let of = |scene: &SceneResults, (method, samples), value: Value| scene.row(method, samples).and_then(value);
+    let over = |above, below, value: Value| {
+        move |scene: &SceneResults| ratio(of(scene, above, value)?, of(scene, below, value)?)
     };
+    let each = |ratio: &dyn Fn(&SceneResults) -> Option<f64>| median(scenes.iter().filter_map(|s| ratio(s)));
+    let time: Value = |row| Some(row.cost.gpu_ms.median);
     AtSamples {
         samples,
-        scenes: scenes.iter().filter(|scene| row(scene).is_some()).count(),
-        speedup: each(&|scene| speedup(scene, samples)),
-        over_none: each(&|scene| over_none(scene, samples)),
-        rmse_ratio: Ratio::over(scenes, |scene| rmse_ratio(scene, samples)),
-        flip_ratio: Ratio::over(scenes, |scene| flip_ratio(scene, samples)),
+        scenes: scenes.iter().filter(|scene| scene.row(MethodKind::Superpixel, samples).is_some()).count(),
+        speedup: each(&over(ssaa, superpixel, time)),
+        over_none: each(&over(superpixel, none, time)),
+        rmse_ratio: Ratio::over(scenes, over(superpixel, ssaa, |row| Some(row.accuracy.rmse))),
+        flip_ratio: Ratio::over(scenes, over(superpixel, ssaa, |row| Some(row.accuracy.flip))),
         equal_time_ratio: Ratio::over(scenes, |scene| {
             ratio_at_equal_time(scene, scene.row(MethodKind::Superpixel, samples)?)
         }),
-        geometry_ratio: Ratio::over(scenes, |scene| geometry_ratio(scene, samples)),
-        removed: each(&row),
+        geometry_ratio: Ratio::over(scenes, over(superpixel, ssaa, |row| Some(row.geometry?.rmse))),
+        removed: each(&|scene| of(scene, superpixel, |row| Some(row.accuracy.removed))),
     }
 }
 
@@ -200,41 +201,6 @@ impl Ratio {
     }
 }
 
-/// Supersampling time / superpixel time.
-fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
-    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
-    ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
-}
-
-/// Superpixel time / time of one sample a pixel.
-fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
-    let none = scene.row(MethodKind::None, 1)?;
-    ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
-}
-
-/// Superpixel RMSE / supersampling RMSE.
-fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
-    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
-    ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
-}
-
-/// Superpixel FLIP / supersampling FLIP.
-fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
-    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
-    ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
-}
-
-/// Superpixel RMSE / supersampling RMSE of geometry alone.
-fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
-    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
-    ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)
-}
-
 fn ratio(above: f64, below: f64) -> Option<f64> {
     (below > 0.0).then(|| above / below)
 }
@@ -247,6 +213,7 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::bench::gallery::Gallery;
     use crate::cli::bench::measurement::{Accuracy, Cost};
 
     fn scene(name: &str, textured: bool, rows: &[(MethodKind, u32, f64, f64)]) -> SceneResults {
@@ -271,6 +238,7 @@ mod tests {
             reference_seconds: None,
             notes: Vec::new(),
             rows: rows.iter().map(row).collect(),
+            gallery: Gallery::default(),
         }
     }
 

@@ -1,9 +1,10 @@
 //! Costs of the camera's variants.
 
-use super::columns::{Cell, Column, Study, Table, column, times};
-use super::measurement::{Variant, VariantContender, VariantError};
+use super::columns::{Cell, Column, Study, column, times};
+use super::measurement::Variant;
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
+use gpc::camera::panorama::PanoramaError;
 use gpc::render::MethodKind;
 use std::path::Path;
 
@@ -14,32 +15,27 @@ impl Bench<'_> {
         self.progress.begin(&format!("{name}, variants"));
         let subject = self.upload(path, self.args.size)?;
         let settings = subject::settings(MethodKind::Superpixel, 64, self.args.size);
-        let mut contenders = Vec::new();
+        let (mut contenders, mut samples) = (Vec::new(), Vec::new());
         let mut notes = Vec::new();
         for variant in Variant::ALL {
             self.progress.say(&format!("{variant}, warming up"));
-            let (scene, camera) = (&subject.prepared, &subject.view.camera);
-            match VariantContender::warm_up(variant, &mut self.headless, scene, camera, &settings) {
-                Ok(contender) => contenders.push(contender),
-                Err(VariantError::Panorama(error)) => {
-                    notes.push(format!("{variant} left out: {error}"));
+            match variant.warm_up(&mut self.headless, &subject.prepared, &subject.view.camera, &settings) {
+                Ok((contender, count)) => {
+                    contenders.push(contender);
+                    samples.push((variant, count));
                 }
-                Err(error) => return Err(error.into()),
+                Err(error) if error.is::<PanoramaError>() => notes.push(format!("{variant} left out: {error}")),
+                Err(error) => return Err(error),
             }
         }
         self.progress.say("taking turns");
-        VariantContender::take_turns(
-            &mut contenders,
-            &mut self.headless,
-            &subject.prepared,
-            &subject.view.camera,
-            self.args.repeat,
-            self.args.budget(),
-        )?;
-        let costs: Vec<_> = contenders.iter().map(VariantContender::cost).collect();
-        let raster = costs.first();
-        let row = |cost: &_| Some(VariantRow::new(*cost, raster?));
-        Ok(SceneVariants { name, triangles: subject.triangles(), rows: costs.iter().filter_map(row).collect(), notes })
+        self.take_turns(&mut contenders, |_, _| {})?;
+        let mut rows: Vec<VariantRow> = Vec::new();
+        for ((variant, samples), contender) in samples.into_iter().zip(&contenders) {
+            let row = VariantRow::new(variant, samples, &contender.cost(), rows.first());
+            rows.push(row);
+        }
+        Ok(SceneVariants { name, triangles: subject.triangles(), rows, notes })
     }
 }
 
@@ -59,23 +55,21 @@ impl Study for SceneVariants {
         &self.rows
     }
 
-    fn keys() -> Vec<Column<Self, VariantRow>> {
-        vec![
+    fn columns() -> Vec<Column<Self, VariantRow>> {
+        let keys = [
             column("scene", "", |scene: &Self, _| Cell::text(&scene.name)),
             column("triangles", "", |scene: &Self, _| Cell::Count(scene.triangles)),
-            column("variant", "variant", |_, row: &VariantRow| Cell::text(row.cost.variant)),
-            column("samples", "samples", |_, row: &VariantRow| Cell::Count(row.cost.samples)),
-        ]
-    }
-
-    fn tables() -> Vec<Table<Self, VariantRow>> {
-        let columns = times(|row: &VariantRow| [&row.cost.gpu_ms, &row.cost.wall_ms]).into_iter().chain([
+            column("variant", "variant", |_, row: &VariantRow| Cell::text(row.variant)),
+            column("samples", "samples", |_, row: &VariantRow| Cell::Count(row.samples)),
+        ];
+        let figures = [
             column("gpu_ns", "GPU ns/sample", |_, row: &VariantRow| Cell::Number(row.gpu_ns, 1)),
             column("wall_ns", "wall ns/sample", |_, row: &VariantRow| Cell::Number(row.wall_ns, 1)),
             column("gpu_ratio", "GPU ratio", |_, row: &VariantRow| Cell::Number(row.gpu_ratio, 2)),
             column("wall_ratio", "wall ratio", |_, row: &VariantRow| Cell::Number(row.wall_ratio, 2)),
-            column("", "what", |_, row: &VariantRow| Cell::text(row.cost.variant.about())),
-        ]);
-        vec![Table { caption: "", columns: columns.collect() }]
+            column("", "what", |_, row: &VariantRow| Cell::text(row.variant.about())),
+        ];
+        let times = times(|row: &VariantRow| [&row.gpu_ms, &row.wall_ms]);
+        keys.into_iter().chain(times).chain(figures).collect()
     }
 }

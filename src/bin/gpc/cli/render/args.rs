@@ -9,6 +9,7 @@ use glam::DVec3;
 use gpc::output::VideoFormat;
 use gpc::render::{CellOptions, Detection, Footprint, Method, MethodKind, PixelRect, Shading, SuperpixelOptions};
 use gpc::sampling::{FilterShape, Pattern, PixelFilter};
+use gpc::scene::PoseRequest;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -126,6 +127,16 @@ impl SamplingArgs {
             .contrast(self.contrast)
     }
 
+    /// Checks the number of samples against the method, as far as that is independent of the device.
+    pub fn check(&self) -> Result<(), Usage> {
+        match (self.aa, self.samples()) {
+            (MethodKind::None, samples) if samples != 1 => {
+                Err(Usage(format!("none can't have {samples} samples a pixel; it can have 1")))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The number of samples asked for, or otherwise the method's default.
     pub fn samples(&self) -> u32 {
         self.samples_or(match self.aa {
@@ -142,7 +153,7 @@ impl SamplingArgs {
 }
 
 /// Camera and time of the scene.
-#[derive(Args, Clone, Default)]
+#[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "View")]
 pub struct CameraArgs {
     /// Camera of the scene, or all [default: the first, if there is one]
@@ -186,6 +197,13 @@ pub struct CameraArgs {
     /// Name or index of the animation [default: the first, if a time is given]
     #[arg(long, value_name = "NAME", hide_short_help = true)]
     pub animation: Option<String>,
+}
+
+impl CameraArgs {
+    /// Request for the pose at a time in seconds.
+    pub fn request(&self, time: f64) -> PoseRequest {
+        PoseRequest { scene: self.scene, animation: self.animation.clone(), time }
+    }
 }
 
 /// Options for several images at once.

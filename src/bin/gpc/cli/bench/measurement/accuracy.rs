@@ -55,13 +55,11 @@ impl Yardstick {
     }
 
     /// Reference as a display shows it.
-    #[must_use]
     pub fn reference(&self) -> &DecodedImage {
         &self.shown
     }
 
     /// Image of one sample a pixel as a display shows it.
-    #[must_use]
     pub fn one_sample(&self) -> &DecodedImage {
         &self.one_sample
     }
@@ -92,6 +90,14 @@ impl Yardstick {
             removed,
             needless: self.needless(&image),
         })
+    }
+
+    /// Squared error of each pixel, as a share of the squared error of one sample a pixel, of sRGB-encoded colours; all zero
+    /// if that has no error.
+    pub(super) fn shares(&self, picture: &Picture<'_>) -> Result<Vec<f64>, CompareError> {
+        let whole: f64 = squares(&self.shown, &self.one_sample)?.iter().sum();
+        let share = |square| if whole > 0.0 { square / whole } else { 0.0 };
+        Ok(squares(&self.shown, &DecodedImage::from(picture))?.into_iter().map(share).collect())
     }
 
     fn needless(&self, image: &DecodedImage) -> f64 {

@@ -62,14 +62,12 @@ pub struct Cache {
 
 impl Cache {
     /// Opens a cache in a folder, which need not exist yet.
-    #[must_use]
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_path_buf() }
     }
 
     /// Default folder of the cache: `gpc` in the user's cache folder, `$XDG_CACHE_HOME` or otherwise `~/.cache` (XDG
     /// Base Directory Specification 0.8); `None` for a user without either.
-    #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
         let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
         absolute("XDG_CACHE_HOME").or_else(|| Some(absolute("HOME")?.join(".cache"))).map(|folder| folder.join("gpc"))
@@ -77,7 +75,6 @@ impl Cache {
 
     /// Pixels of the reference with this fingerprint and size, if the cache holds them. An unusable file counts as
     /// absent, with a warning in the log.
-    #[must_use]
     pub fn get(&self, fingerprint: Fingerprint, size: [u32; 2]) -> Option<Vec<[f32; 4]>> {
         let path = self.path(fingerprint);
         let bytes = std::fs::read(&path).ok()?;

@@ -1,11 +1,10 @@
 //! Causes of the errors that antialiasing leaves.
 
 use super::Yardstick;
-use super::accuracy::squares;
 use glam::DVec2;
 use gpc::camera::Camera;
 use gpc::compare::CompareError;
-use gpc::output::{DecodedImage, Picture};
+use gpc::output::Picture;
 use gpc::render::{Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings, SuperpixelOptions};
 use gpc::sampling::owen_sobol;
 use serde::Serialize;
@@ -49,13 +48,14 @@ pub struct Split {
 /// Triangles in each pixel, found at [`LOOKS`] places and at the centre.
 ///
 /// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
-#[derive(Clone, Debug)]
-pub struct PixelTriangles {
+pub struct PixelTriangles<'a> {
+    pub(super) scene: &'a PreparedScene,
+    pub(super) camera: Camera,
     unseen: Vec<bool>,
     several: Vec<bool>,
 }
 
-impl PixelTriangles {
+impl<'a> PixelTriangles<'a> {
     /// Finds the triangle IDs in each pixel of an image with these settings. `progress` is called after each of
     /// [`LOOKS`] renderings.
     ///
@@ -63,7 +63,7 @@ impl PixelTriangles {
     /// As [`Headless::render`].
     pub fn new(
         headless: &mut Headless,
-        scene: &PreparedScene,
+        scene: &'a PreparedScene,
         camera: &Camera,
         settings: &Settings,
         mut progress: impl FnMut(),
@@ -85,7 +85,7 @@ impl PixelTriangles {
             }
             progress();
         }
-        Ok(Self { unseen, several })
+        Ok(Self { scene, camera: *camera, unseen, several })
     }
 
     /// Whether a pixel holds several triangles, or a triangle and background.
@@ -93,39 +93,31 @@ impl PixelTriangles {
         self.several.get(pixel).copied().unwrap_or_default()
     }
 
-    /// Cause of each pixel's error under superpixel antialiasing with these settings, rows from the top. Scene, camera
-    /// and size must be those that [`PixelTriangles::new`] was given.
+    /// Cause of each pixel's error under superpixel antialiasing with these settings, rows from the top. The size must be
+    /// that which [`PixelTriangles::new`] was given.
     ///
     /// # Errors
     /// As [`Headless::render`].
-    pub fn causes(
-        &self,
-        headless: &mut Headless,
-        scene: &PreparedScene,
-        camera: &Camera,
-        settings: &Settings,
-    ) -> Result<Vec<Cause>, RenderError> {
+    pub fn causes(&self, headless: &mut Headless, settings: &Settings) -> Result<Vec<Cause>, RenderError> {
         // Which pixels become superpixels depends on the number of samples.
         let superpixels = match &settings.method {
             Method::Superpixel(options) => options.clone(),
             _ => SuperpixelOptions::new(1),
         };
-        let mut frame = headless.prepare(scene, &with_attributes(settings, superpixels.into()))?;
-        let centres = headless.render(&mut frame, camera)?.attributes;
-        Ok(self.classify(&centres))
+        let mut frame = headless.prepare(self.scene, &with_attributes(settings, superpixels.into()))?;
+        let centres = headless.render(&mut frame, &self.camera)?.attributes;
+        let holds = self.unseen.iter().zip(&self.several);
+        Ok(centres.iter().zip(holds).map(|(centre, (unseen, several))| cause(centre, *unseen, *several)).collect())
     }
 }
 
-impl PixelTriangles {
-    fn classify(&self, centres: &[PixelAttributes]) -> Vec<Cause> {
-        let holds = self.unseen.iter().zip(&self.several);
-        let cause = |(centre, holds): (&PixelAttributes, (&bool, &bool))| match holds {
-            _ if centre.superpixel != 0 => Cause::Superpixel,
-            (true, _) => Cause::Unseen,
-            (false, true) => Cause::BelowThreshold,
-            (false, false) => Cause::Inside,
-        };
-        centres.iter().zip(holds).map(cause).collect()
+/// Cause of the error of a pixel that holds a triangle which no centre shows, or several triangles.
+fn cause(centre: &PixelAttributes, unseen: bool, several: bool) -> Cause {
+    match (unseen, several) {
+        _ if centre.superpixel != 0 => Cause::Superpixel,
+        (true, _) => Cause::Unseen,
+        (false, true) => Cause::BelowThreshold,
+        (false, false) => Cause::Inside,
     }
 }
 
@@ -153,21 +145,11 @@ impl Yardstick {
     /// # Errors
     /// [`CompareError::Size`] if the image does not have the reference's size.
     pub fn split(&self, picture: &Picture<'_>, causes: &[Cause]) -> Result<Split, CompareError> {
-        let errors = squares(self.reference(), &DecodedImage::from(picture))?;
-        let whole: f64 = squares(self.reference(), self.one_sample())?.iter().sum();
         let mut split = Split::default();
-        for (error, cause) in errors.iter().zip(causes) {
-            *split.of_mut(*cause) += error;
+        for (share, cause) in self.shares(picture)?.iter().zip(causes) {
+            *split.of_mut(*cause) += share;
         }
-        if whole == 0.0 {
-            return Ok(Split::default());
-        }
-        Ok(Split {
-            superpixels: split.superpixels / whole,
-            below_threshold: split.below_threshold / whole,
-            unseen: split.unseen / whole,
-            inside: split.inside / whole,
-        })
+        Ok(split)
     }
 }
 
@@ -189,14 +171,13 @@ mod tests {
 
     #[test]
     fn each_cause_is_told_from_the_others() {
-        // The pixels: a superpixel; one with a single triangle; one with two triangles that neighbours show; one with
-        // a triangle that no centre shows.
-        let centres: Vec<_> = (0..4)
-            .map(|pixel| PixelAttributes { superpixel: u32::from(pixel == 0), ..PixelAttributes::default() })
-            .collect();
-        let looks = PixelTriangles { unseen: vec![true, false, false, true], several: vec![true, false, true, true] };
-        let expected = [Cause::Superpixel, Cause::Inside, Cause::BelowThreshold, Cause::Unseen];
-        assert_eq!(looks.classify(&centres), expected);
+        let cause = |superpixel: u32, unseen: bool, several: bool| {
+            cause(&PixelAttributes { superpixel, ..PixelAttributes::default() }, unseen, several)
+        };
+        assert_eq!(cause(1, true, true), Cause::Superpixel);
+        assert_eq!(cause(0, false, false), Cause::Inside);
+        assert_eq!(cause(0, false, true), Cause::BelowThreshold);
+        assert_eq!(cause(0, true, true), Cause::Unseen);
     }
 
     #[test]

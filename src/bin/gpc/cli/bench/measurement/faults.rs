@@ -2,10 +2,9 @@
 
 use super::accuracy::squares;
 use super::{Cause, PixelTriangles, Yardstick};
-use gpc::camera::Camera;
 use gpc::compare::CompareError;
-use gpc::output::{DecodedImage, OutputError, Picture};
-use gpc::render::{Detection, Headless, PreparedScene, RenderError, Settings, Shading};
+use gpc::output::{DecodedImage, Picture};
+use gpc::render::{Detection, Headless, PreparedScene, Settings, Shading};
 use serde::Serialize;
 
 /// Part of rendering that causes an error in a superpixel or in a pixel of one triangle.
@@ -38,41 +37,6 @@ pub struct Within {
     pub inside_light: f64,
 }
 
-/// Stripped scene on the device, and its reference image.
-#[derive(Clone, Copy)]
-pub struct Half<'a> {
-    /// Scene of [`super::Stripped::of`].
-    pub scene: &'a PreparedScene,
-    /// Reference image of the stripped scene, as a display shows it.
-    pub truth: &'a DecodedImage,
-}
-
-/// Error of finding faults.
-#[derive(Debug, thiserror::Error)]
-pub enum FaultError {
-    /// Image that can't be rendered.
-    #[error(transparent)]
-    Render(#[from] RenderError),
-    /// Image that does not have the reference's size.
-    #[error(transparent)]
-    Compare(#[from] CompareError),
-    /// Image without pixels.
-    #[error(transparent)]
-    Picture(#[from] OutputError),
-}
-
-/// Scenes whose errors are compared to find the faults.
-pub struct Suspects<'a> {
-    /// Whole scene.
-    pub scene: &'a PreparedScene,
-    /// Paint alone and light alone.
-    pub halves: [Half<'a>; 2],
-    /// Camera of all images.
-    pub camera: &'a Camera,
-    /// Triangles in each pixel of the whole scene.
-    pub looks: &'a PixelTriangles,
-}
-
 /// Squared errors of a stripped scene, one for each pixel.
 struct Errors {
     /// Errors if every pixel is a superpixel.
@@ -81,10 +45,10 @@ struct Errors {
     inside: Vec<f64>,
 }
 
-impl Suspects<'_> {
+impl PixelTriangles<'_> {
     /// Fault of each pixel's error, rows from the top; `None` for causes other than superpixels and one triangle.
     /// `picture` is the whole scene under superpixel antialiasing with `settings`, and `causes` holds the causes of
-    /// its errors.
+    /// its errors. `halves` are the scene's paint alone and its light alone, each with its reference as a display shows it.
     ///
     /// The whole scene is rendered with every sample of its superpixels shaded, and each stripped scene twice: with
     /// superpixels everywhere and nowhere. Stripped scenes can't use the whole scene's superpixels, because they
@@ -95,16 +59,17 @@ impl Suspects<'_> {
     pub fn faults(
         &self,
         headless: &mut Headless,
+        halves: &[(PreparedScene, DecodedImage); 2],
         settings: &Settings,
         yardstick: &Yardstick,
         picture: &Picture<'_>,
         causes: &[Cause],
-    ) -> Result<Vec<Option<Fault>>, FaultError> {
+    ) -> anyhow::Result<Vec<Option<Fault>>> {
         let mut render = |scene: &PreparedScene, settings: &Settings| {
             let mut frame = headless.prepare(scene, settings)?;
-            let rendered = headless.render(&mut frame, self.camera)?;
+            let rendered = headless.render(&mut frame, &self.camera)?;
             let picture = Picture::new(rendered.size, &rendered.colors)?;
-            Ok::<_, FaultError>(DecodedImage::from(&picture))
+            anyhow::Ok(DecodedImage::from(&picture))
         };
         let every_sample = settings.clone().map_superpixels(|options| options.shading(Shading::Sample));
         let everywhere = settings.clone().map_superpixels(|options| options.detection(Detection::Every));
@@ -114,20 +79,20 @@ impl Suspects<'_> {
             .map_superpixels(|options| options.contrast(Some(u8::MAX)).detection(Detection::Contrast).thin(false));
         let image = squares(yardstick.reference(), &DecodedImage::from(picture))?;
         let sampled = squares(yardstick.reference(), &render(self.scene, &every_sample)?)?;
-        let mut errors = |half: Half<'_>| -> Result<Errors, FaultError> {
-            Ok(Errors {
-                superpixels: squares(half.truth, &render(half.scene, &everywhere)?)?,
-                inside: squares(half.truth, &render(half.scene, &nowhere)?)?,
+        let mut errors = |(scene, truth): &(PreparedScene, DecodedImage)| {
+            anyhow::Ok(Errors {
+                superpixels: squares(truth, &render(scene, &everywhere)?)?,
+                inside: squares(truth, &render(scene, &nowhere)?)?,
             })
         };
-        let [paint, light] = [errors(self.halves[0])?, errors(self.halves[1])?];
+        let [paint, light] = [errors(&halves[0])?, errors(&halves[1])?];
         let at = |errors: &[f64], pixel: usize| errors.get(pixel).copied().unwrap_or_default();
         let fault = |(pixel, cause): (usize, &Cause)| {
             let [paint, light] = [&paint, &light].map(|errors| match cause {
                 Cause::Superpixel => at(&errors.superpixels, pixel),
                 _ => at(&errors.inside, pixel),
             });
-            fault(*cause, self.looks.holds_several(pixel), at(&sampled, pixel) / at(&image, pixel), [paint, light])
+            fault(*cause, self.holds_several(pixel), at(&sampled, pixel) / at(&image, pixel), [paint, light])
         };
         Ok(causes.iter().enumerate().map(fault).collect())
     }
@@ -155,11 +120,9 @@ impl Yardstick {
         causes: &[Cause],
         faults: &[Option<Fault>],
     ) -> Result<Within, CompareError> {
-        let errors = squares(self.reference(), &DecodedImage::from(picture))?;
-        let whole: f64 = squares(self.reference(), self.one_sample())?.iter().sum();
         let mut within = Within::default();
-        for ((error, cause), fault) in errors.iter().zip(causes).zip(faults) {
-            let share = match (cause, fault) {
+        for ((share, cause), fault) in self.shares(picture)?.iter().zip(causes).zip(faults) {
+            let part = match (cause, fault) {
                 (_, None) | (Cause::BelowThreshold | Cause::Unseen, _) => continue,
                 (Cause::Superpixel, Some(Fault::Edges)) => &mut within.superpixel_edges,
                 (Cause::Superpixel, Some(Fault::Texture)) => &mut within.superpixel_texture,
@@ -167,9 +130,7 @@ impl Yardstick {
                 (Cause::Inside, Some(Fault::Light)) => &mut within.inside_light,
                 (Cause::Inside, Some(Fault::Texture | Fault::Edges)) => &mut within.inside_texture,
             };
-            if whole > 0.0 {
-                *share += error / whole;
-            }
+            *part += share;
         }
         Ok(within)
     }

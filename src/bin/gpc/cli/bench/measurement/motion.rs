@@ -36,7 +36,6 @@ impl Motion {
 
     /// Cameras of the 16 frames for an image of `size` = [width, height]; `target` is the point that the camera looks
     /// at.
-    #[must_use]
     pub fn cameras(self, camera: &Camera, target: DVec3, size: [u32; 2]) -> Vec<Camera> {
         match self {
             Self::Pan => {
@@ -105,7 +104,6 @@ impl SequenceErrors {
     }
 
     /// Error and flicker of the frames so far; all zero without frames.
-    #[must_use]
     pub fn steadiness(&self) -> Steadiness {
         if self.frames == 0 {
             return Steadiness::default();

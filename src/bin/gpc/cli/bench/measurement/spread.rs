@@ -17,7 +17,6 @@ pub struct Spread {
 
 impl Spread {
     /// Summarises measurements; all fields are zero if there are none.
-    #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = values.into_iter().collect();
         sorted.sort_by(f64::total_cmp);

@@ -15,7 +15,6 @@ pub enum Stripped {
 
 impl Stripped {
     /// Copy of a scene that keeps only this part. Poses of the scene are valid for the copy too.
-    #[must_use]
     pub fn of(self, scene: &Scene) -> Scene {
         let mut stripped = scene.clone();
         match self {

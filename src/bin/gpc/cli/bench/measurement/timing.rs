@@ -1,16 +1,18 @@
-//! Times of the methods, measured in turns.
+//! Times of methods and of the camera's variants, measured in turns.
 
 use super::Spread;
 use gpc::camera::Camera;
-use gpc::render::{Headless, PassTime, PreparedScene, RenderError, Rendered, SceneFrame, Settings};
+use gpc::render::{Headless, PassTime, PreparedScene, RenderError, Rendered, Settings};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Method that takes part in a measurement, warmed up; collects the times of its frames.
-pub struct Contender {
-    frame: SceneFrame,
-    frames: Vec<Timed>,
-    spent: Duration,
+/// Function that does a piece of work once. Its image is freed after the clock has stopped.
+type Work<'a> = dyn FnMut(&mut Headless) -> Result<Rendered, RenderError> + 'a;
+
+/// Work that takes part in a measurement, warmed up; collects the times of its runs.
+pub struct Contender<'a> {
+    work: Box<Work<'a>>,
+    runs: Vec<Timed>,
 }
 
 struct Timed {
@@ -18,12 +20,12 @@ struct Timed {
     passes: Vec<PassTime>,
 }
 
-/// Cost of a frame.
+/// Cost of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
     /// Milliseconds on the device, without the [output of the image](PassTime::is_output).
     pub gpu_ms: Spread,
-    /// Wall-clock milliseconds, from recording to the image in host memory.
+    /// Wall-clock milliseconds, from recording to the values in host memory.
     pub wall_ms: Spread,
     /// Device time of each pass, in the order in which they run.
     pub passes: Vec<PassCost>,
@@ -39,9 +41,13 @@ pub struct PassCost {
     pub ms: Spread,
 }
 
-impl Contender {
-    /// Prepares a method and renders a frame that is not timed, because drivers compile shaders during the first
-    /// frame.
+impl<'a> Contender<'a> {
+    /// Takes part with work that was done once already, because drivers compile shaders then.
+    pub fn new(work: impl FnMut(&mut Headless) -> Result<Rendered, RenderError> + 'a) -> Self {
+        Self { work: Box::new(work), runs: Vec::new() }
+    }
+
+    /// Prepares a method and renders a frame that is not timed.
     ///
     /// # Errors
     /// [`RenderError`] if the settings are impossible, memory runs out or the device is lost.
@@ -53,72 +59,58 @@ impl Contender {
     ) -> Result<(Self, Rendered), RenderError> {
         let mut frame = headless.prepare(scene, settings)?;
         let rendered = headless.render(&mut frame, camera)?;
-        let contender = Self { frame, frames: Vec::new(), spent: Duration::ZERO };
-        Ok((contender, rendered))
+        let camera = *camera;
+        Ok((Self::new(move |headless| headless.render(&mut frame, &camera)), rendered))
     }
 
-    /// Settings of the method.
-    #[must_use]
-    pub fn settings(&self) -> &Settings {
-        self.frame.settings()
-    }
-
-    fn time_a_frame(&mut self, headless: &mut Headless, camera: &Camera) -> Result<(), RenderError> {
+    fn time(&mut self, headless: &mut Headless) -> Result<(), RenderError> {
         let start = Instant::now();
-        let rendered = headless.render(&mut self.frame, camera)?;
-        let wall = start.elapsed();
-        self.spent += wall;
-        self.frames.push(Timed { wall_ms: 1e3 * wall.as_secs_f64(), passes: rendered.statistics.passes });
+        let rendered = (self.work)(headless)?;
+        let wall_ms = 1e3 * start.elapsed().as_secs_f64();
+        self.runs.push(Timed { wall_ms, passes: rendered.statistics.passes });
         Ok(())
     }
 
-    /// Whether another frame is wanted and fits into the time limit. The first frame is always rendered.
-    fn goes_on(&self, repeat: u32, budget: Duration) -> bool {
-        let Some(last) = self.frames.last() else {
-            return true;
-        };
-        let expected = self.spent.as_secs_f64() + 1e-3 * last.wall_ms;
-        self.frames.len() < repeat as usize && expected <= budget.as_secs_f64()
+    /// Whether another run fits into the time limit. The first run always does.
+    fn goes_on(&self, budget: Duration) -> bool {
+        let spent: f64 = self.runs.iter().map(|run| run.wall_ms).sum();
+        self.runs.last().is_none_or(|last| spent + last.wall_ms <= 1e3 * budget.as_secs_f64())
     }
 
-    /// Cost over the frames so far.
-    #[must_use]
+    /// Cost over the runs so far.
     pub fn cost(&self) -> Cost {
         let of_pass = |pass: &str| {
-            Spread::of(self.frames.iter().map(|frame| {
-                let times = frame.passes.iter().filter(|time| time.pass == pass);
+            Spread::of(self.runs.iter().map(|run| {
+                let times = run.passes.iter().filter(|time| time.pass == pass);
                 times.map(|time| time.ms).sum()
             }))
         };
-        let total = |frame: &Timed| PassTime::total(&frame.passes);
-        let passes = self.frames.first().map_or(&[][..], |frame| &frame.passes);
+        let passes = self.runs.first().map_or(&[][..], |run| &run.passes);
         Cost {
-            gpu_ms: Spread::of(self.frames.iter().map(total)),
-            wall_ms: Spread::of(self.frames.iter().map(|frame| frame.wall_ms)),
+            gpu_ms: Spread::of(self.runs.iter().map(|run| PassTime::total(&run.passes))),
+            wall_ms: Spread::of(self.runs.iter().map(|run| run.wall_ms)),
             passes: passes.iter().map(|time| PassCost { pass: time.pass, ms: of_pass(time.pass) }).collect(),
         }
     }
 }
 
 /// Times every contender `repeat` times, in turns. A contender that would need more than `budget` drops out of later
-/// rounds, after at least one frame. `progress` is called before each frame.
+/// rounds, after at least one run. `progress` is called with a contender's index before each run.
 ///
 /// # Errors
 /// As [`Headless::render`].
-pub fn take_turns<'a>(
+pub fn take_turns(
     headless: &mut Headless,
-    camera: &Camera,
-    contenders: impl IntoIterator<Item = &'a mut Contender>,
+    contenders: &mut [Contender<'_>],
     repeat: u32,
     budget: Duration,
-    mut progress: impl FnMut(&Contender),
+    progress: impl Fn(usize),
 ) -> Result<(), RenderError> {
-    let mut contenders: Vec<_> = contenders.into_iter().collect();
-    for _ in 0..repeat.max(1) {
-        for contender in &mut contenders {
-            if contender.goes_on(repeat, budget) {
-                progress(contender);
-                contender.time_a_frame(headless, camera)?;
+    for _ in 0..repeat {
+        for (index, contender) in contenders.iter_mut().enumerate() {
+            if contender.goes_on(budget) {
+                progress(index);
+                contender.time(headless)?;
             }
         }
     }

@@ -41,7 +41,6 @@ impl Growth {
     pub const ALL: [Self; 4] = [Self::Triangles, Self::Pixels, Self::Superpixels, Self::Depth];
 
     /// Number of scenes in the series.
-    #[must_use]
     pub fn steps(self) -> usize {
         match self {
             Self::Triangles => scenes::TRIANGLES.len(),
@@ -53,7 +52,6 @@ impl Growth {
 
     /// Makes scene number `index`, 0 being the smallest; `None` after the last. `size` is the width and height of the
     /// image in pixels, unless the size is the quantity that grows.
-    #[must_use]
     pub fn step(self, index: usize, size: [u32; 2]) -> Option<GrowthStep> {
         match self {
             Self::Triangles => {

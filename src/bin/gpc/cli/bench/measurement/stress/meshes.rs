@@ -21,7 +21,6 @@ impl Mesh {
     ///
     /// # Panics
     /// If there is no triangle with this index.
-    #[must_use]
     pub fn corners(&self, triangle: usize, permutation: usize) -> [[f32; 4]; 3] {
         const PERMUTATIONS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         PERMUTATIONS[permutation % 6].map(|corner| self.vertices[self.triangles[triangle][corner]])
@@ -50,7 +49,6 @@ impl Depths {
 }
 
 /// Meshes of every kind that cover the square from -half to half pixels on both axes with positive w.
-#[must_use]
 pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
     let mut meshes = Vec::new();
     for depths in [Depths::Snapped, Depths::Random] {
@@ -64,7 +62,6 @@ pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
 
 /// Jittered grid of `cells` x `cells` quadrilaterals, each split along its Delaunay diagonal; `half` is half of the
 /// square's side in pixels.
-#[must_use]
 pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let side = cells + 1;
@@ -106,7 +103,6 @@ fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> f64 {
 }
 
 /// Fan of `spokes` triangles around one vertex in the square; `half` is half of the square's side in pixels.
-#[must_use]
 pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let hub = [random.range(-half, half), random.range(-half, half)];
@@ -130,7 +126,6 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
 
 /// Strip of long thin triangles, with `count` vertices on either side; many are far thinner than the distance between
 /// samples. `half` is half of the square's side in pixels.
-#[must_use]
 pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let side = |random: &mut Random, x: f64| {
@@ -153,7 +148,6 @@ pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
 /// cuts its quadrilaterals in many ways, and its vertices lie up to 10^6 pixels off the screen. The mesh covers the
 /// screen from the pixel row `horizon` (from the centre) downwards; `half` is the distance in pixels from the screen's
 /// centre to its sides.
-#[must_use]
 pub fn ground(seed: u64, half: f64, horizon: f64, cells: usize) -> Mesh {
     let mut random = Random::new(seed);
     // The plane is one unit below the eye, and a slope of 1 is seen at the screen's side.

@@ -53,7 +53,6 @@ pub struct Finding {
 
 impl Finding {
     /// Whether `measured` is allowed.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.allowed.is_none_or(|allowed| self.measured <= allowed)
     }

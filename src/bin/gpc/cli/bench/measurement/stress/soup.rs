@@ -9,7 +9,6 @@ const COLORS: usize = 16;
 
 /// Stage of `count` random triangles in sixteen colours; the last `blend` triangles are translucent. Sums of these
 /// colours over samples are exact, so that the order of summation, which follows the IDs, has no effect.
-#[must_use]
 pub fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);
     let mut channel = || random.below(65) as f32 / 64.0;

@@ -19,7 +19,6 @@ use gpc::scene::{
 pub const NEAR: f64 = 0.01;
 
 /// Camera of all stages.
-#[must_use]
 pub fn camera() -> Camera {
     Camera {
         eye: DVec3::ZERO,
@@ -31,7 +30,6 @@ pub fn camera() -> Camera {
 
 /// Position that the camera sees at `distance` along the direction of view. `[x, y]` is the place in pixels from the
 /// image's centre, y down; the image is `height` pixels high.
-#[must_use]
 pub fn seen_at([x, y]: [f64; 2], distance: f64, height: u32) -> [f32; 3] {
     let scale = distance * 2.0 / f64::from(height);
     [x * scale, -y * scale, -distance].map(|v| v as f32)
@@ -62,7 +60,6 @@ pub struct Stage {
 }
 
 /// Unlit material that is visible from both sides.
-#[must_use]
 pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
     Material { base_color, alpha_mode, unlit: true, double_sided: true, ..Material::default() }
 }
@@ -170,7 +167,6 @@ fn normal(triangle: &Triangle) -> [f32; 3] {
 }
 
 /// Settings that sample every pixel `samples` times; its colour is the mean of the samples' radiance.
-#[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     Settings::new(size[0], size[1])
         .reference(Reference::Scene { tonemapped_detection: false })
@@ -178,7 +174,6 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
 }
 
 /// Settings for one sample at each pixel's centre, with attributes and without tone mapping.
-#[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
     Settings::new(size[0], size[1])
         .reference(Reference::Scene { tonemapped_detection: false })
