@@ -2,7 +2,7 @@
 
 use crate::camera::panorama::PanoramaProjection;
 use crate::camera::zoom::{Shape, Transition};
-use crate::output::VideoFormat;
+use crate::output::{AovKind, VideoFormat};
 use crate::render::{Detection, Footprint, MethodKind, Shading, Shadows};
 use crate::sampling::FilterShape;
 use clap::ValueEnum;
@@ -66,6 +66,13 @@ names! {
     VideoFormat {
         Y4m "y4m",
         Raw "raw",
+    }
+    AovKind {
+        Depth "depth",
+        Id "id",
+        Normal "normal",
+        Superpixels "superpixels",
+        Samples "samples",
     }
     Shape {
         Circle "circle",

@@ -3,7 +3,7 @@
 use crate::arrays::Mesh;
 use crate::error;
 use glam::DVec3;
-use gpc::output::{DecodedLight, bound_light, decode_light};
+use gpc::output::{DecodedLight, decode_light};
 use gpc::scene::{Environment, Loaded, PoseRequest, Scene as Content};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -156,13 +156,9 @@ impl Scene {
         let file = path.display();
         let refuse = |error: &dyn std::fmt::Display| error::SceneError::new_err(format!("{file}: {error}"));
         let bytes = std::fs::read(path).map_err(|error| refuse(&error))?;
-        let DecodedLight { size: [width, height], mut colors, warnings } =
+        let DecodedLight { size: [width, height], colors, warnings } =
             decode_light(&bytes, &file.to_string()).map_err(|error| error::SceneError::new_err(error.to_string()))?;
         self.warnings.extend(warnings);
-        let (infinite, bound) = bound_light(&mut colors);
-        if infinite > 0 {
-            self.warnings.push(format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}"));
-        }
         let environment = Environment::from_equirectangular(width, height, colors).map_err(|error| refuse(&error))?;
         self.content.environment = Some(Arc::new(environment));
         Ok(())

@@ -1,9 +1,6 @@
 //! Arbitrary output variables (AOVs): values of a pixel other than its colour.
 
-use super::UnknownAov;
 use crate::render::PixelAttributes;
-use std::fmt;
-use std::str::FromStr;
 
 /// Kind of an AOV.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,38 +16,6 @@ pub enum AovKind {
     Superpixels,
     /// Number of samples that the pixel's colour is the mean of.
     Samples,
-}
-
-impl AovKind {
-    /// All kinds of AOVs.
-    pub const ALL: [Self; 5] = [Self::Depth, Self::Id, Self::Normal, Self::Superpixels, Self::Samples];
-
-    /// Name of the kind on the command line and in file names.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Depth => "depth",
-            Self::Id => "id",
-            Self::Normal => "normal",
-            Self::Superpixels => "superpixels",
-            Self::Samples => "samples",
-        }
-    }
-}
-
-impl fmt::Display for AovKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for AovKind {
-    type Err = UnknownAov;
-
-    fn from_str(name: &str) -> Result<Self, UnknownAov> {
-        let known = Self::ALL.into_iter().find(|kind| kind.name() == name);
-        known.ok_or_else(|| UnknownAov(name.to_owned()))
-    }
 }
 
 /// Values of one kind for every pixel, rows from the top.

@@ -102,7 +102,8 @@ pub struct DecodedLight {
     pub warnings: Vec<String>,
 }
 
-/// Decodes an EXR or Radiance image as [`decode_linear`] does, but without alpha. `name` stands for the file in messages.
+/// Decodes an EXR or Radiance image as [`decode_linear`] does, but without alpha. Infinite light is replaced by the largest
+/// finite value of the image. `name` stands for the file in messages.
 ///
 /// # Errors
 /// As [`decode_linear`], and if the image has the faces of a cube.
@@ -113,8 +114,13 @@ pub fn decode_light(bytes: &[u8], name: &str) -> Result<DecodedLight, OutputErro
     } else {
         radiance::decode(bytes, &mut warnings)
     };
-    let (size, colors) = decoded.map_err(|reason| not_linear(name, reason))?;
-    Ok(DecodedLight { size, colors, warnings: warnings.into_vec() })
+    let (size, mut colors) = decoded.map_err(|reason| not_linear(name, reason))?;
+    let mut warnings = warnings.into_vec();
+    let (infinite, bound) = bound_light(&mut colors);
+    if infinite > 0 {
+        warnings.insert(0, format!("{name}: {infinite} pixels are infinitely bright and are taken as {bound}"));
+    }
+    Ok(DecodedLight { size, colors, warnings })
 }
 
 /// Size and colours of a sky, in which nothing is seen behind transparent pixels.
@@ -135,7 +141,7 @@ fn opaque_light(decoded: exr::Decoded, warnings: &mut Warnings) -> Result<([u32;
 
 /// Replaces infinite light by the largest finite value of the image, but at least the largest of a half float, beyond which
 /// programs write infinity. Returns the number of colours that were changed, and the value.
-pub fn bound_light(colors: &mut [[f32; 3]]) -> (usize, f32) {
+fn bound_light(colors: &mut [[f32; 3]]) -> (usize, f32) {
     let finite = |x: &f32| x.is_finite();
     let most = colors.as_flattened().iter().copied().filter(finite);
     let most = most.fold(f32::from(half::f16::MAX), f32::max);

@@ -3,6 +3,7 @@
 use super::{Aov, Format, OutputError, Picture, check_count, exr};
 use crate::color::srgb;
 use crate::sampling::MAX_SAMPLES;
+use bytemuck::NoUninit;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -20,12 +21,8 @@ pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec
     match format {
         Format::Png8 => encode_rgba(size, &codes(picture)),
         Format::Png16 => {
-            let (codes, color) = straight(picture, u16::MAX);
-            let color = match color {
-                Channels::Rgb => ExtendedColorType::Rgb16,
-                Channels::Rgba => ExtendedColorType::Rgba16,
-            };
-            png(size, bytemuck::cast_slice(&codes), color)
+            let codes = straight_codes(picture, u16::MAX);
+            png_rgba(size, &codes, u16::MAX, [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16])
         }
         Format::Jpeg => jpeg(picture),
         Format::Exr => exr::encode(picture, aovs),
@@ -87,11 +84,7 @@ pub fn encode_rgb(size: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, OutputE
 /// encoder fails.
 pub fn encode_rgba(size: [u32; 2], pixels: &[[u8; 4]]) -> Result<Vec<u8>, OutputError> {
     check_count(size, pixels.len())?;
-    if pixels.par_iter().any(|pixel| pixel[3] < u8::MAX) {
-        return png(size, pixels.as_flattened(), ExtendedColorType::Rgba8);
-    }
-    let colors: Vec<_> = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
-    png(size, &colors, ExtendedColorType::Rgb8)
+    png_rgba(size, pixels, u8::MAX, [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8])
 }
 
 /// Encodes a value of 0 to 1 for each pixel as a 16-bit grey PNG: linear, with 65,535 for 1.
@@ -106,11 +99,6 @@ pub fn encode_shares(size: [u32; 2], shares: &[f32]) -> Result<Vec<u8>, OutputEr
     png(size, bytemuck::cast_slice(&codes), ExtendedColorType::L16)
 }
 
-enum Channels {
-    Rgb,
-    Rgba,
-}
-
 /// Codes of 8 bits of sRGB colours and straight alpha, as PNG files hold them.
 #[must_use]
 pub fn codes(picture: &Picture<'_>) -> Vec<[u8; 4]> {
@@ -118,7 +106,7 @@ pub fn codes(picture: &Picture<'_>) -> Vec<[u8; 4]> {
 }
 
 /// Codes from 0 to `top` of sRGB colours and straight alpha.
-pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
+fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     let scale = f64::from(top);
     let code = |[r, g, b, a]: &[f32; 4]| {
         let alpha = f64::from(*a);
@@ -134,17 +122,6 @@ pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     picture.pixels().par_iter().map(code).collect()
 }
 
-/// Codes from [`straight_codes`]; without alpha if every pixel is opaque.
-fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
-    let codes = straight_codes(picture, top);
-    if codes.par_iter().all(|code| code[3] == top) {
-        let colors = codes.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]);
-        (colors.collect(), Channels::Rgb)
-    } else {
-        (codes.into_flattened(), Channels::Rgba)
-    }
-}
-
 fn jpeg(picture: &Picture<'_>) -> Result<Vec<u8>, OutputError> {
     // A premultiplied colour equals the colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
@@ -155,6 +132,20 @@ fn jpeg(picture: &Picture<'_>) -> Result<Vec<u8>, OutputError> {
         .write_image(pixels.as_flattened(), width, height, ExtendedColorType::Rgb8)
         .map_err(|error| OutputError::Encode(error.to_string()))?;
     Ok(bytes)
+}
+
+/// Encodes codes with straight alpha, without alpha if that of every pixel is `opaque`.
+fn png_rgba<T: NoUninit + PartialEq + Sync>(
+    size: [u32; 2],
+    pixels: &[[T; 4]],
+    opaque: T,
+    [rgb, rgba]: [ExtendedColorType; 2],
+) -> Result<Vec<u8>, OutputError> {
+    if pixels.par_iter().any(|pixel| pixel[3] != opaque) {
+        return png(size, bytemuck::cast_slice(pixels.as_flattened()), rgba);
+    }
+    let colors: Vec<_> = pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    png(size, bytemuck::cast_slice(&colors), rgb)
 }
 
 fn png(size: [u32; 2], samples: &[u8], color: ExtendedColorType) -> Result<Vec<u8>, OutputError> {

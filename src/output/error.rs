@@ -77,8 +77,3 @@ pub enum OutputError {
     .0.display()
 )]
 pub struct UnknownFormat(pub PathBuf);
-
-/// Error: a name that belongs to no AOV.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no AOV \"{0}\"; there are depth, id, normal, superpixels and samples")]
-pub struct UnknownAov(pub String);

@@ -1,6 +1,7 @@
 //! OpenEXR files, read and written by the `exr` crate.
 
 use super::{Aov, OutputError, Picture, check_count};
+use crate::names::name;
 use crate::scene::{Warnings, check_texels};
 use ::exr::meta::BlockDescription;
 use ::exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, LevelMode};
@@ -34,8 +35,8 @@ pub(super) fn encode(picture: &Picture<'_>, aovs: &[Aov]) -> std::result::Result
 }
 
 fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
-    let kind = aov.kind();
-    let channel = |name: &str, samples| AnyChannel::new(Text::new_or_panic(format!("{kind}.{name}")), samples);
+    let kind = name(&aov.kind());
+    let channel = |channel: &str, samples| AnyChannel::new(Text::new_or_panic(format!("{kind}.{channel}")), samples);
     match aov {
         Aov::Depth(depths) => vec![channel("Z", FlatSamples::F32(depths.clone()))],
         Aov::Id(values) | Aov::Samples(values) => {

@@ -25,9 +25,9 @@ mod video;
 mod write;
 
 pub use aov::{Aov, AovKind};
-pub use decode::{DecodedImage, DecodedLight, bound_light, decode, decode_light, decode_linear, is_image, read};
+pub use decode::{DecodedImage, DecodedLight, decode, decode_light, decode_linear, is_image, read};
 pub use encode::{codes, encode, encode_aov, encode_rgb, encode_rgba, encode_shares};
-pub use error::{OutputError, UnknownAov, UnknownFormat};
+pub use error::{OutputError, UnknownFormat};
 pub use format::Format;
 pub use text::{add_text, find_text};
 pub use video::{VideoFormat, VideoWriter};

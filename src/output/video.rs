@@ -1,6 +1,6 @@
 //! Films: frames of one size, written one after the other, for example to the standard input of an encoder.
 
-use super::encode::straight_codes;
+use super::encode::codes;
 use super::{OutputError, Picture};
 use crate::color::srgb;
 use rayon::prelude::*;
@@ -83,11 +83,7 @@ impl<W: Write> VideoWriter<W> {
                 let frame = y4m::Frame::new(planes.each_ref().map(Vec::as_slice), None);
                 encoder.write_frame(&frame).map_err(refused)
             }
-            VideoOutput::Raw(out) => {
-                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
-                let bytes: Vec<_> = codes.into_iter().map(|code| code as u8).collect();
-                out.write_all(&bytes).map_err(OutputError::Stream)
-            }
+            VideoOutput::Raw(out) => out.write_all(codes(picture).as_flattened()).map_err(OutputError::Stream),
         }
     }
 }

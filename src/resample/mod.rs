@@ -10,7 +10,7 @@ mod wall;
 mod zoomed;
 
 pub use wall::light_on_wall;
-pub use zoomed::{Zoomed, ZoomedError};
+pub use zoomed::{Zoomed, ZoomedError, zoomed_location};
 
 use crate::color::srgb;
 use crate::output::{DecodedImage, Picture};
@@ -76,14 +76,10 @@ impl Photograph {
     /// takes them.
     #[must_use]
     pub fn resample(&self, size: [u32; 2], look: impl Fn(DVec2) -> (DVec2, DMat2) + Sync) -> Vec<[f32; 4]> {
-        let row = |row: u32| {
-            let look = &look;
-            (0..size[0]).into_par_iter().map(move |col| {
-                let (uv, jacobian) = look(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5));
-                self.sample(uv, jacobian)
-            })
-        };
-        (0..size[1]).into_par_iter().flat_map(row).collect()
+        pixels(size, |place| {
+            let (uv, jacobian) = look(place);
+            self.sample(uv, jacobian)
+        })
     }
 
     /// Cubic convolution of the 4 x 4 pixels around a location.
@@ -111,6 +107,15 @@ impl Photograph {
         let index = row * width as usize + column;
         self.pixels.get(index).copied().unwrap_or_default()
     }
+}
+
+/// Colours of the pixels of an image of `size` = [width, height], rows from the top; `color` makes that of a pixel's centre.
+fn pixels(size: [u32; 2], color: impl Fn(DVec2) -> [f32; 4] + Sync) -> Vec<[f32; 4]> {
+    let row = |row: u32| {
+        let color = &color;
+        (0..size[0]).into_par_iter().map(move |col| color(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)))
+    };
+    (0..size[1]).into_par_iter().flat_map(row).collect()
 }
 
 /// Weights of four values at -1, 0, 1 and 2 for a place `t` from 0 to 1.

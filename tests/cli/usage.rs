@@ -8,9 +8,9 @@ use crate::command::{asset, files, gpc};
 fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
     let folder = tempfile::tempdir().unwrap();
     let letters = asset("letters.glb");
-    let cases: [(&[&str], &[&str]); 36] = [
+    let cases: [(&[&str], &[&str]); 37] = [
         (&[], &["Usage"]),
-        (&["-o", "a.tga"], &[".png", ".16.png", ".jpg", ".exr"]),
+        (&["-o", "a.tga"], &[".png", ".16.png", ".jpg", ".jpeg", ".exr"]),
         (&["-o", "a.png", "--size", "0x7"], &["1280x720"]),
         (&["-o", "a.png", "--region", "0,0,8"], &["640,360,320x180"]),
         (&["-o", "a.png", "--size", "64x32", "--region", "60,4,5x5"], &["5 x 5", "column 60, row 4", "64 x 32"]),
@@ -39,6 +39,7 @@ fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
         (&["-o", "a.png", "--turntable", "3", "--shard", "1/3"], &["{frame}"]),
         (&["-o", "-", "--turntable", "3", "--shard", "1/3"], &["makes no film"]),
         (&["-o", "{name}.png"], &["{stem}", "{camera}", "{frame}"]),
+        (&["-o", "{stem.png"], &["{ without a }"]),
         (&["-o", "a.png", "--background", "red"], &["#rrggbb"]),
         (&["-o", "a.png", "--aov", "albedo"], &["depth", "id", "normal", "superpixels", "samples"]),
         (&["-o", "-", "--aov", "depth"], &["--aov"]),

@@ -1,5 +1,6 @@
 //! Image files: readers find what was written.
 
+use clap::ValueEnum;
 use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, Preview};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
@@ -7,8 +8,8 @@ use exr::prelude::{
 };
 use gpc::color::srgb;
 use gpc::output::{
-    Aov, AovKind, Format, OutputError, Picture, bound_light, decode, decode_light, decode_linear, encode, encode_aov,
-    read, write_atomically,
+    Aov, AovKind, Format, OutputError, Picture, decode, decode_light, decode_linear, encode, encode_aov, read,
+    write_atomically,
 };
 use gpc::render::PixelAttributes;
 use std::io::Cursor;
@@ -95,7 +96,7 @@ fn all_aovs(pixels: usize) -> Vec<Aov> {
         padding: 0,
     };
     let attributes: Vec<_> = (0..pixels).map(attribute).collect();
-    AovKind::ALL.map(|kind| Aov::from_attributes(kind, &attributes)).into()
+    AovKind::value_variants().iter().map(|kind| Aov::from_attributes(*kind, &attributes)).collect()
 }
 
 #[test]
@@ -312,15 +313,19 @@ fn everything_in_hdr() {
 #[test]
 fn infinite_light_is_bounded() {
     let halves = |a: f32, b: f32| FlatSamples::F16(vec![f16::from_f32(a), f16::from_f32(b)]);
-    let red = ("R", halves(f32::INFINITY, 2.0));
-    let half = exr_file(&[red, ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))], [3, 4], [2, 1]);
-    let mut colors = decode_light(&half, "x").unwrap().colors;
-    assert_eq!(bound_light(&mut colors), (1, 65_504.0));
+    let floats = |a: f32, b: f32| FlatSamples::F32(vec![a, b]);
+    let light = |channels: [(&str, FlatSamples); 3]| {
+        let light = decode_light(&exr_file(&channels, [3, 4], [2, 1]), "x").unwrap();
+        (light.colors, light.warnings)
+    };
+    let infinite = f32::INFINITY;
+    let (colors, warnings) = light([("R", halves(infinite, 2.0)), ("G", halves(1.0, 3.0)), ("B", halves(1.0, 3.0))]);
     assert_eq!(colors, [[65_504.0, 1.0, 1.0], [2.0, 3.0, 3.0]]);
-    let mut brighter = [[f32::INFINITY; 3], [1e6, 0.0, 0.0]];
-    assert_eq!(bound_light(&mut brighter), (1, 1e6));
-    assert_eq!(brighter, [[1e6; 3], [1e6, 0.0, 0.0]]);
-    assert_eq!(bound_light(&mut [[f32::NAN, 1.0, -1.0]]).0, 0);
+    assert_eq!(warnings, ["x: 1 pixels are infinitely bright and are taken as 65504"]);
+    let (colors, _) = light([("R", floats(infinite, 1e6)), ("G", floats(infinite, 0.0)), ("B", floats(infinite, 0.0))]);
+    assert_eq!(colors, [[1e6; 3], [1e6, 0.0, 0.0]]);
+    let (_, warnings) = light([("R", floats(f32::NAN, 1.0)), ("G", floats(1.0, 1.0)), ("B", floats(-1.0, 1.0))]);
+    assert_eq!(warnings, [""; 0]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Scenes from files and from standard input.
 
 use anyhow::Context;
-use gpc::output::{DecodedLight, bound_light, decode_light};
+use gpc::output::{DecodedLight, decode_light};
 use gpc::scene::{Environment, Loaded, Scene};
 use std::io::Read;
 use std::path::Path;
@@ -37,11 +37,7 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
 pub fn environment(path: &Path) -> anyhow::Result<(Environment, Vec<String>)> {
     let file = path.display();
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
-    let DecodedLight { size: [width, height], mut colors, mut warnings } = decode_light(&bytes, &file.to_string())?;
-    let (infinite, bound) = bound_light(&mut colors);
-    if infinite > 0 {
-        warnings.insert(0, format!("{file}: {infinite} pixels are infinitely bright and are taken as {bound}"));
-    }
+    let DecodedLight { size: [width, height], colors, warnings } = decode_light(&bytes, &file.to_string())?;
     let environment = Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))?;
     Ok((environment, warnings))

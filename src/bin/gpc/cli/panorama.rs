@@ -64,7 +64,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let locations = panorama.locations(&stage.camera).map_err(refuse)?;
     let shot = stage.render(locations.size(), locations.rig())?;
     stage.finish()?;
-    let effort = stage.effort(&shot);
+    let effort = shot.effort(&stage.settings);
     let rendered = shot.rendered;
     let background = stage.settings.scene.background;
     let empty = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);

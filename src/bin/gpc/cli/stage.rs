@@ -3,7 +3,7 @@
 use super::exit::usage;
 use super::render::image::ImageArgs;
 use super::render::{self, RenderedImage};
-use super::report::{DeviceReport, Effort, Figures, RenderWork};
+use super::report::{DeviceReport, Effort, Figures};
 use super::values::Background;
 use gpc::camera::{Camera, Pinhole, SampleLocation};
 use gpc::render::{Headless, PreparedScene, Settings};
@@ -27,7 +27,7 @@ impl RenderSetup {
         if image.background == Background::Environment {
             usage!("--background environment: this command shows none; `gpc render` does");
         }
-        let (mut headless, (loaded, pose, warnings, camera)) = render::open_beside(image.device.name.clone(), || {
+        let (mut headless, (loaded, pose, warnings, camera)) = render::open_beside(&image.device.options(), || {
             let loaded = image.load(path)?;
             let pose = image.pose(&loaded, image.camera.time)?;
             let warnings: Vec<_> = loaded.warnings.iter().chain(&pose.warnings).cloned().collect();
@@ -75,24 +75,8 @@ impl RenderSetup {
         }
     }
 
-    /// Effort of making an image.
-    pub fn effort(&self, shot: &RenderedImage) -> Effort {
-        Effort::new(
-            &self.settings,
-            &RenderWork {
-                statistics: &shot.rendered.statistics,
-                cells: shot.rendered.colors.len() as u64,
-                passes: &shot.passes,
-                wall_ms: &shot.wall_ms,
-            },
-        )
-    }
-
     /// Fails if the validation layer is on and has reported a message.
     pub fn finish(&self) -> anyhow::Result<()> {
-        match self.headless.validation_messages().first() {
-            Some(message) => anyhow::bail!("the validation layer says: {message}"),
-            None => Ok(()),
-        }
+        render::check_validation(&self.headless)
     }
 }

@@ -1,7 +1,7 @@
 //! `gpc unzoom`.
 
 use super::exit::{Usage, usage};
-use super::render::check_folder;
+use super::render::format_of;
 use super::report::ReportArgs;
 use super::zoom::check_window;
 use super::{compare as text, input, print};
@@ -9,8 +9,8 @@ use clap::Args;
 use gpc::camera::LocationMap;
 use gpc::camera::zoom::{Window, ZoomRegion};
 use gpc::compare::Comparison;
-use gpc::output::{self, DecodedImage, Format, Picture};
-use gpc::resample::Zoomed;
+use gpc::output::{self, DecodedImage, Picture};
+use gpc::resample::{Zoomed, zoomed_location};
 use gpc::{compare, output::OutputError};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -58,24 +58,18 @@ struct Unzoomed {
 
 pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
     args.report.check(&args.output)?;
-    let format = if input::is_standard(&args.output) {
-        if args.reference.is_some() {
-            usage!("-o - and --reference both want standard output");
-        }
-        Format::Png8
-    } else {
-        let format = Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?;
-        check_folder(&args.output)?;
-        format
-    };
+    if input::is_standard(&args.output) && args.reference.is_some() {
+        usage!("-o - and --reference both want standard output");
+    }
+    let format = format_of(&args.output)?;
     let name = args.image.display().to_string();
     let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read { path: args.image.clone(), source })?;
-    let zoomed = Zoomed::decode(&bytes, &name)?;
-    let regions = zoomed.map().regions();
-    let window = window(args, zoomed.photograph().size(), regions)?;
+    let Zoomed { photograph, map } = Zoomed::decode(&bytes, &name)?;
+    let regions = map.regions();
+    let window = window(args, photograph.size(), regions)?;
     let start = Instant::now();
-    let pixels =
-        zoomed.photograph().resample(window.size, |place| zoomed.place(window.location(place), window.jacobian(place)));
+    let look = |place| zoomed_location(&map, window.location(place), window.jacobian(place));
+    let pixels = photograph.resample(window.size, look);
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let picture = Picture::new(window.size, &pixels)?;
     let bytes = output::encode(format, &picture, &[])?;

@@ -1,5 +1,6 @@
 //! Parsers of option values.
 
+use super::exit::Usage;
 use glam::DVec3;
 use gpc::color::srgb;
 use gpc::render::{PixelRect, SceneSettings};
@@ -7,43 +8,42 @@ use std::ops::RangeInclusive;
 
 /// Parses a number that is neither infinite nor NaN.
 pub fn finite(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err("expected a number, such as 1.5".to_owned()),
-    }
+    number(text, |_| true, "a number, such as 1.5")
 }
 
 /// Parses a number of 0 or more.
 pub fn not_negative(text: &str) -> Result<f64, String> {
-    match finite(text) {
-        Ok(number) if number >= 0.0 => Ok(number),
-        _ => Err("expected a number of 0 or more".to_owned()),
-    }
+    number(text, |number| number >= 0.0, "a number of 0 or more")
 }
 
 /// Parses a number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
-    match finite(text) {
-        Ok(number) if number > 0.0 => Ok(number),
-        _ => Err("expected a number above 0".to_owned()),
-    }
+    number(text, |number| number > 0.0, "a number above 0")
 }
 
 /// Parses a width of lines or a size of points, in pixels.
 pub fn stroke(text: &str) -> Result<f64, String> {
-    let largest = SceneSettings::LARGEST_STROKE;
-    positive(text)
-        .ok()
-        .filter(|size| *size <= f64::from(largest))
-        .ok_or_else(|| format!("expected pixels above 0 and at most {largest}, such as 1.5"))
+    let largest = f64::from(SceneSettings::LARGEST_STROKE);
+    let expected = format!("pixels above 0 and at most {largest}, such as 1.5");
+    number(text, |size| size > 0.0 && size <= largest, &expected)
 }
 
 /// Parses a number of frames per second.
 pub fn rate(text: &str) -> Result<f64, String> {
-    positive(text)
-        .ok()
-        .filter(|rate| (0.001..=1000.0).contains(rate))
-        .ok_or_else(|| "expected a number from 0.001 to 1000, such as 23.976".to_owned())
+    number(text, |rate| (0.001..=1000.0).contains(&rate), "a number from 0.001 to 1000, such as 23.976")
+}
+
+/// Parses a field of view in degrees, above 0 and below 180.
+pub fn field_of_view(text: &str) -> Result<f64, String> {
+    number(text, |degrees| degrees > 0.0 && degrees < 180.0, "degrees above 0 and below 180")
+}
+
+/// Parses a finite number that is accepted; the message says what is expected.
+fn number(text: &str, accepts: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if f64::is_finite(number) && accepts(number) => Ok(number),
+        _ => Err(format!("expected {expected}")),
+    }
 }
 
 /// A share of a sequence.
@@ -60,14 +60,6 @@ pub fn shard(text: &str) -> Result<Shard, String> {
         .and_then(|(number, count)| Some(Shard { number: number.parse().ok()?, count: count.parse().ok()? }))
         .filter(|shard| (1..=shard.count).contains(&shard.number))
         .ok_or_else(|| "expected I/N with I from 1 to N, such as 1/4".to_owned())
-}
-
-/// Parses a field of view in degrees, above 0 and below 180.
-pub fn field_of_view(text: &str) -> Result<f64, String> {
-    match finite(text) {
-        Ok(number) if number > 0.0 && number < 180.0 => Ok(number),
-        _ => Err("expected degrees above 0 and below 180".to_owned()),
-    }
 }
 
 /// Parses a width and height in pixels: `1280x720`.
@@ -125,6 +117,16 @@ pub enum Background {
     Color([f64; 3]),
     /// The environment that lights the scene.
     Environment,
+}
+
+impl Background {
+    /// Linear light of the colour behind the scene, if there is one.
+    pub fn color(self) -> Option<[f32; 3]> {
+        match self {
+            Self::Transparent | Self::Environment => None,
+            Self::Color(color) => Some(linear(color)),
+        }
+    }
 }
 
 /// Parses a background: `none`, `environment`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
@@ -205,6 +207,15 @@ pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
         .and_then(|(first, last)| Some(first.parse().ok()?..=last.parse().ok()?))
         .filter(|range: &RangeInclusive<u32>| !range.is_empty())
         .ok_or_else(|| "expected the first and last frame, such as 0..47".to_owned())
+}
+
+/// A value for each of the `count` uses of the option `of`, from one value for all or one for each.
+pub fn each<T: Copy>(of: &str, count: usize, option: &str, values: &[T]) -> Result<Vec<T>, Usage> {
+    match values {
+        [value] => Ok(vec![*value; count]),
+        _ if values.len() == count => Ok(values.to_vec()),
+        _ => Err(Usage(format!("{count} {of} and {} {option}; give one for all or one for each", values.len()))),
+    }
 }
 
 #[cfg(test)]

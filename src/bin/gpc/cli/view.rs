@@ -4,11 +4,9 @@ use super::exit::{self, Usage, usage};
 use super::render::args::{CameraArgs, SamplingArgs};
 use super::render::image::{AppearanceArgs, DeviceArgs};
 use super::values::{self, Background};
-use crate::view::{self, Appearance, Look, Options, SceneSource, Start};
+use crate::view::{self, Appearance, Look, Options, SceneSource};
 use clap::{Args, Subcommand};
-use gpc::camera::Orbit;
-use gpc::render::{HeadlessOptions, MethodKind, Settings, Shadows};
-use gpc::scene::PoseRequest;
+use gpc::render::{MethodKind, Settings, Shadows};
 use std::error::Error;
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -66,11 +64,10 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
         Err(expected) => usage!("--background {}: {expected}", args.background),
     };
     let look = look(&args, background)?;
-    let start = start(&args.camera)?;
+    check(&args.camera)?;
     let (environment, warnings) = args.appearance.environment()?;
     let appearance = Appearance { environment, warnings, edges: args.appearance.edges() };
     let appearance_options = appearance_options(&args, &look);
-    let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();
     let Some(path) = scenes.next() else {
         usage!("a scene is needed");
@@ -78,72 +75,51 @@ pub fn run(command: Command) -> anyhow::Result<ExitCode> {
     view::run(Options {
         source: SceneSource {
             path,
-            variant: args.camera.variant,
-            request: PoseRequest { scene: args.camera.scene, animation: args.camera.animation, time: args.camera.time },
+            variant: args.camera.variant.clone(),
+            request: args.camera.request(args.camera.time),
         },
         others: scenes.collect(),
-        start,
+        start: args.camera,
         appearance,
         appearance_options,
         look,
         shows_environment: background == Background::Environment,
-        device: HeadlessOptions::default().device(args.device.name).validation(validation),
+        device: args.device.options(),
         describe: exit::message,
     })?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// Viewpoint at the start, from which the first scene is seen.
-fn start(args: &CameraArgs) -> Result<Start, Usage> {
-    let default = Orbit::default();
-    let fov = args.fov.unwrap_or(default.fov);
+/// Refuses options of the first viewpoint that the window does not take.
+fn check(args: &CameraArgs) -> Result<(), Usage> {
+    let stands = args.eye.is_some() || args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some();
+    let refuse = |text: &str| Err(Usage(text.to_owned()));
     if args.up.is_some() {
-        return Err(Usage("--up: the window keeps the y axis upright; `gpc render` takes it".to_owned()));
+        return refuse("--up: the window keeps the y axis upright; `gpc render` takes it");
     }
-    if let Some(eye) = args.eye {
-        let target = args.target;
-        return Ok(Start::Place { eye, target, fov });
+    if args.fov.is_some() && !stands {
+        return refuse("--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too");
     }
-    if args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some() {
-        return Ok(Start::Around(Orbit {
-            azimuth: args.azimuth.unwrap_or(default.azimuth),
-            elevation: args.elevation.unwrap_or(default.elevation),
-            zoom: args.zoom.unwrap_or(default.zoom),
-            fov,
-        }));
+    if args.camera.as_deref() == Some("all") {
+        return refuse("--camera all: the window begins with one; the key C goes on to the next");
     }
-    if args.fov.is_some() {
-        return Err(Usage(
-            "--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too".to_owned(),
-        ));
-    }
-    match args.camera.as_deref() {
-        None => Ok(Start::First),
-        Some("all") => Err(Usage("--camera all: the window begins with one; the key C goes on to the next".to_owned())),
-        Some(camera) => Ok(Start::Camera(camera.to_owned())),
-    }
+    Ok(())
 }
 
 /// Antialiasing of the pictures, and the size of the window.
 fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
-    let background = match background {
-        Background::Transparent | Background::Environment => None,
-        Background::Color(color) => Some(values::linear(color)),
-    };
     let [width, height] = args.size;
     let sampling = &args.sampling;
     let samples = sampling.samples_or(view::default_samples(sampling.aa));
     let settings = Settings::new(width, height)
         .footprint(sampling.footprint)
-        .background(background)
+        .background(background.color())
         .max_memory(args.device.max_memory)
         .method(sampling.method(samples));
     if matches!(sampling.aa, MethodKind::Accumulate | MethodKind::Rotated) {
         usage!("--aa {}: the window shows each frame by itself; render the image instead", sampling.aa);
     }
-    if sampling.aa == MethodKind::None && samples != 1 {
-        usage!("none can't have {samples} samples a pixel; it can have 1");
-    }
+    sampling.check()?;
     Ok(Look::new(args.appearance.settings(settings), sampling.superpixels(samples)))
 }
 

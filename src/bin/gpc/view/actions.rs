@@ -8,8 +8,8 @@ use super::lens::Lenses;
 use super::look::Look;
 use super::mouse::{NOTCH, pinched};
 use super::overlay::Overlay;
-use super::panel::Wishes;
 use super::photo::Framing;
+use super::player::Player;
 use super::pointer::Drag;
 use super::source::{LoadedScene, SceneSource};
 use super::standpoint::Standpoint;
@@ -119,7 +119,8 @@ impl Viewer {
         self.load(false);
     }
 
-    fn act(&mut self, action: Action) -> anyhow::Result<()> {
+    /// Does what a key or the panel asks for.
+    pub fn act(&mut self, action: Action) -> anyhow::Result<()> {
         self.is_dirty = true;
         self.notes.clear_errors();
         match action {
@@ -144,7 +145,7 @@ impl Viewer {
             Action::ShowAll => {
                 let size = self.pixels();
                 let photo = self.easel.as_ref();
-                if let Some(photo) = photo.map(|easel| easel.photo.photograph().size()) {
+                if let Some(photo) = photo.map(|easel| easel.photo.photograph.size()) {
                     self.reframe(|framing| *framing = Framing::fitting(photo, size));
                 }
                 if let Some(bounds) = self.canvas.stage().map(|stage| stage.bounds) {
@@ -161,6 +162,10 @@ impl Viewer {
             Action::SetMethod(method) => {
                 let layer = self.layer_under_pointer();
                 self.looks[layer].set_method(method);
+                self.renew_layers()?;
+            }
+            Action::SetLook(layer, look) => {
+                self.looks[layer] = *look;
                 self.renew_layers()?;
             }
             Action::MoreSamples => self.change_samples(|samples| samples * 2)?,
@@ -186,19 +191,30 @@ impl Viewer {
                 self.cover.lenses.remove();
                 self.cover_changed();
             }
+            Action::SetLens(shape, transition) => {
+                self.change_lens(|lenses| lenses.set(shape, transition));
+            }
             Action::Tint => {
                 self.cover.tints = !self.cover.tints;
                 self.cover_changed();
             }
             Action::Unzoom => self.toggle_unzoom(),
-            Action::NextOverlay => {
-                self.set_overlay(Overlay::next(self.cover.overlay));
-            }
+            Action::NextOverlay => self.set_overlay(Overlay::next(self.cover.overlay)),
+            Action::ShowOverlay(overlay) => self.set_overlay(overlay),
             Action::Screenshot => self.write_screenshot(),
             Action::CopyCommand => self.copy_command(),
-            Action::PlayOrPause => self.play_or_pause(),
-            Action::Slower => self.change_speed(-1),
-            Action::Faster => self.change_speed(1),
+            Action::PlayOrPause => self.play(|player| player.toggle(Instant::now())),
+            Action::Slower => self.play(|player| player.change_speed(-1)),
+            Action::Faster => self.play(|player| player.change_speed(1)),
+            Action::Seek(time) => {
+                self.play(|player| player.seek(time));
+                self.show_time();
+            }
+            Action::PlayAnimation(index) => {
+                self.source.request.animation = Some(index.to_string());
+                self.source.request.time = 0.0;
+                self.load(true);
+            }
         }
         Ok(())
     }
@@ -213,7 +229,7 @@ impl Viewer {
     /// Turns unzooming of the region under the pointer on or off.
     fn toggle_unzoom(&mut self) {
         match &mut self.easel {
-            Some(easel) if easel.photo.zoomed().is_some() => {
+            Some(easel) if easel.photo.zoom.is_some() => {
                 easel.unzooms = !easel.unzooms;
                 self.cover_changed();
             }
@@ -223,7 +239,7 @@ impl Viewer {
 
     fn set_overlay(&mut self, overlay: Option<Overlay>) {
         self.cover.overlay = overlay;
-        let name = overlay.map_or("colours", Overlay::name);
+        let name = overlay.map_or_else(|| "colours".to_owned(), Overlay::name);
         self.notes.say(format!("shows {name}"));
         self.cover_changed();
     }
@@ -275,56 +291,12 @@ impl Viewer {
         Ok(())
     }
 
-    /// Does what the user asked for in the panel.
-    pub fn fulfil(&mut self, wishes: Wishes) -> anyhow::Result<()> {
-        if let Some((layer, look)) = wishes.look {
-            self.notes.clear_errors();
-            self.looks[layer] = look;
-            self.renew_layers()?;
-        }
-        if let Some(time) = wishes.time
-            && let Some(player) = &mut self.player
-        {
-            player.seek(time);
-            self.show_time();
-        }
-        if let Some((shape, transition)) = wishes.lens {
-            self.change_lens(|lenses| lenses.set(shape, transition));
-        }
-        if let Some(action) = wishes.action {
-            self.act(action)?;
-        }
-        if let Some(overlay) = wishes.overlay {
-            self.set_overlay(overlay);
-        }
-        if wishes.toggles_play {
-            self.play_or_pause();
-        }
-        if wishes.speed_steps != 0 {
-            self.change_speed(wishes.speed_steps);
-        }
-        if let Some(index) = wishes.animation {
-            self.source.request.animation = Some(index.to_string());
-            self.source.request.time = 0.0;
-            self.load(true);
-        }
-        Ok(())
-    }
-
-    fn play_or_pause(&mut self) {
+    /// Changes how the animation plays.
+    fn play(&mut self, change: impl FnOnce(&mut Player)) {
         match &mut self.player {
-            Some(player) => player.toggle(Instant::now()),
+            Some(player) => change(player),
             None => self.notes.say("the scene has no animations"),
         }
-        self.is_dirty = true;
-    }
-
-    fn change_speed(&mut self, steps: i32) {
-        match &mut self.player {
-            Some(player) => player.change_speed(steps),
-            None => self.notes.say("the scene has no animations"),
-        }
-        self.is_dirty = true;
     }
 
     /// Turns the comparison of two methods side by side on or off.

@@ -1,5 +1,7 @@
 //! Composition of the window: a split between two pictures, and a magnifier over them.
 
+use glam::DVec2;
+
 /// A rectangle in pixels, from its upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rect {
@@ -30,15 +32,6 @@ impl Piece {
     }
 }
 
-/// A square in the window that shows pixels of the pictures enlarged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Magnifier {
-    /// The pixel in the middle of the magnifier.
-    pub centre: [u32; 2],
-    /// Side of an enlarged pixel, in pixels of the window.
-    pub factor: u32,
-}
-
 /// Approximate side of the magnifier, in pixels of the window.
 const MAGNIFIER_SIDE: u32 = 288;
 
@@ -48,9 +41,9 @@ pub fn pictures(size: [u32; 2], split: Option<u32>) -> Vec<Piece> {
     cut(whole, split).map(|(layer, part)| Piece { layer, from: part, to: part }).collect()
 }
 
-/// Pieces that show the pictures under the magnifier enlarged.
-pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Vec<Piece> {
-    let factor = magnifier.factor.max(1);
+/// Pieces of a square that shows the pictures around `place` enlarged: each pixel has `factor` pixels to each side.
+pub fn magnified(size: [u32; 2], split: Option<u32>, place: DVec2, factor: u32) -> Vec<Piece> {
+    let centre = [place.x as u32, place.y as u32];
     // An odd number of pixels has a pixel in the middle.
     let side = [0, 1].map(|axis| ((MAGNIFIER_SIDE / factor) | 1).min(size[axis] / factor));
     if side.contains(&0) {
@@ -61,9 +54,9 @@ pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Ve
         let first = centre.saturating_sub(side / 2);
         first.min(end - side)
     };
-    let from = Rect { corner: [0, 1].map(|axis| around(magnifier.centre[axis], side[axis], size[axis])), size: side };
+    let from = Rect { corner: [0, 1].map(|axis| around(centre[axis], side[axis], size[axis])), size: side };
     let shown = side.map(|side| side * factor);
-    let to = [0, 1].map(|axis| around(magnifier.centre[axis], shown[axis], size[axis]));
+    let to = [0, 1].map(|axis| around(centre[axis], shown[axis], size[axis]));
     cut(from, split)
         .map(|(layer, part)| Piece {
             layer,
@@ -110,26 +103,25 @@ mod tests {
     #[test]
     fn the_magnifier_shows_the_pixel_under_the_pointer_in_its_middle() {
         for factor in [8, 16, 32] {
-            let magnifier = Magnifier { centre: [320, 200], factor };
-            let [piece] = magnified(SIZE, None, magnifier)[..] else {
+            let centre = [320, 200];
+            let [piece] = magnified(SIZE, None, DVec2::new(320.5, 200.5), factor)[..] else {
                 panic!("one piece");
             };
             for axis in [0, 1] {
                 let side = piece.from.size[axis];
                 assert_eq!(side % 2, 1);
-                assert_eq!(piece.from.corner[axis] + side / 2, magnifier.centre[axis]);
+                assert_eq!(piece.from.corner[axis] + side / 2, centre[axis]);
                 assert_eq!(piece.to.size[axis], side * factor);
                 let middle = piece.to.corner[axis] + piece.to.size[axis] / 2;
-                assert_eq!(middle, magnifier.centre[axis]);
+                assert_eq!(middle, centre[axis]);
             }
         }
     }
 
     #[test]
     fn the_magnifier_stays_inside_and_is_split_like_the_pictures() {
-        for centre in [[0, 0], [639, 399], [200, 3]] {
-            let magnifier = Magnifier { centre, factor: 8 };
-            let pieces = magnified(SIZE, Some(202), magnifier);
+        for place in [DVec2::new(-5.0, 0.0), DVec2::new(700.0, 399.0), DVec2::new(200.0, 3.0)] {
+            let pieces = magnified(SIZE, Some(202), place, 8);
             for piece in &pieces {
                 for rect in [piece.from, piece.to] {
                     for axis in [0, 1] {
@@ -143,8 +135,7 @@ mod tests {
                 assert_eq!(left.from.corner[0] + left.from.size[0], right.from.corner[0]);
             }
         }
-        let tiny = Magnifier { centre: [2, 2], factor: 32 };
-        assert!(magnified([20, 20], None, tiny).is_empty());
+        assert!(magnified([20, 20], None, DVec2::splat(2.0), 32).is_empty());
     }
 
     #[test]
@@ -155,8 +146,7 @@ mod tests {
         assert_eq!((part.from.corner, part.from.size), ([60, 0], [20, 50]));
         assert_eq!(part.to, part.from);
         assert_eq!(piece.within([60, 50]), None);
-        let magnifier = Magnifier { centre: [50, 25], factor: 8 };
-        let piece = magnified([100, 50], None, magnifier)[0];
+        let piece = magnified([100, 50], None, DVec2::new(50.0, 25.0), 8)[0];
         let part = piece.within([50, 50]).unwrap();
         assert_eq!(part.from.size[0], 50 - piece.from.corner[0]);
         assert_eq!(part.to.size[0], 8 * part.from.size[0]);

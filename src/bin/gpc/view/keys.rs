@@ -1,11 +1,14 @@
 //! Actions of keys, and the list that the window shows.
 
+use super::look::Look;
 use super::navigate::Side;
+use super::overlay::Overlay;
+use gpc::camera::zoom::{Shape, Transition};
 use gpc::render::MethodKind;
 use winit::keyboard::{Key, ModifiersState, NamedKey};
 
-/// Action of a key or of a button in the panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Action of a key or of a control in the panel.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     Help,
     Panel,
@@ -18,6 +21,8 @@ pub enum Action {
     NextScene,
     Reload,
     SetMethod(MethodKind),
+    /// Gives the picture with this index another antialiasing.
+    SetLook(usize, Box<Look>),
     MoreSamples,
     FewerSamples,
     Split,
@@ -25,14 +30,22 @@ pub enum Action {
     Lens,
     AddLens,
     RemoveLens,
+    /// Changes outline and transition of the active lens.
+    SetLens(Shape, Transition),
     Tint,
     Unzoom,
     NextOverlay,
+    /// Shows an overlay, or colours again.
+    ShowOverlay(Option<Overlay>),
     Screenshot,
     CopyCommand,
     PlayOrPause,
     Slower,
     Faster,
+    /// Shows a time of the animation, in seconds.
+    Seek(f64),
+    /// Plays the animation with this index.
+    PlayAnimation(usize),
     Back,
     Quit,
 }
@@ -126,7 +139,7 @@ pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
         };
         pressed && binding.control == modifiers.control_key()
     };
-    BINDINGS.iter().find(is_pressed).map(|binding| binding.action)
+    BINDINGS.iter().find(is_pressed).map(|binding| binding.action.clone())
 }
 
 /// Rows of the list: the keys, and what they do.
@@ -150,7 +163,7 @@ mod tests {
                 Pressed::Text(text) => Key::Character(text.to_uppercase().into()),
             };
             let modifiers = if binding.control { ModifiersState::CONTROL } else { ModifiersState::empty() };
-            assert_eq!(action(&key, modifiers), Some(binding.action));
+            assert_eq!(action(&key, modifiers), Some(binding.action.clone()));
         }
     }
 

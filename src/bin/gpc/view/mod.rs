@@ -37,6 +37,7 @@ mod pointer;
 mod preparer;
 mod presenter;
 mod progress;
+mod requests;
 mod samples;
 mod schedule;
 mod slot;
@@ -51,8 +52,8 @@ mod worker;
 
 pub use look::{Look, default_samples};
 pub use source::{Appearance, SceneSource};
-pub use standpoint::Start;
 
+use crate::cli::render::args::CameraArgs;
 use anyhow::bail;
 use app::App;
 use gpc::render::HeadlessOptions;
@@ -66,8 +67,8 @@ pub struct Options {
     pub source: SceneSource,
     /// Other files and folders that the arrow keys go to.
     pub others: Vec<PathBuf>,
-    /// Standpoint at the start, in the first scene.
-    pub start: Start,
+    /// Options for the standpoint at the start, in the first scene.
+    pub start: CameraArgs,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Appearance,
     /// Options of the command line for this appearance and the background.

@@ -1,7 +1,7 @@
 //! Navigation about a scene: a turntable around a target, with the vertical axis upright.
 
 use glam::{DVec2, DVec3};
-use gpc::camera::{Camera, CameraError, Orbit, Projection, Viewpoint};
+use gpc::camera::{Camera, Orbit, Projection, Viewpoint};
 
 /// Degrees of a turn by a drag over the height of the image.
 const DEGREES_A_HEIGHT: f64 = 180.0;
@@ -87,27 +87,9 @@ impl Turntable {
         .clamped()
     }
 
-    /// Turntable at a viewpoint, upright, with the viewpoint's target.
-    ///
-    /// # Errors
-    /// If eye and target coincide, or the field of view is out of range.
-    pub fn of_viewpoint(viewpoint: &Viewpoint, bounds: Bounds) -> Result<Self, CameraError> {
-        let camera = viewpoint.frame(bounds.0, bounds.1)?;
-        Ok(Self {
-            target: viewpoint.target,
-            distance: (viewpoint.eye - viewpoint.target).length(),
-            ..Self::of_camera(&camera, bounds)
-        })
-    }
-
-    /// Turntable that sees a scene as an orbit does, in an image of `aspect` = width / height.
-    ///
-    /// # Errors
-    /// If the orbit's angles or its field of view are out of range.
-    pub fn of_orbit(orbit: &Orbit, bounds: Bounds, aspect: f64) -> Result<Self, CameraError> {
-        let camera = orbit.frame(bounds.0, bounds.1, aspect)?;
-        let target = 0.5 * (bounds.0 + bounds.1);
-        Ok(Self { target, distance: (camera.eye - target).length(), ..Self::of_camera(&camera, bounds) })
+    /// Turntable at a camera's position, upright, with another target on the camera's axis.
+    pub fn aimed(camera: &Camera, target: DVec3, bounds: Bounds) -> Self {
+        Self { target, distance: (camera.eye - target).length(), ..Self::of_camera(camera, bounds) }
     }
 
     /// The eye, target and field of view for a camera.
@@ -293,22 +275,6 @@ mod tests {
         assert!((after.viewpoint().eye - before.viewpoint().eye).length() < 1e-9);
         let shift = seen(&after, before.target) - DVec2::new(4.0, -3.0);
         assert!(shift.length() < 0.5, "{shift}");
-    }
-
-    #[test]
-    fn viewpoints_and_orbits_are_taken_over() {
-        let viewpoint =
-            Viewpoint { eye: DVec3::new(3.0, 4.0, 5.0), target: DVec3::new(0.5, 0.25, -1.0), up: DVec3::Y, fov: 30.0 };
-        let found = Turntable::of_viewpoint(&viewpoint, BOUNDS).unwrap();
-        assert!((found.viewpoint().eye - viewpoint.eye).length() < 1e-9);
-        assert_eq!((found.target, found.fov.round()), (viewpoint.target, 30.0));
-        let nowhere = Viewpoint { target: viewpoint.eye, ..viewpoint };
-        assert!(Turntable::of_viewpoint(&nowhere, BOUNDS).is_err());
-        let orbit = Orbit { azimuth: 100.0, elevation: -20.0, zoom: 2.0, fov: 50.0 };
-        let found = Turntable::of_orbit(&orbit, BOUNDS, 2.0).unwrap();
-        let expected = orbit.frame(BOUNDS.0, BOUNDS.1, 2.0).unwrap();
-        assert!((found.viewpoint().eye - expected.eye).length() < 1e-9);
-        assert!((found.azimuth - 100.0).abs() < 1e-9 && (found.elevation + 20.0).abs() < 1e-9);
     }
 
     #[test]

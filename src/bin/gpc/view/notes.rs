@@ -52,9 +52,13 @@ impl Notes {
         self.notes.retain(|note| !note.is_error);
     }
 
-    /// Notes to show now.
-    pub fn seen(&mut self, now: Instant) -> &[Note] {
+    /// Removes notes that were shown for long enough.
+    pub fn expire(&mut self, now: Instant) {
         self.notes.retain(|note| note.is_error || now < note.since + SEEN);
+    }
+
+    /// Notes to show.
+    pub fn all(&self) -> &[Note] {
         &self.notes
     }
 

@@ -7,7 +7,7 @@ use super::player::Player;
 use super::progress::Progress;
 use super::source::{LoadedScene, Opened, SceneSource};
 use super::standpoint::Standpoint;
-use super::watch::Watch;
+use super::watch::watch;
 use super::window::Viewer;
 use std::path::Path;
 use std::sync::Arc;
@@ -69,14 +69,14 @@ impl Viewer {
     /// Watches a file for changes, even one that can't be loaded.
     fn watch(&mut self, path: &Path) {
         let proxy = self.proxy.clone();
-        let watch = Watch::new(path, move || {
+        let watcher = watch(path, move || {
             // An error means that the window is closed and that the message is no longer needed.
             let _ = proxy.send_event(Event::Changed);
         });
-        if let Err(error) = &watch {
+        if let Err(error) = &watcher {
             log::warn!("{} is not watched: {error}", path.display());
         }
-        self.watch = watch.ok();
+        self.watcher = watcher.ok();
     }
 
     /// Takes the result of loading; `number` is that of the request.
@@ -120,7 +120,7 @@ impl Viewer {
         if !keeps_view {
             let aspect = self.aspect();
             let start = self.start.take().unwrap_or_default();
-            let asked = start.standpoint(&stage.pose.cameras, stage.bounds, aspect);
+            let asked = Standpoint::asked(&start, &stage.pose.cameras, stage.bounds, aspect);
             self.standpoint = asked.unwrap_or_else(|error| {
                 self.notes.fail(&error.into());
                 Standpoint::first(&stage.pose.cameras, stage.bounds, aspect)
@@ -143,7 +143,7 @@ impl Viewer {
             easel.framing = before.framing;
             easel.unzooms = before.unzooms;
         }
-        if easel.photo.zoomed().is_some() {
+        if easel.photo.zoom.is_some() {
             self.notes.say("the image holds a zoom: U unzooms it under the pointer");
         }
         (self.player, self.moment, self.flight) = (None, None, None);

@@ -1,6 +1,7 @@
 //! Overlays: values of pixels, shown instead of colours.
 
 use gpc::compare::heat_color;
+use gpc::names::name;
 use gpc::output::AovKind;
 
 /// Kind of value that is shown instead of colours.
@@ -32,11 +33,11 @@ impl Overlay {
         Self::Error,
     ];
 
-    pub fn name(self) -> &'static str {
+    pub fn name(self) -> String {
         match self {
-            Self::Stored(kind) => kind.name(),
-            Self::Triangles => "triangles",
-            Self::Error => "error",
+            Self::Stored(kind) => name(&kind),
+            Self::Triangles => "triangles".to_owned(),
+            Self::Error => "error".to_owned(),
         }
     }
 

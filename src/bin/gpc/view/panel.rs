@@ -1,189 +1,173 @@
 //! Panel, notes and list of keys, drawn over the picture.
 
 use super::keys::{self, Action};
-use super::lens::Lenses;
+use super::layer::Layer;
 use super::look::Look;
-use super::notes::Note;
 use super::overlay::Overlay;
 use super::player::Player;
+use super::source::LoadedScene;
+use super::window::Viewer;
 use gpc::camera::zoom::{Shape, Transition};
 use gpc::compare::heat_color;
-use gpc::render::{Detection, MethodKind, Statistics};
+use gpc::render::{Detection, MethodKind};
 use gpc::sampling::Pattern;
-use gpc::scene::AnimationInfo;
-use std::time::Duration;
-
-/// State that the panel shows.
-pub struct Facts<'a> {
-    pub notes: &'a [Note],
-    pub loading: Option<LoadingFacts<'a>>,
-    pub shows_keys: bool,
-    pub shows_panel: bool,
-    /// Column of the split in pixels.
-    pub split: Option<u32>,
-    pub lenses: &'a Lenses,
-    /// Whether the lenses' transitions are coloured.
-    pub tints: bool,
-    /// Overlay that is shown instead of colours.
-    pub overlay: Option<Overlay>,
-    /// Text about the overlay.
-    pub figures: Option<&'a str>,
-    /// Whether a picture with more samples is being made.
-    pub is_refining: bool,
-    pub photo: Option<PhotoFacts>,
-    pub scene: Option<SceneFacts<'a>>,
-    pub pictures: Vec<PictureFacts<'a>>,
-}
-
-/// State of the file that is being loaded.
-pub struct LoadingFacts<'a> {
-    pub name: &'a str,
-    pub since: Duration,
-    pub step: &'static str,
-    /// Share of the loading that is done, 0 to 1.
-    pub share: f32,
-}
-
-/// Description of the photograph.
-pub struct PhotoFacts {
-    pub name: String,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Whether the photograph can be unzoomed.
-    pub is_zoomed: bool,
-}
-
-/// Description of the scene.
-pub struct SceneFacts<'a> {
-    pub name: String,
-    /// Warnings: parts of the file that can't be shown.
-    pub warnings: &'a [String],
-    pub triangles: u64,
-    /// Animations, the index of the one that is played, and its player; `None` without animations.
-    pub motion: Option<(&'a [AnimationInfo], usize, &'a Player)>,
-}
-
-/// State of a picture.
-pub struct PictureFacts<'a> {
-    pub look: &'a Look,
-    /// Samples a pixel of the visible picture, if all of its pixels have the same number.
-    pub shown: Option<u32>,
-    /// Whether the device has compiled the picture's kernels.
-    pub is_prepared: bool,
-    pub statistics: &'a Statistics,
-}
-
-/// Changes that the user has asked for in the panel.
-#[derive(Default)]
-pub struct Wishes {
-    /// Index of a picture, and the antialiasing that it should have.
-    pub look: Option<(usize, Look)>,
-    /// Outline and transition that the active lens should have.
-    pub lens: Option<(Shape, Transition)>,
-    /// Action of a button, for which there is also a key.
-    pub action: Option<Action>,
-    /// Overlay to show; `Some(None)` shows colours again.
-    pub overlay: Option<Option<Overlay>>,
-    /// Time of the animation to show, in seconds.
-    pub time: Option<f64>,
-    /// Index of the animation to play.
-    pub animation: Option<usize>,
-    /// Whether to switch between playing and pausing.
-    pub toggles_play: bool,
-    /// Number of steps by which to change the speed.
-    pub speed_steps: i32,
-}
+use std::time::{Duration, Instant};
 
 const ERROR: egui::Color32 = egui::Color32::from_rgb(255, 140, 130);
 /// Largest contrast threshold that the panel offers, in 8-bit sRGB code values.
 const MOST_CONTRAST: u8 = 64;
 
-/// Lays out panel, notes and lists, and returns what the user asked for.
-pub fn show(ctx: &egui::Context, facts: &Facts<'_>) -> Wishes {
-    let mut wishes = Wishes::default();
-    if let Some(column) = facts.split {
-        show_split(ctx, column);
+impl Viewer {
+    /// Lays out panel, notes and lists, and returns what the user asked for.
+    pub fn show_interface(&self, ctx: &egui::Context, now: Instant) -> Vec<Action> {
+        let mut asked = Vec::new();
+        if let Some(column) = self.split_column() {
+            show_split(ctx, column);
+        }
+        if self.shows_panel && (self.canvas.stage().is_some() || self.easel.is_some()) {
+            self.show_panel(ctx, &mut asked);
+        }
+        self.show_notes(ctx, now);
+        if self.shows_keys {
+            show_keys(ctx);
+        }
+        asked
     }
-    if facts.shows_panel && (facts.scene.is_some() || facts.photo.is_some()) {
-        show_panel(ctx, facts, &mut wishes);
-    }
-    show_notes(ctx, facts);
-    if facts.shows_keys {
-        show_keys(ctx);
-    }
-    wishes
-}
 
-fn show_panel(ctx: &egui::Context, facts: &Facts<'_>, wishes: &mut Wishes) {
-    egui::Window::new("panel").title_bar(false).resizable(false).default_pos([8.0, 8.0]).show(ctx, |ui| {
-        if let Some(photo) = &facts.photo {
-            let [width, height] = photo.size;
-            ui.strong(&photo.name);
-            ui.label(format!("{width} x {height} pixels"));
-            if photo.is_zoomed {
-                ui.label("zoomed: U unzooms it under the pointer");
-            }
-        }
-        if let Some(scene) = &facts.scene {
-            show_scene(ui, scene, facts, wishes);
-            ui.separator();
-            show_overlay(ui, facts, wishes);
-        }
-        show_lenses(ui, facts, wishes);
-        if facts.is_refining {
-            ui.weak("being made in the background");
-        }
-        ui.weak("H lists the keys, P hides this");
-    });
-}
-
-fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wishes: &mut Wishes) {
-    ui.strong(&scene.name);
-    ui.label(format!("{} triangles", scene.triangles));
-    if !scene.warnings.is_empty() {
-        let title = format!("warnings: {}", scene.warnings.len());
-        ui.collapsing(title, |ui| {
-            egui::ScrollArea::vertical().max_height(200.0).show(ui, |ui| {
-                for warning in scene.warnings {
-                    ui.label(warning);
+    fn show_panel(&self, ctx: &egui::Context, asked: &mut Vec<Action>) {
+        egui::Window::new("panel").title_bar(false).resizable(false).default_pos([8.0, 8.0]).show(ctx, |ui| {
+            if let Some(easel) = &self.easel {
+                let [width, height] = easel.photo.photograph.size();
+                ui.strong(self.source.name());
+                ui.label(format!("{width} x {height} pixels"));
+                if easel.photo.zoom.is_some() {
+                    ui.label("zoomed: U unzooms it under the pointer");
                 }
-            });
-        });
-    }
-    if let Some((animations, chosen, player)) = scene.motion {
-        ui.separator();
-        show_player(ui, animations, chosen, player, wishes);
-    }
-    for (index, picture) in facts.pictures.iter().enumerate() {
-        ui.separator();
-        ui.push_id(index, |ui| {
-            let mut look = picture.look.clone();
-            edit(ui, &mut look);
-            if look != *picture.look {
-                wishes.look = Some((index, look));
             }
-            show_figures(ui, picture);
+            if let Some(stage) = self.canvas.stage() {
+                self.show_stage(ui, stage, asked);
+                ui.separator();
+                self.show_overlay(ui, asked);
+            }
+            self.show_lenses(ui, asked);
+            if !self.cover.is_done() {
+                ui.weak("being made in the background");
+            }
+            ui.weak("H lists the keys, P hides this");
         });
     }
-}
 
-/// Controls of the overlay.
-fn show_overlay(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
-    let name = |overlay: Option<Overlay>| overlay.map_or("colours", Overlay::name);
-    egui::ComboBox::from_label("shown").selected_text(name(facts.overlay)).show_ui(ui, |ui| {
-        let all = std::iter::once(None).chain(Overlay::ALL.map(Some));
-        for overlay in all {
-            let is_chosen = overlay == facts.overlay;
-            if ui.selectable_label(is_chosen, name(overlay)).clicked() {
-                wishes.overlay = Some(overlay);
-            }
+    fn show_stage(&self, ui: &mut egui::Ui, stage: &LoadedScene, asked: &mut Vec<Action>) {
+        ui.strong(stage.source.name());
+        ui.label(format!("{} triangles", stage.prepared.triangle_count()));
+        if !stage.warnings.is_empty() {
+            let title = format!("warnings: {}", stage.warnings.len());
+            ui.collapsing(title, |ui| {
+                egui::ScrollArea::vertical().max_height(200.0).show(ui, |ui| {
+                    for warning in &stage.warnings {
+                        ui.label(warning);
+                    }
+                });
+            });
         }
-    });
-    if let Some(overlay) = facts.overlay.filter(|overlay| !overlay.scale().is_empty()) {
-        show_scale(ui, overlay.scale());
+        if let Some(player) = &self.player {
+            ui.separator();
+            show_player(ui, stage, player, asked);
+        }
+        for (index, layer) in self.canvas.layers().iter().enumerate() {
+            ui.separator();
+            ui.push_id(index, |ui| {
+                let mut look = layer.look.clone();
+                edit(ui, &mut look);
+                if look != layer.look {
+                    asked.push(Action::SetLook(index, Box::new(look)));
+                }
+                show_figures(ui, layer);
+            });
+        }
     }
-    if let Some(figures) = facts.figures {
-        ui.label(figures);
+
+    /// Controls of the overlay.
+    fn show_overlay(&self, ui: &mut egui::Ui, asked: &mut Vec<Action>) {
+        let name = |overlay: Option<Overlay>| overlay.map_or_else(|| "colours".to_owned(), Overlay::name);
+        let shown = self.cover.overlay;
+        egui::ComboBox::from_label("shown").selected_text(name(shown)).show_ui(ui, |ui| {
+            let all = std::iter::once(None).chain(Overlay::ALL.map(Some));
+            for overlay in all {
+                if ui.selectable_label(overlay == shown, name(overlay)).clicked() {
+                    asked.push(Action::ShowOverlay(overlay));
+                }
+            }
+        });
+        if let Some(overlay) = shown.filter(|overlay| !overlay.scale().is_empty()) {
+            show_scale(ui, overlay.scale());
+        }
+        if let Some(figures) = &self.cover_figures {
+            ui.label(figures);
+        }
+    }
+
+    /// Controls of the lenses.
+    fn show_lenses(&self, ui: &mut egui::Ui, asked: &mut Vec<Action>) {
+        let lenses = &self.cover.lenses;
+        let Some(lens) = lenses.regions().get(lenses.active()) else {
+            return;
+        };
+        ui.separator();
+        ui.label(format!(
+            "lens {} of {}: {:.2} times as large",
+            lenses.active() + 1,
+            lenses.regions().len(),
+            1.0 / lens.multiplicity
+        ));
+        let (mut shape, mut transition) = (lens.shape, lens.transition);
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut shape, Shape::Circle, "circle");
+            ui.selectable_value(&mut shape, Shape::Rectangle, "rectangle");
+        });
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut transition, Transition::Linear, "linear");
+            ui.selectable_value(&mut transition, Transition::Smooth, "smooth");
+        });
+        if (shape, transition) != (lens.shape, lens.transition) {
+            asked.push(Action::SetLens(shape, transition));
+        }
+        ui.horizontal(|ui| {
+            if ui.button("Remove").clicked() {
+                asked.push(Action::RemoveLens);
+            }
+            let mut tints = self.cover.tints;
+            if ui.checkbox(&mut tints, "transition in colour").changed() {
+                asked.push(Action::Tint);
+            }
+        });
+    }
+
+    fn show_notes(&self, ctx: &egui::Context, now: Instant) {
+        let notes = self.notes.all();
+        if notes.is_empty() && self.loading.is_none() {
+            return;
+        }
+        // What is behind the notes can be dragged through them.
+        let area = overlay("notes", egui::Align2::LEFT_BOTTOM).interactable(false);
+        area.show(ctx, |ui| {
+            ui.set_max_width(0.7 * ctx.content_rect().width());
+            if let Some(loading) = &self.loading {
+                let (step, share) = loading.progress.step();
+                let since = now.saturating_duration_since(loading.since);
+                ui.label(format!("Loading {}: {}", loading.source.name(), step.name()));
+                let waited = format!("{} s; Esc stops it", since.as_secs());
+                ui.add(egui::ProgressBar::new(share).text(waited).desired_width(240.0));
+                ctx.request_repaint_after(Duration::from_millis(250));
+            }
+            for note in notes {
+                if note.is_error {
+                    ui.colored_label(ERROR, &note.text);
+                } else {
+                    ui.label(&note.text);
+                }
+            }
+        });
     }
 }
 
@@ -213,43 +197,8 @@ fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
     }
 }
 
-/// Controls of the lenses.
-fn show_lenses(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
-    let lenses = facts.lenses.regions();
-    let Some(lens) = lenses.get(facts.lenses.active()) else {
-        return;
-    };
-    ui.separator();
-    ui.label(format!(
-        "lens {} of {}: {:.2} times as large",
-        facts.lenses.active() + 1,
-        lenses.len(),
-        1.0 / lens.multiplicity
-    ));
-    let (mut shape, mut transition) = (lens.shape, lens.transition);
-    ui.horizontal(|ui| {
-        ui.selectable_value(&mut shape, Shape::Circle, "circle");
-        ui.selectable_value(&mut shape, Shape::Rectangle, "rectangle");
-    });
-    ui.horizontal(|ui| {
-        ui.selectable_value(&mut transition, Transition::Linear, "linear");
-        ui.selectable_value(&mut transition, Transition::Smooth, "smooth");
-    });
-    if (shape, transition) != (lens.shape, lens.transition) {
-        wishes.lens = Some((shape, transition));
-    }
-    ui.horizontal(|ui| {
-        if ui.button("Remove").clicked() {
-            wishes.action = Some(Action::RemoveLens);
-        }
-        let mut tints = facts.tints;
-        if ui.checkbox(&mut tints, "transition in colour").changed() {
-            wishes.action = Some(Action::Tint);
-        }
-    });
-}
-
-fn show_player(ui: &mut egui::Ui, animations: &[AnimationInfo], chosen: usize, player: &Player, wishes: &mut Wishes) {
+fn show_player(ui: &mut egui::Ui, stage: &LoadedScene, player: &Player, asked: &mut Vec<Action>) {
+    let (animations, chosen) = (&stage.animations, stage.animation());
     let name = |index: usize| {
         let name = animations.get(index).and_then(|a| a.name.clone());
         name.unwrap_or_else(|| format!("animation {index}"))
@@ -258,26 +207,24 @@ fn show_player(ui: &mut egui::Ui, animations: &[AnimationInfo], chosen: usize, p
         egui::ComboBox::from_id_salt("animation").selected_text(name(chosen)).show_ui(ui, |ui| {
             for index in 0..animations.len() {
                 if ui.selectable_label(index == chosen, name(index)).clicked() {
-                    wishes.animation = Some(index);
+                    asked.push(Action::PlayAnimation(index));
                 }
             }
         });
     }
     ui.horizontal(|ui| {
         let label = if player.is_playing() { "Pause" } else { "Play" };
-        wishes.toggles_play |= ui.button(label).clicked();
-        if ui.button("Slower").clicked() {
-            wishes.speed_steps -= 1;
-        }
-        if ui.button("Faster").clicked() {
-            wishes.speed_steps += 1;
+        for (label, action) in [(label, Action::PlayOrPause), ("Slower", Action::Slower), ("Faster", Action::Faster)] {
+            if ui.button(label).clicked() {
+                asked.push(action);
+            }
         }
         ui.label(format!("x {}", player.speed()));
     });
     let mut time = player.time();
     let slider = egui::Slider::new(&mut time, 0.0..=player.duration()).suffix(" s");
     if ui.add(slider).changed() {
-        wishes.time = Some(time);
+        asked.push(Action::Seek(time));
     }
 }
 
@@ -338,16 +285,16 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
 }
 
 /// Figures about the work that the picture took.
-fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
-    let statistics = picture.statistics;
-    match picture.shown {
+fn show_figures(ui: &mut egui::Ui, layer: &Layer) {
+    let statistics = &layer.statistics;
+    match layer.shown {
         Some(1) => ui.label("one sample a pixel"),
         Some(samples) => ui.label(format!("{samples} samples a pixel")),
-        None if picture.is_prepared => ui.label("being refined"),
-        None => ui.label("kernels are compiled"),
+        None if layer.is_waiting() => ui.label("kernels are compiled"),
+        None => ui.label("being refined"),
     };
-    let [width, height] = picture.look.settings.size.map(f64::from);
-    if picture.look.method() == MethodKind::Superpixel {
+    let [width, height] = layer.look.settings.size.map(f64::from);
+    if layer.look.method() == MethodKind::Superpixel {
         let share = 100.0 * statistics.superpixels as f64 / (width * height).max(1.0);
         ui.label(format!("{} superpixels, {share:.1} %", statistics.superpixels));
     }
@@ -371,30 +318,6 @@ fn show_split(ctx: &egui::Context, column: u32) {
     let line = egui::Stroke::new(1.0, egui::Color32::WHITE);
     let height = ctx.content_rect().y_range();
     ctx.layer_painter(egui::LayerId::background()).vline(x, height, line);
-}
-
-fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
-    if facts.notes.is_empty() && facts.loading.is_none() {
-        return;
-    }
-    // What is behind the notes can be dragged through them.
-    let area = overlay("notes", egui::Align2::LEFT_BOTTOM).interactable(false);
-    area.show(ctx, |ui| {
-        ui.set_max_width(0.7 * ctx.content_rect().width());
-        if let Some(loading) = &facts.loading {
-            ui.label(format!("Loading {}: {}", loading.name, loading.step));
-            let waited = format!("{} s; Esc stops it", loading.since.as_secs());
-            ui.add(egui::ProgressBar::new(loading.share).text(waited).desired_width(240.0));
-            ctx.request_repaint_after(Duration::from_millis(250));
-        }
-        for note in facts.notes {
-            if note.is_error {
-                ui.colored_label(ERROR, &note.text);
-            } else {
-                ui.label(&note.text);
-            }
-        }
-    });
 }
 
 fn show_keys(ctx: &egui::Context) {

@@ -6,7 +6,7 @@ use glam::{DMat2, DVec2};
 use gpc::camera::LocationMap;
 use gpc::camera::zoom::{Window, ZoomMap};
 use gpc::output;
-use gpc::resample::{Photograph, Zoomed};
+use gpc::resample::{Photograph, Zoomed, zoomed_location};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -19,13 +19,9 @@ const MOST: f64 = 64.0;
 #[derive(Debug)]
 pub struct Photo {
     pub path: PathBuf,
-    image: PhotoImage,
-}
-
-#[derive(Debug)]
-enum PhotoImage {
-    Plain(Photograph),
-    Zoomed(Zoomed),
+    pub photograph: Photograph,
+    /// Map of the zoom, if `gpc zoom` made the image.
+    pub zoom: Option<ZoomMap>,
 }
 
 impl Photo {
@@ -33,28 +29,13 @@ impl Photo {
     pub fn open(path: &Path) -> anyhow::Result<Self> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).with_context(|| format!("{name} can't be read"))?;
-        let image = if Zoomed::is_in(&bytes) {
-            PhotoImage::Zoomed(Zoomed::decode(&bytes, &name)?)
+        let (photograph, zoom) = if Zoomed::is_in(&bytes) {
+            let Zoomed { photograph, map } = Zoomed::decode(&bytes, &name)?;
+            (photograph, Some(map))
         } else {
-            PhotoImage::Plain(Photograph::from(&output::decode(&bytes, &name)?))
+            (Photograph::from(&output::decode(&bytes, &name)?), None)
         };
-        Ok(Self { path: path.to_owned(), image })
-    }
-
-    /// The image as a photograph.
-    pub fn photograph(&self) -> &Photograph {
-        match &self.image {
-            PhotoImage::Plain(photograph) => photograph,
-            PhotoImage::Zoomed(zoomed) => zoomed.photograph(),
-        }
-    }
-
-    /// The image with its map, if `gpc zoom` made it.
-    pub fn zoomed(&self) -> Option<&Zoomed> {
-        match &self.image {
-            PhotoImage::Plain(_) => None,
-            PhotoImage::Zoomed(zoomed) => Some(zoomed),
-        }
+        Ok(Self { path: path.to_owned(), photograph, zoom })
     }
 }
 
@@ -117,7 +98,7 @@ pub struct Easel {
 impl Easel {
     /// Shows a whole photograph in a window of `window` = [width, height].
     pub fn new(photo: Photo, window: [u32; 2]) -> Self {
-        Self { framing: Framing::fitting(photo.photograph().size(), window), photo: Arc::new(photo), unzooms: false }
+        Self { framing: Framing::fitting(photo.photograph.size(), window), photo: Arc::new(photo), unzooms: false }
     }
 
     /// Picture of the visible part, for a window of `size` = [width, height].
@@ -134,7 +115,7 @@ impl Easel {
     /// Index of the zoomed region under a place of the window, if there is one.
     pub fn region_at(&self, pointer: DVec2) -> Option<usize> {
         let place = self.framing.place(pointer);
-        let regions = self.photo.zoomed()?.map().regions();
+        let regions = self.photo.zoom.as_ref()?.regions();
         regions.iter().position(|region| region.contains(place))
     }
 
@@ -142,7 +123,7 @@ impl Easel {
     pub fn whole(&self, map: ZoomMap) -> PhotoView {
         PhotoView {
             photo: self.photo.clone(),
-            window: Window { size: self.photo.photograph().size(), corner: [0.0, 0.0], step: 1.0 },
+            window: Window { size: self.photo.photograph.size(), corner: [0.0, 0.0], step: 1.0 },
             map: Some(map),
             tints: false,
             loupe: None,
@@ -165,8 +146,7 @@ pub struct PhotoView {
 impl PhotoView {
     /// Pixels of the picture: rows of linear light with premultiplied alpha.
     pub fn pixels(&self) -> Vec<[f32; 4]> {
-        let photograph = self.photo.photograph();
-        photograph.resample(self.window.size, |place| self.look(place))
+        self.photo.photograph.resample(self.window.size, |place| self.look(place))
     }
 
     /// Colour of a pixel whose own colour is `code`, with overlays: black outside of the photograph, a tint, or the
@@ -182,7 +162,7 @@ impl PhotoView {
             Some((location, _)) => location,
             None => plane,
         };
-        let size = as_vector(self.photo.photograph().size());
+        let size = as_vector(self.photo.photograph.size());
         if location.cmplt(DVec2::ZERO).any() || location.cmpgt(size).any() {
             return [0, 0, 0, 255];
         }
@@ -194,8 +174,8 @@ impl PhotoView {
 
     /// Location in the photograph that a place of the window shows, and its Jacobian.
     fn look(&self, place: DVec2) -> (DVec2, DMat2) {
-        if let (Some((location, rate)), Some(zoomed)) = (self.unzoomed(place), self.photo.zoomed()) {
-            return zoomed.place(location, DMat2::from_diagonal(DVec2::splat(rate)));
+        if let (Some((location, rate)), Some(map)) = (self.unzoomed(place), &self.photo.zoom) {
+            return zoomed_location(map, location, DMat2::from_diagonal(DVec2::splat(rate)));
         }
         let plane = self.window.location(place);
         let jacobian = self.window.jacobian(place);
@@ -208,13 +188,13 @@ impl PhotoView {
     /// Location in the ordinary (not zoomed) view for a place inside of the loupe, and the distance between the
     /// locations of neighbouring pixels. The middle of the loupe shows the same as the image, in the same size.
     fn unzoomed(&self, place: DVec2) -> Option<(DVec2, f64)> {
-        let (middle, zoomed) = (self.loupe?, self.photo.zoomed()?);
+        let (middle, map) = (self.loupe?, self.photo.zoom.as_ref()?);
         if self.outside_loupe(place)? >= 0.0 {
             return None;
         }
         let plane = self.window.location(middle);
-        let rate = zoomed.map().jacobian(plane).determinant().abs().sqrt() * self.window.step;
-        Some((zoomed.map().location(plane) + rate * (place - middle), rate))
+        let rate = map.jacobian(plane).determinant().abs().sqrt() * self.window.step;
+        Some((map.location(plane) + rate * (place - middle), rate))
     }
 
     /// Distance of a place from the loupe's edge, negative inside; `None` without a loupe.

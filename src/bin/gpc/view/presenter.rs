@@ -1,21 +1,18 @@
-//! Presentation of images in a separate thread: drivers may wait there until an image is drawn or the window is
-//! visible, and the window's thread must not wait.
+//! Presentation of images in a separate thread: drivers may wait there until an image is drawn or the window is visible.
 
 use super::device::Device;
+use super::requests::Requests;
 use super::swapchain::Acquired;
 use ash::vk;
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
+use std::sync::mpsc::{Receiver, channel};
 
 /// Thread that presents one image at a time, until this is dropped.
 pub struct Presenter {
-    /// Channel to the thread; `None` only in `Drop`.
-    images: Option<Sender<Acquired>>,
+    images: Requests<Acquired>,
     outcomes: Receiver<Result<SwapchainFit, VulkanError>>,
     is_busy: bool,
-    thread: Option<JoinHandle<()>>,
 }
 
 /// Whether the swapchain still fits the window.
@@ -28,16 +25,13 @@ pub enum SwapchainFit {
 
 impl Presenter {
     pub fn new(device: &Arc<Device>) -> Self {
-        let (images, received) = channel::<Acquired>();
         let (outcome, outcomes) = channel();
         let device = device.clone();
-        let thread = std::thread::spawn(move || {
-            for image in received {
-                // Sending can't fail: the receiver outlives this thread.
-                let _ = outcome.send(present(&device, &image));
-            }
+        let images = Requests::new(move |image| {
+            // Sending fails only while this is dropped, when nobody asks any more.
+            let _ = outcome.send(present(&device, &image));
         });
-        Self { images: Some(images), outcomes, is_busy: false, thread: Some(thread) }
+        Self { images, outcomes, is_busy: false }
     }
 
     /// Whether an image is being presented. Until then the swapchain must not be used.
@@ -47,9 +41,8 @@ impl Presenter {
 
     /// Presents an image once it is drawn. The commands that draw it have been submitted.
     pub fn show(&mut self, image: Acquired) {
-        if let Some(images) = &self.images {
-            self.is_busy = images.send(image).is_ok();
-        }
+        self.images.send(image);
+        self.is_busy = true;
     }
 
     /// Result of presenting the last image; `None` until it is there, and once it was returned.
@@ -77,15 +70,5 @@ fn present(device: &Device, image: &Acquired) -> Result<SwapchainFit, VulkanErro
         Ok(false) if !image.stale => Ok(SwapchainFit::Fits),
         Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(SwapchainFit::Stale),
         Err(result) => Err(VulkanError::of("vkQueuePresentKHR")(result)),
-    }
-}
-
-impl Drop for Presenter {
-    fn drop(&mut self) {
-        self.images = None;
-        if let Some(thread) = self.thread.take() {
-            // The thread has reported its own panic.
-            let _ = thread.join();
-        }
     }
 }

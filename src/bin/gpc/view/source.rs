@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::navigate::Bounds;
 use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
-use glam::DVec3;
+use crate::cli::render::view::bounds;
 use gpc::render::{PreparedScene, SceneRequest, SceneSettings};
 use gpc::scene::{AnimationInfo, Edges, Environment, Motion, Pose, PoseRequest, Scene};
 use std::path::PathBuf;
@@ -135,10 +135,4 @@ impl SceneSource {
         let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
         stem.to_string_lossy().into_owned()
     }
-}
-
-/// The box around a pose; a box around the origin if the pose is empty.
-pub fn bounds(pose: &Pose) -> Bounds {
-    let bounds = pose.geometry.bounds();
-    bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))
 }

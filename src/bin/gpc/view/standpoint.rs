@@ -1,72 +1,11 @@
 //! Standpoints in a scene: one of its cameras, or a place to which the user moved.
 
 use super::navigate::{Bounds, Turntable};
-use glam::DVec3;
-use gpc::camera::{Camera, CameraError, Orbit, Viewpoint};
+use crate::cli::exit::Usage;
+use crate::cli::render::args::CameraArgs;
+use crate::cli::render::view;
+use gpc::camera::{Camera, CameraError};
 use gpc::scene::SceneCamera;
-
-/// Standpoint at the start, in the first scene.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Start {
-    /// First camera of the scene, or a view of the whole scene if it has none.
-    #[default]
-    First,
-    /// Camera with this name or index.
-    Camera(String),
-    /// A position. Without a target, the camera looks at the scene's centre.
-    Place {
-        eye: DVec3,
-        target: Option<DVec3>,
-        /// Vertical field of view in degrees.
-        fov: f64,
-    },
-    /// View of the whole scene from an angle.
-    Around(Orbit),
-}
-
-/// Error: a standpoint that does not exist.
-#[derive(Debug, thiserror::Error)]
-pub enum NoStart {
-    #[error("there is no camera {asked}; the scene has {found}")]
-    Camera { asked: String, found: String },
-    #[error(transparent)]
-    Impossible(#[from] CameraError),
-}
-
-impl Start {
-    /// The standpoint of the first scene, in an image of `aspect` = width / height.
-    ///
-    /// # Errors
-    /// If the scene has no such camera, or the place and target give no view.
-    pub fn standpoint(&self, cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Result<Standpoint, NoStart> {
-        let turntable = match self {
-            Self::First => return Ok(Standpoint::first(cameras, bounds, aspect)),
-            Self::Camera(asked) => return find(asked, cameras).map(Standpoint::Camera),
-            Self::Place { eye, target, fov } => {
-                let viewpoint = Viewpoint {
-                    eye: *eye,
-                    target: target.unwrap_or(0.5 * (bounds.0 + bounds.1)),
-                    up: DVec3::Y,
-                    fov: *fov,
-                };
-                Turntable::of_viewpoint(&viewpoint, bounds)?
-            }
-            Self::Around(orbit) => Turntable::of_orbit(orbit, bounds, aspect)?,
-        };
-        Ok(Standpoint::Free(turntable))
-    }
-}
-
-fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, NoStart> {
-    SceneCamera::find(cameras, asked).ok_or_else(|| NoStart::Camera {
-        asked: asked.to_owned(),
-        found: match cameras.len() {
-            0 => "none".to_owned(),
-            1 => "camera 0 alone".to_owned(),
-            count => format!("those from 0 to {}", count - 1),
-        },
-    })
-}
 
 /// Standpoint from which a scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +17,18 @@ pub enum Standpoint {
 }
 
 impl Standpoint {
+    /// The standpoint that the command's options ask for, in an image of `aspect` = width / height.
+    ///
+    /// # Errors
+    /// If the scene has no such camera, or the options describe no view.
+    pub fn asked(args: &CameraArgs, cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Result<Self, Usage> {
+        if let Some(view) = view::describe(args, cameras, bounds, aspect)? {
+            return Ok(Self::Free(Turntable::aimed(&view.camera, view.target, bounds)));
+        }
+        let index = args.camera.as_deref().map(|asked| view::find(asked, cameras));
+        Ok(Self::Camera(index.transpose()?.unwrap_or(0)))
+    }
+
     /// The standpoint of a newly opened scene: its first camera, or a view of the whole scene if it has none.
     pub fn first(cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Self {
         if cameras.is_empty() { Self::Free(Turntable::fitting(bounds, aspect)) } else { Self::Camera(0) }
@@ -115,7 +66,8 @@ impl Standpoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DMat3;
+    use glam::{DMat3, DVec3};
+    use gpc::camera::Orbit;
     use gpc::scene::SceneProjection;
 
     const BOUNDS: Bounds = (DVec3::ZERO, DVec3::ONE);
@@ -129,29 +81,55 @@ mod tests {
         }
     }
 
+    fn turntable(args: &CameraArgs) -> Turntable {
+        match Standpoint::asked(args, &[camera("left")], BOUNDS, 1.0) {
+            Ok(Standpoint::Free(turntable)) => turntable,
+            other => panic!("{other:?}"),
+        }
+    }
+
     #[test]
     fn cameras_are_found_by_name_or_index() {
-        let cameras = [camera("left"), camera("0")];
         let find = |asked: &str| {
-            let start = Start::Camera(asked.to_owned());
-            start.standpoint(&cameras, BOUNDS, 1.0)
+            let args = CameraArgs { camera: Some(asked.to_owned()), ..CameraArgs::default() };
+            Standpoint::asked(&args, &[camera("left"), camera("0")], BOUNDS, 1.0)
         };
         assert_eq!(find("left").unwrap(), Standpoint::Camera(0));
         assert_eq!(find("0").unwrap(), Standpoint::Camera(1));
         assert_eq!(find("1").unwrap(), Standpoint::Camera(1));
-        for asked in ["2", "all", "-1"] {
+        for asked in ["2", "-1"] {
             let error = find(asked).unwrap_err().to_string();
-            assert!(error.contains("from 0 to 1"), "{error}");
+            assert!(error.contains("0 \"left\", 1 \"0\""), "{error}");
         }
     }
 
     #[test]
     fn a_place_without_a_target_looks_at_the_centre() {
-        let start = Start::Place { eye: DVec3::new(0.5, 0.5, 4.0), target: None, fov: 40.0 };
-        let Ok(Standpoint::Free(turntable)) = start.standpoint(&[], BOUNDS, 1.0) else {
-            panic!("a turntable");
-        };
-        assert_eq!(turntable.target, DVec3::splat(0.5));
-        assert!((turntable.distance - 3.5).abs() < 1e-12 && turntable.azimuth.abs() < 1e-9);
+        let place = CameraArgs { eye: Some(DVec3::new(0.5, 0.5, 4.0)), ..CameraArgs::default() };
+        let found = turntable(&place);
+        assert_eq!(found.target, DVec3::splat(0.5));
+        assert!((found.distance - 3.5).abs() < 1e-12 && found.azimuth.abs() < 1e-9);
+    }
+
+    #[test]
+    fn places_and_angles_are_taken_over() {
+        let (eye, target) = (DVec3::new(3.0, 4.0, 5.0), DVec3::new(0.5, 0.25, -1.0));
+        let place = CameraArgs { eye: Some(eye), target: Some(target), fov: Some(30.0), ..CameraArgs::default() };
+        let found = turntable(&place);
+        assert!((found.viewpoint().eye - eye).length() < 1e-9);
+        assert_eq!((found.target, found.fov.round()), (target, 30.0));
+        let nowhere = CameraArgs { target: Some(eye), ..place };
+        assert!(Standpoint::asked(&nowhere, &[], BOUNDS, 1.0).is_err());
+        let orbit = Orbit { azimuth: 100.0, elevation: -20.0, zoom: 2.0, fov: 50.0 };
+        let found = turntable(&CameraArgs {
+            azimuth: Some(orbit.azimuth),
+            elevation: Some(orbit.elevation),
+            zoom: Some(orbit.zoom),
+            fov: Some(orbit.fov),
+            ..CameraArgs::default()
+        });
+        let expected = orbit.frame(BOUNDS.0, BOUNDS.1, 1.0).unwrap();
+        assert!((found.viewpoint().eye - expected.eye).length() < 1e-9);
+        assert!((found.azimuth - 100.0).abs() < 1e-9 && (found.elevation + 20.0).abs() < 1e-9);
     }
 }

@@ -7,41 +7,34 @@ use std::path::{Path, PathBuf};
 /// Extensions of files that scene files refer to. Other programs rarely write such files.
 const BESIDE: [&str; 2] = ["bin", "mtl"];
 
-/// A watch on a scene file, which ends when it is dropped.
-pub struct Watch {
-    _watcher: RecommendedWatcher,
-}
-
-impl Watch {
-    /// Calls `changed` in another thread whenever the scene file, or a data file in its folder, is written or
-    /// replaced.
-    ///
-    /// # Errors
-    /// If the system can't watch the file's folder.
-    pub fn new(path: &Path, changed: impl Fn() + Send + 'static) -> notify::Result<Self> {
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder.to_owned(),
-            _ => PathBuf::from("."),
+/// Calls `changed` in another thread whenever a scene file, or a data file in its folder, is written or replaced, until
+/// the watcher is dropped.
+///
+/// # Errors
+/// If the system can't watch the file's folder.
+pub fn watch(path: &Path, changed: impl Fn() + Send + 'static) -> notify::Result<RecommendedWatcher> {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    let name = path.file_name().map(OsStr::to_owned);
+    let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+        let Ok(event) = event else {
+            return;
         };
-        let name = path.file_name().map(OsStr::to_owned);
-        let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
-            let Ok(event) = event else {
-                return;
-            };
-            let is_ours = |path: &PathBuf| {
-                let beside = path
-                    .extension()
-                    .is_some_and(|extension| BESIDE.iter().any(|known| extension.eq_ignore_ascii_case(known)));
-                path.file_name() == name.as_deref() || beside
-            };
-            if matches!(event.kind, EventKind::Create(_) | EventKind::Modify(_)) && event.paths.iter().any(is_ours) {
-                changed();
-            }
-        })?;
-        // The folder is watched instead of the file, because editors replace files.
-        watcher.watch(&folder, RecursiveMode::NonRecursive)?;
-        Ok(Self { _watcher: watcher })
-    }
+        let is_ours = |path: &PathBuf| {
+            let beside = path
+                .extension()
+                .is_some_and(|extension| BESIDE.iter().any(|known| extension.eq_ignore_ascii_case(known)));
+            path.file_name() == name.as_deref() || beside
+        };
+        if matches!(event.kind, EventKind::Create(_) | EventKind::Modify(_)) && event.paths.iter().any(is_ours) {
+            changed();
+        }
+    })?;
+    // The folder is watched instead of the file, because editors replace files.
+    watcher.watch(&folder, RecursiveMode::NonRecursive)?;
+    Ok(watcher)
 }
 
 #[cfg(test)]
@@ -56,7 +49,7 @@ mod tests {
         let path = folder.path().join("a.gltf");
         std::fs::write(&path, "1").unwrap();
         let (sender, changes) = channel();
-        let _watch = Watch::new(&path, move || {
+        let _watcher = watch(&path, move || {
             let _ = sender.send(());
         })
         .unwrap();

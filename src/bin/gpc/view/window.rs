@@ -2,29 +2,30 @@
 
 use super::app::Event;
 use super::canvas::{Canvas, ShownPicture};
-use super::compose::{self, Magnifier};
+use super::compose;
 use super::cover::Cover;
 use super::device::Device;
 use super::engine::Engine;
 use super::files::scenes_at;
 use super::fly::Flight;
+use super::keys::Action;
 use super::look::Look;
 use super::losses::is_lost;
 use super::notes::Notes;
 use super::open::Loading;
 use super::painter::Painting;
-use super::panel::{self, Facts, LoadingFacts, PhotoFacts, PictureFacts, SceneFacts, Wishes};
 use super::photo::Easel;
 use super::player::Player;
 use super::pointer::Pointer;
 use super::preparer::Preparer;
 use super::source::{Appearance, SceneSource};
-use super::standpoint::{Standpoint, Start};
-use super::watch::Watch;
+use super::standpoint::Standpoint;
 use super::worker::{Made, PictureWorker};
 use super::{NoDisplay, Options, ending};
+use crate::cli::render::args::CameraArgs;
 use gpc::render::HeadlessOptions;
 use gpc::scene::{Moment, SceneCamera};
+use notify::RecommendedWatcher;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -55,8 +56,8 @@ pub struct Viewer {
     /// Number of requests to load a file.
     pub loads: u64,
     pub loaders: Vec<JoinHandle<()>>,
-    /// Watch on the scene's file.
-    pub watch: Option<Watch>,
+    /// Watcher of the scene's file.
+    pub watcher: Option<RecommendedWatcher>,
     /// Time at which to reload the scene.
     pub reload: Option<Instant>,
 
@@ -66,8 +67,8 @@ pub struct Viewer {
     pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
-    /// Standpoint at the start, in the first scene; `None` once it has been used.
-    pub start: Option<Start>,
+    /// Options for the standpoint at the start, in the first scene; `None` once they have been used.
+    pub start: Option<CameraArgs>,
     /// Flight, while keys move the eye.
     pub flight: Option<Flight>,
     /// Antialiasing of the pictures, the left one first.
@@ -146,7 +147,7 @@ impl Viewer {
             loading: None,
             loads: 0,
             loaders: Vec::new(),
-            watch: None,
+            watcher: None,
             reload: None,
             player: None,
             moment: None,
@@ -342,7 +343,7 @@ impl Viewer {
             self.show_time();
         }
         self.fly(now);
-        let (painting, wishes) = self.lay_out(now);
+        let (painting, asked) = self.lay_out(now);
         let aspect = self.aspect();
         let camera = match self.canvas.stage() {
             Some(stage) => Some(self.standpoint.camera(self.cameras(), stage.bounds, aspect)?),
@@ -350,17 +351,9 @@ impl Viewer {
         };
         let size = self.pixels();
         let split = self.split_column();
-        let magnified = self.magnifier.map_or_else(Vec::new, |factor| {
-            let place = self.pointer.place().max(glam::DVec2::ZERO);
-            let magnifier = Magnifier {
-                centre: [
-                    (place.x as u32).min(size[0].saturating_sub(1)),
-                    (place.y as u32).min(size[1].saturating_sub(1)),
-                ],
-                factor,
-            };
-            compose::magnified(size, split, magnifier)
-        });
+        let magnified = self
+            .magnifier
+            .map_or_else(Vec::new, |factor| compose::magnified(size, split, self.pointer.place(), factor));
         let seen = ShownPicture {
             camera: camera.as_ref(),
             moment: self.moment.as_ref(),
@@ -370,59 +363,16 @@ impl Viewer {
         if let Err(error) = self.canvas.draw(acquired, &seen, painting, now) {
             self.report(error)?;
         }
-        self.fulfil(wishes)
+        asked.into_iter().try_for_each(|action| self.act(action))
     }
 
-    /// Lays out the panel.
-    fn lay_out(&mut self, now: Instant) -> (Painting, Wishes) {
+    /// Lays out the panel. Returns the layout, and what the user asked for.
+    fn lay_out(&mut self, now: Instant) -> (Painting, Vec<Action>) {
+        self.notes.expire(now);
         let input = self.interface.take_egui_input(&self.window);
         let context = self.interface.egui_ctx().clone();
-        let names = self.loading.as_ref().map(|loading| {
-            let since = now.saturating_duration_since(loading.since);
-            (loading.source.name(), since, loading.progress.step())
-        });
-        let split = self.split_column();
-        let facts = Facts {
-            notes: self.notes.seen(now),
-            loading: names.as_ref().map(|(name, since, (step, share))| LoadingFacts {
-                name,
-                since: *since,
-                step: step.name(),
-                share: *share,
-            }),
-            shows_keys: self.shows_keys,
-            shows_panel: self.shows_panel,
-            split,
-            lenses: &self.cover.lenses,
-            tints: self.cover.tints,
-            overlay: self.cover.overlay,
-            figures: self.cover_figures.as_deref(),
-            is_refining: !self.cover.is_done(),
-            photo: self.easel.as_ref().map(|easel| PhotoFacts {
-                name: self.source.name(),
-                size: easel.photo.photograph().size(),
-                is_zoomed: easel.photo.zoomed().is_some(),
-            }),
-            scene: self.canvas.stage().map(|stage| SceneFacts {
-                name: stage.source.name(),
-                warnings: &stage.warnings,
-                triangles: stage.prepared.triangle_count(),
-                motion: self.player.as_ref().map(|player| (stage.animations.as_slice(), stage.animation(), player)),
-            }),
-            pictures: self
-                .canvas
-                .layers()
-                .iter()
-                .map(|layer| PictureFacts {
-                    look: &layer.look,
-                    shown: layer.shown,
-                    is_prepared: !layer.is_waiting(),
-                    statistics: &layer.statistics,
-                })
-                .collect(),
-        };
-        let mut wishes = Wishes::default();
-        let output = context.run(input, |context| wishes = panel::show(context, &facts));
+        let mut asked = Vec::new();
+        let output = context.run(input, |context| asked = self.show_interface(context, now));
         self.interface.handle_platform_output(&self.window, output.platform_output);
         let again = output
             .viewport_output
@@ -434,7 +384,7 @@ impl Viewer {
             primitives: context.tessellate(output.shapes, output.pixels_per_point),
             pixels_per_point: output.pixels_per_point,
         };
-        (painting, wishes)
+        (painting, asked)
     }
 
     /// The scene's cameras at the time that is shown.

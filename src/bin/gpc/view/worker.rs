@@ -9,10 +9,12 @@ use super::band::{BandHeights, ROW_STEP, Took};
 use super::engine::Engine;
 use super::overlay::{self, COUNT_SIDE, Overlay};
 use super::photo::PhotoView;
-use super::source::{LoadedScene, bounds};
+use super::requests::Requests;
+use super::source::LoadedScene;
 use super::standpoint::Standpoint;
 use super::stop::Stop;
 use super::tint::tinted;
+use crate::cli::render::view::bounds;
 use anyhow::Context;
 use glam::DVec2;
 use gpc::camera::Pinhole;
@@ -28,8 +30,6 @@ use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
 use std::time::Instant;
 
 /// Rows of the first band of a picture that takes long. Later bands depend on the time that the earlier ones took. Between
@@ -156,20 +156,19 @@ pub enum Made {
 }
 
 impl Made {
-    /// The error, if the order failed.
-    fn error(&self) -> Option<&anyhow::Error> {
-        match self {
+    /// Whether the order was stopped before it was carried out.
+    fn is_stopped(&self) -> bool {
+        let error = match self {
             Self::Pixels(_, made) => made.as_ref().err(),
             Self::File(_, made) => made.as_ref().err(),
-        }
+        };
+        error.is_some_and(|error| matches!(error.downcast_ref(), Some(RenderError::Stopped)))
     }
 }
 
 /// Thread that carries out orders until this is dropped, which stops the current one.
 pub struct PictureWorker {
-    /// Channel to the thread; `None` only in `Drop`.
-    orders: Option<Sender<Order>>,
-    thread: Option<JoinHandle<()>>,
+    orders: Requests<Order>,
     /// Flag that stops the last picture for the window.
     picture: Stop,
     /// Files that were ordered and are not yet written, with the flags that stop them.
@@ -179,9 +178,17 @@ pub struct PictureWorker {
 impl PictureWorker {
     /// Starts the thread, which passes results to `deliver`. All scenes of its orders are on the same device.
     pub fn new(deliver: impl Fn(Made) + Send + 'static) -> Self {
-        let (orders, received) = channel();
-        let thread = std::thread::spawn(move || Maker::default().run(&received, deliver));
-        Self { orders: Some(orders), thread: Some(thread), picture: Stop::default(), files: Vec::new() }
+        let mut maker = Maker::default();
+        let orders = Requests::new(move |order: Order| {
+            if order.stop.is_superseded() {
+                return;
+            }
+            let made = maker.make(&order);
+            if !made.is_stopped() {
+                deliver(made);
+            }
+        });
+        Self { orders, picture: Stop::default(), files: Vec::new() }
     }
 
     /// Orders a picture. An order for the window supersedes earlier ones.
@@ -191,11 +198,7 @@ impl PictureWorker {
             Some(path) => self.files.push((path.to_owned(), stop.clone())),
             None => std::mem::replace(&mut self.picture, stop.clone()).supersede(),
         }
-        let order = Order { number, task, stop };
-        if let Some(orders) = &self.orders {
-            // Sending can't fail: the thread ends only when this sender is dropped.
-            let _ = orders.send(order);
-        }
+        self.orders.send(Order { number, task, stop });
     }
 
     /// Marks the last picture for the window as superseded.
@@ -220,13 +223,8 @@ impl PictureWorker {
 
 impl Drop for PictureWorker {
     fn drop(&mut self) {
-        self.orders = None;
         self.picture.stop();
         self.stop_files();
-        if let Some(thread) = self.thread.take() {
-            // The thread has reported its own panic.
-            let _ = thread.join();
-        }
     }
 }
 
@@ -254,20 +252,7 @@ struct Shown<'a> {
 }
 
 impl Maker {
-    fn run(&mut self, orders: &Receiver<Order>, deliver: impl Fn(Made)) {
-        for order in orders {
-            if order.stop.is_superseded() {
-                continue;
-            }
-            let made = self.make(&order);
-            if made.error().is_some_and(is_stopped) {
-                continue;
-            }
-            deliver(made);
-        }
-    }
-
-    /// Makes a picture. If it is stopped, [`is_stopped`] is true for the error.
+    /// Carries out an order.
     fn make(&mut self, order: &Order) -> Made {
         let number = order.number;
         let task = match &order.task {
@@ -278,7 +263,8 @@ impl Maker {
                 return Made::Pixels(number, Ok(pixels));
             }
             Task::PhotoFile(view, path) => {
-                return Made::File(path.clone(), write_photo(view, path));
+                let written = write_png(path, view.window.size, &view.pixels(), view.map.as_ref());
+                return Made::File(path.clone(), written);
             }
         };
         if let Err(error) = self.listen(task, &order.stop) {
@@ -289,7 +275,7 @@ impl Maker {
             Subject::File(path, map) => {
                 return Made::File(path.clone(), self.write(task, path, map.as_ref()));
             }
-            Subject::Still => self.still(task),
+            Subject::Still => self.scenery(task).map(|rendered| Pixels::new(rendered.size, &rendered.colors)),
             Subject::Zoom(map, tints) => self.zoom(task, map, *tints),
             Subject::Overlay(Overlay::Stored(kind)) => self.stored(task, *kind),
             Subject::Overlay(Overlay::Triangles) => self.triangles(task),
@@ -319,11 +305,6 @@ impl Maker {
             None => self.scenery(task)?,
         };
         write_png(path, rendered.size, &rendered.colors, map)
-    }
-
-    fn still(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
-        let rendered = self.scenery(task)?;
-        Ok(Pixels::new(rendered.size, &rendered.colors))
     }
 
     /// The scene over its background.
@@ -487,10 +468,6 @@ impl Maker {
     }
 }
 
-fn write_photo(view: &PhotoView, path: &Path) -> anyhow::Result<()> {
-    write_png(path, view.window.size, &view.pixels(), view.map.as_ref())
-}
-
 /// Writes a PNG that also stores its enlarged regions.
 fn write_png(path: &Path, size: [u32; 2], colors: &[[f32; 4]], map: Option<&ZoomMap>) -> anyhow::Result<()> {
     let mut bytes = output::encode(Format::Png8, &Picture::new(size, colors)?, &[])?;
@@ -505,15 +482,11 @@ fn camera(task: &SceneTask, pose: &Pose) -> anyhow::Result<gpc::camera::Camera> 
     Ok(task.standpoint.camera(&pose.cameras, bounds(pose), width / height)?)
 }
 
-/// Whether an error means that the picture was stopped.
-fn is_stopped(error: &anyhow::Error) -> bool {
-    matches!(error.downcast_ref::<RenderError>(), Some(RenderError::Stopped))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::photo::{Easel, Photo};
     use super::*;
+    use std::sync::mpsc::channel;
     use std::time::Duration;
 
     const LONG: Duration = Duration::from_secs(60);

@@ -1,8 +1,7 @@
 //! Projectors from files.
 
 use super::ProjectArgs;
-use crate::cli::csv;
-use crate::cli::exit::Usage;
+use crate::cli::{csv, values};
 use anyhow::Context;
 use gpc::camera::projector::{Correspondence, Homography, Projector};
 use gpc::output::{self, OutputError};
@@ -24,18 +23,7 @@ pub struct HomographyFit {
 
 /// The projectors that the options name.
 pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
-    let count = args.projector.len();
-    let sizes = match args.projector_size.as_slice() {
-        [size] => vec![*size; count],
-        sizes if sizes.len() == count => sizes.to_vec(),
-        sizes => {
-            return Err(Usage(format!(
-                "{count} --projector and {} --projector-size; give one for all or one for each",
-                sizes.len()
-            ))
-            .into());
-        }
-    };
+    let sizes = values::each("--projector", args.projector.len(), "--projector-size", &args.projector_size)?;
     let projectors = args.projector.iter().zip(sizes);
     projectors
         .map(|(path, size)| {

@@ -123,7 +123,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
             mean_weight: sum / weights.len().max(1) as f64,
             weights: weights_path.map(|path| path.display().to_string()),
         };
-        let effort = stage.effort(&shot);
+        let effort = shot.effort(&stage.settings);
         log::info!(
             "{}: {}x{}, {} superpixels, mean weight {:.3}",
             path.display(),

@@ -1,14 +1,14 @@
 //! The options that are common to all commands which make an image of a scene.
 
 use super::args::{CameraArgs, SamplingArgs, Tonemap};
-use super::save::check_folder;
-use crate::cli::exit::{Usage, usage};
+use super::save::format_of;
+use crate::cli::exit::usage;
 use crate::cli::input;
 use crate::cli::values::{self, Background, EdgeLines};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use gpc::output::{AovKind, Format};
-use gpc::render::{MethodKind, Reference, Settings, Shadows};
-use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, PoseRequest, SceneError};
+use gpc::render::{HeadlessOptions, Reference, Settings, Shadows};
+use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub struct ImageArgs {
     ///
     /// In an EXR they are layers besides the colours. Otherwise each is a PNG beside OUT, named like OUT with .depth (and so on) before
     /// .png.
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true)]
     pub aov: Vec<AovKind>,
 
     #[command(flatten)]
@@ -118,31 +118,25 @@ pub struct DeviceArgs {
     pub max_memory: Option<u64>,
 }
 
-impl ImageArgs {
-    /// Checks the number of samples against the method, as far as that is independent of the device.
-    pub fn check_samples(&self) -> Result<(), Usage> {
-        match (self.sampling.aa, self.sampling.samples()) {
-            (MethodKind::None, samples) if samples != 1 => {
-                Err(Usage(format!("none can't have {samples} samples a pixel; it can have 1")))
-            }
-            _ => Ok(()),
-        }
+impl DeviceArgs {
+    /// Options for opening the device. `GPC_VALIDATION` turns the validation layer on.
+    pub fn options(&self) -> HeadlessOptions {
+        let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
+        HeadlessOptions::default().device(self.name.clone()).validation(validation)
     }
+}
 
+impl ImageArgs {
     /// Checks the options against each other, and returns the format of OUT.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
-        self.check_samples()?;
-        if input::is_standard(output) {
-            if !self.aov.is_empty() {
-                usage!("--aov writes files named after OUT, and -o - has no name");
-            }
-            return Ok(Format::Png8);
+        self.sampling.check()?;
+        if input::is_standard(output) && !self.aov.is_empty() {
+            usage!("--aov writes files named after OUT, and -o - has no name");
         }
-        let format = Format::of(output).map_err(|error| Usage(format!("-o {error}")))?;
+        let format = format_of(output)?;
         if format.is_scene_linear() && self.tonemap == Some(Tonemap::Neutral) {
             usage!("--tonemap neutral: an EXR holds light that is not tone-mapped");
         }
-        check_folder(output)?;
         Ok(format)
     }
 
@@ -167,10 +161,7 @@ impl ImageArgs {
         let settings = Settings::new(width, height)
             .method(self.sampling.method(self.sampling.samples()))
             .footprint(self.sampling.footprint)
-            .background(match self.background {
-                Background::Transparent | Background::Environment => None,
-                Background::Color(color) => Some(values::linear(color)),
-            })
+            .background(self.background.color())
             .reference(if tonemaps && !format.is_scene_linear() {
                 Reference::Display
             } else {
@@ -183,21 +174,16 @@ impl ImageArgs {
 
     /// The AOVs to write, without duplicates.
     pub fn aovs(&self) -> Vec<AovKind> {
-        let asked = |kind: &AovKind| self.aov.contains(kind);
-        AovKind::ALL.into_iter().filter(asked).collect()
+        AovKind::value_variants().iter().copied().filter(|kind| self.aov.contains(kind)).collect()
     }
 
     /// The scene's pose at a time in seconds.
     pub fn pose(&self, loaded: &Loaded, time: f64) -> Result<Pose, SceneError> {
-        loaded.scene.pose(&self.request(time))
+        loaded.scene.pose(&self.camera.request(time))
     }
 
     /// The scene's pose at a time in seconds, and how it moves from then on.
     pub fn pose_in_motion(&self, loaded: &Loaded, time: f64) -> Result<(Pose, Motion), SceneError> {
-        loaded.scene.pose_in_motion(&self.request(time))
-    }
-
-    fn request(&self, time: f64) -> PoseRequest {
-        PoseRequest { scene: self.camera.scene, animation: self.camera.animation.clone(), time }
+        loaded.scene.pose_in_motion(&self.camera.request(time))
     }
 }

@@ -10,10 +10,10 @@ mod session;
 mod startup;
 mod template;
 mod unseen;
-mod view;
+pub mod view;
 
-pub use save::{beside, check_folder, encode, save, write};
-pub use session::{RenderedImage, open_beside, upload};
+pub use save::{beside, check_folder, encode, format_of, save, write};
+pub use session::{RenderedImage, check_validation, open_beside, upload};
 pub use view::{NamedView, choose as choose_views};
 
 use super::exit::{Usage, usage};
@@ -24,7 +24,7 @@ use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::{Method, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
-use report::{ImageReport, Origin};
+use report::ImageReport;
 use sequence::SequenceFrame;
 use serde::Serialize;
 use session::{Session, Shot};
@@ -55,7 +55,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let stem = input::stem(&args.scene);
 
     let mut warnings = Warnings::default();
-    let (headless, (mut film, cameras)) = session::open_beside(image.device.name.clone(), || {
+    let (headless, (mut film, cameras)) = session::open_beside(&image.device.options(), || {
         let loaded = image.load(&args.scene)?;
         clock.lap("load");
         warnings.add(&loaded.warnings);
@@ -80,7 +80,6 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         && image.background != Background::Environment
         && !matches!(settings.method, Method::Accumulate { .. });
     let mut session = Session::new(headless, settings.clone(), reads_codes);
-    let device = session.device();
     let mut video = args
         .format
         .map(|stream| {
@@ -96,12 +95,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
             let camera = view.turned(step.turn);
             let mut shot = session.shoot(&camera, args.repeat)?;
             // A part of an image may rightly be empty.
-            if args.region.is_none() {
-                let warning = match &shot {
-                    Shot::Light(shot) => warn(&shot.rendered.colors, &view, &film, aspect),
-                    Shot::Codes(shot) => warn(&shot.rendered.colors, &view, &film, aspect),
-                };
-                warnings.add(warning.as_slice());
+            if args.region.is_none() && shot.is_uniform() {
+                warnings.add(&[unseen::warning(&view, &film.pose, film.cameras(), aspect)]);
             }
             if let (Shot::Light(shot), Background::Environment, Some(environment)) =
                 (&mut shot, image.background, film.environment())
@@ -118,38 +113,21 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 (Shot::Codes(shot), _) => save::save_codes(&path, &shot.rendered, &aovs)?,
             }
             clock.lap("write");
-            let origin = Origin {
-                output: path.display().to_string(),
-                device: &device,
-                settings: &settings,
-                view: &view,
-                camera: &camera,
-                startup: clock.finish().filter(|_| args.repeat.is_none()),
-                warnings: warnings.0.clone(),
-            };
-            let report = match &shot {
-                Shot::Light(shot) => ImageReport::new(origin, shot),
-                Shot::Codes(shot) => ImageReport::new(origin, shot),
-            };
+            let startup = clock.finish().filter(|_| args.repeat.is_none());
+            let (seen, effort, warnings) = ((&view, &camera), shot.effort(&settings), warnings.0.clone());
+            let report = ImageReport::new(&path, session.device(), &settings, seen, effort, startup, warnings);
             progress.suspend(|| log::info!("{}", report.line()));
             progress.inc(1);
             images.push(report);
         }
     }
     progress.finish_and_clear();
-    if let Some(message) = session.validation_messages().first() {
-        anyhow::bail!("the validation layer says: {message}");
-    }
+    session.finish()?;
     match images.as_slice() {
         [image] if args.sequence.shard.is_none() => args.report.print(image)?,
         _ => args.report.print(&SequenceReport { images })?,
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Warning about an image that shows nothing.
-fn warn<P: PartialEq>(colors: &[P], view: &NamedView, film: &Film<'_>, aspect: f64) -> Option<String> {
-    unseen::warning(colors, view, &film.pose, film.cameras(), aspect)
 }
 
 /// Settings and format of the images, checked against each other.

@@ -1,13 +1,13 @@
 //! Report on an image.
 
-use super::session::RenderedImage;
-use super::startup::StartUp;
 use super::view::NamedView;
-use crate::cli::report::{DeviceReport, Effort, RenderWork};
+use crate::cli::report::{DeviceReport, Effort};
 use gpc::camera::{Camera, Projection};
-use gpc::render::Settings;
+use gpc::render::{PixelRect, Settings};
 use gpc::sampling::PixelFilter;
 use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Figures of one image.
 #[derive(Serialize)]
@@ -25,9 +25,9 @@ pub struct ImageReport {
     filter: Option<FilterReport>,
     #[serde(flatten)]
     effort: Effort,
-    /// Times of the start-up, reported with the first image only; `None` for repeated renderings.
+    /// Milliseconds of the steps of the start-up, reported with the first image only; `None` for repeated renderings.
     #[serde(skip_serializing_if = "Option::is_none")]
-    startup_ms: Option<StartUp>,
+    startup_ms: Option<BTreeMap<&'static str, f64>>,
     warnings: Vec<String>,
 }
 
@@ -66,43 +66,29 @@ struct CameraReport {
     fov: Option<f64>,
 }
 
-/// Where an image came from and where it is written.
-pub struct Origin<'a> {
-    pub output: String,
-    pub device: &'a DeviceReport,
-    pub settings: &'a Settings,
-    pub view: &'a NamedView,
-    /// The camera of the image, turntable rotation included.
-    pub camera: &'a Camera,
-    pub startup: Option<StartUp>,
-    pub warnings: Vec<String>,
-}
-
 impl ImageReport {
-    pub fn new<P>(origin: Origin<'_>, shot: &RenderedImage<P>) -> Self {
-        let size = origin.settings.output_size();
-        let [width, height] = origin.settings.size.map(f64::from);
+    /// Figures of an image that `camera` made, which is `view` with the rotation of a turntable.
+    pub fn new(
+        output: &Path,
+        device: DeviceReport,
+        settings: &Settings,
+        (view, camera): (&NamedView, &Camera),
+        effort: Effort,
+        startup_ms: Option<BTreeMap<&'static str, f64>>,
+        warnings: Vec<String>,
+    ) -> Self {
+        let [width, height] = settings.size.map(f64::from);
+        let region = |region: PixelRect| RegionReport { corner: region.corner, image: settings.size };
         Self {
-            output: origin.output,
-            device: origin.device.clone(),
-            size,
-            region: origin
-                .settings
-                .region
-                .map(|region| RegionReport { corner: region.corner, image: origin.settings.size }),
-            camera: describe(origin.camera, origin.view, width / height),
-            filter: FilterReport::of(origin.settings.pixel_filter),
-            effort: Effort::new(
-                origin.settings,
-                &RenderWork {
-                    statistics: &shot.rendered.statistics,
-                    cells: u64::from(size[0]) * u64::from(size[1]),
-                    passes: &shot.passes,
-                    wall_ms: &shot.wall_ms,
-                },
-            ),
-            startup_ms: origin.startup,
-            warnings: origin.warnings,
+            output: output.display().to_string(),
+            device,
+            size: settings.output_size(),
+            region: settings.region.map(region),
+            camera: describe(camera, view, width / height),
+            filter: FilterReport::of(settings.pixel_filter),
+            effort,
+            startup_ms,
+            warnings,
         }
     }
 

@@ -1,6 +1,8 @@
 //! Writing an image and its AOVs to files.
 
+use crate::cli::exit::Usage;
 use crate::cli::{input, print};
+use gpc::names::name;
 use gpc::output::{self, Aov, AovKind, Format, Picture};
 use gpc::render::Rendered;
 use std::path::{Path, PathBuf};
@@ -40,7 +42,7 @@ fn aovs<P>(rendered: &Rendered<P>, kinds: &[AovKind]) -> Vec<Aov> {
 fn save_aovs<P>(path: &Path, format: Format, rendered: &Rendered<P>, aovs: &[Aov]) -> anyhow::Result<()> {
     for aov in aovs {
         let bytes = output::encode_aov(rendered.size, aov)?;
-        output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
+        output::write_atomically(&beside(path, format, &name(&aov.kind())), &bytes)?;
     }
     Ok(())
 }
@@ -51,6 +53,16 @@ pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
         return print::bytes(bytes);
     }
     Ok(output::write_atomically(path, bytes)?)
+}
+
+/// Format of an output file, or of standard output for `-`. Fails if the file's folder does not exist.
+pub fn format_of(path: &Path) -> anyhow::Result<Format> {
+    if input::is_standard(path) {
+        return Ok(Format::Png8);
+    }
+    let format = Format::of(path).map_err(|error| Usage(format!("-o {error}")))?;
+    check_folder(path)?;
+    Ok(format)
 }
 
 /// Fails if the folder of an output file does not exist, before work is done for that file. A folder whose name has

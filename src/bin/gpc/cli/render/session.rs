@@ -1,14 +1,13 @@
 //! A device with one scene on it, rendering image after image.
 
 use super::startup::Clock;
-use crate::cli::report::DeviceReport;
+use crate::cli::report::{DeviceReport, Effort};
 use gpc::camera::Camera;
 use gpc::render::{
     Headless, HeadlessOptions, Method, PassTime, Pixel, PreparedScene, RenderError, Rendered, SceneFrame, SceneRequest,
     Settings, Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
-use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -36,24 +35,56 @@ pub struct RenderedImage<P = [f32; 4]> {
     pub wall_ms: Vec<f64>,
 }
 
-/// Opens the best device, or one by part of its name. `GPC_VALIDATION` turns the validation layer on.
-fn open(device: Option<String>) -> Result<Headless, VulkanError> {
-    let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
-    Headless::new(&HeadlessOptions::default().device(device).validation(validation))
+impl Shot {
+    /// Work and time that the image took, with the settings that it was rendered with.
+    pub fn effort(&self, settings: &Settings) -> Effort {
+        match self {
+            Self::Light(shot) => shot.effort(settings),
+            Self::Codes(shot) => shot.effort(settings),
+        }
+    }
+
+    /// Whether all pixels have the same colour.
+    pub fn is_uniform(&self) -> bool {
+        match self {
+            Self::Light(shot) => is_uniform(&shot.rendered.colors),
+            Self::Codes(shot) => is_uniform(&shot.rendered.colors),
+        }
+    }
 }
 
-/// Opens a device as [`open`] does, while `load` runs in parallel. If both fail, the error is that of `load`.
+fn is_uniform<P: PartialEq>(colors: &[P]) -> bool {
+    colors.iter().all(|color| Some(color) == colors.first())
+}
+
+impl<P> RenderedImage<P> {
+    /// Work and time that the image took, with the settings that it was rendered with.
+    pub fn effort(&self, settings: &Settings) -> Effort {
+        let Rendered { colors, statistics, .. } = &self.rendered;
+        Effort::new(settings, statistics, colors.len(), &self.passes, &self.wall_ms)
+    }
+}
+
+/// Opens a device while `load` runs in parallel. If both fail, the error is that of `load`.
 pub fn open_beside<T>(
-    device: Option<String>,
+    device: &HeadlessOptions,
     load: impl FnOnce() -> anyhow::Result<T>,
 ) -> anyhow::Result<(Headless, T)> {
     std::thread::scope(|threads| {
-        let headless = threads.spawn(|| open(device));
+        let headless = threads.spawn(|| Headless::new(device));
         let loaded = load();
         let headless = headless.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         let loaded = loaded?;
         Ok((headless?, loaded))
     })
+}
+
+/// Fails if the validation layer is on and has reported a message.
+pub fn check_validation(headless: &Headless) -> anyhow::Result<()> {
+    match headless.validation_messages().first() {
+        Some(message) => anyhow::bail!("the validation layer says: {message}"),
+        None => Ok(()),
+    }
 }
 
 /// Triangles of the scene for each pixel of the image from which superpixels are likely to take longer than brute force
@@ -161,8 +192,8 @@ impl Session {
         }
     }
 
-    /// Messages of the validation layer, if it runs.
-    pub fn validation_messages(&self) -> Vec<String> {
-        self.headless.validation_messages()
+    /// Fails if the validation layer is on and has reported a message.
+    pub fn finish(&self) -> anyhow::Result<()> {
+        check_validation(&self.headless)
     }
 }

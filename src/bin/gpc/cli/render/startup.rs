@@ -1,24 +1,17 @@
 //! Times of the steps up to the first image.
 
-use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// A clock that times the steps until the first image is done.
+/// A clock that times the steps until the first image is done. The steps are `load` (reading the scene and decoding its
+/// images), `pose`, `device` (the time by which opening the device outlasts loading and posing, which run in parallel),
+/// `upload`, `pipelines`, `frame` (some drivers compile kernels in it, when they first run) and `write`.
 pub struct Clock {
     start: Instant,
     last: Instant,
     /// Milliseconds by step; `None` once [`Self::finish`] has returned them.
     laps: Option<BTreeMap<&'static str, f64>>,
 }
-
-/// Wall-clock milliseconds of each step from the start of the command to the first image, and their sum, `total`. The
-/// steps are `load` (reading the scene and decoding its images), `pose`, `device` (the time by which opening the
-/// device outlasts loading and posing, which run in parallel), `upload`, `pipelines`, `frame` (some drivers compile
-/// kernels in it, when they first run) and `write`.
-#[derive(Serialize)]
-#[serde(transparent)]
-pub struct StartUp(BTreeMap<&'static str, f64>);
 
 impl Clock {
     pub fn start() -> Self {
@@ -35,11 +28,11 @@ impl Clock {
         self.last = now;
     }
 
-    /// Times of all steps up to the first image; `None` from the second call on.
-    pub fn finish(&mut self) -> Option<StartUp> {
+    /// Wall-clock milliseconds of all steps up to the first image, and their sum, `total`; `None` from the second call on.
+    pub fn finish(&mut self) -> Option<BTreeMap<&'static str, f64>> {
         let total = 1e3 * (self.last - self.start).as_secs_f64();
         let mut laps = self.laps.take()?;
         laps.insert("total", total);
-        Some(StartUp(laps))
+        Some(laps)
     }
 }

@@ -5,21 +5,11 @@ use glam::DVec3;
 use gpc::camera::Camera;
 use gpc::scene::{Pose, SceneCamera};
 
-/// A warning if all pixels have the same colour, which means that nothing of the scene is in view. The warning names
-/// cameras that see the scene. `aspect` is width / height.
-pub fn warning<P: PartialEq>(
-    colors: &[P],
-    view: &NamedView,
-    pose: &Pose,
-    cameras: &[SceneCamera],
-    aspect: f64,
-) -> Option<String> {
-    let first = colors.first()?;
-    if !colors.iter().all(|color| color == first) {
-        return None;
-    }
+/// A warning about an image whose pixels all have the same colour, which means that nothing of the scene is in view. The
+/// warning names cameras that see the scene. `aspect` is width / height.
+pub fn warning(view: &NamedView, pose: &Pose, cameras: &[SceneCamera], aspect: f64) -> String {
     if pose.geometry.bounds().is_none() {
-        return Some("the image is empty, like the scene; `gpc info` lists what the file has".to_owned());
+        return "the image is empty, like the scene; `gpc info` lists what the file has".to_owned();
     }
     let geometry = pose.geometry.flat();
     let points = || geometry.positions.iter().map(|p| DVec3::from_array(p.map(f64::from)) + geometry.origin);
@@ -48,7 +38,7 @@ pub fn warning<P: PartialEq>(
         0 => "see `gpc info` for what the scene holds".to_owned(),
         _ => format!("try {}", ways.join(", or ")),
     };
-    Some(format!("camera {}: {found}; {ways}", view.label))
+    format!("camera {}: {found}; {ways}", view.label)
 }
 
 /// Whether a point lies in front of a camera and within the sides of its image.

@@ -35,12 +35,8 @@ pub fn choose_among(
     bounds: (DVec3, DVec3),
     aspect: f64,
 ) -> Result<Vec<NamedView>, Usage> {
-    if let Some(eye) = args.eye {
-        return Ok(vec![stand_at(eye, args, bounds)?]);
-    }
-    let orbits = args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some();
-    if orbits || (args.camera.is_none() && cameras.is_empty()) {
-        return Ok(vec![orbit(args, bounds, aspect)?]);
+    if let Some(view) = describe(args, cameras, bounds, aspect)? {
+        return Ok(vec![view]);
     }
     let indices = match args.camera.as_deref() {
         None => vec![0],
@@ -67,6 +63,23 @@ pub fn choose_among(
         .collect()
 }
 
+/// The camera that the options describe; `None` if they ask for one of `cameras`.
+pub fn describe(
+    args: &CameraArgs,
+    cameras: &[SceneCamera],
+    bounds: (DVec3, DVec3),
+    aspect: f64,
+) -> Result<Option<NamedView>, Usage> {
+    if let Some(eye) = args.eye {
+        return stand_at(eye, args, bounds).map(Some);
+    }
+    let orbits = args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some();
+    if orbits || (args.camera.is_none() && cameras.is_empty()) {
+        return orbit(args, bounds, aspect).map(Some);
+    }
+    Ok(None)
+}
+
 fn stand_at(eye: DVec3, args: &CameraArgs, (low, high): (DVec3, DVec3)) -> Result<NamedView, Usage> {
     let viewpoint = Viewpoint {
         eye,
@@ -90,7 +103,8 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
     Ok(NamedView { label: NamedView::ORBIT.to_owned(), camera, target: 0.5 * (low + high) })
 }
 
-fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
+/// Index of the camera with this name or index.
+pub fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
     if let Some(index) = SceneCamera::find(cameras, asked) {
         return Ok(index);
     }

@@ -1,5 +1,6 @@
 //! Work and time that an image took.
 
+use crate::cli::bench::Spread;
 use gpc::render::{PassTime, Settings, Statistics, TriangleCounts};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -45,32 +46,27 @@ struct SkippedTriangles {
     untouching: u64,
 }
 
-/// The renderings of one image, from which its effort is computed.
-pub struct RenderWork<'a> {
-    /// Statistics of the last rendering.
-    pub statistics: &'a Statistics,
-    /// Number of pixels or locations.
-    pub cells: u64,
-    /// Times of the passes, a list for each rendering.
-    pub passes: &'a [Vec<PassTime>],
-    /// Wall-clock milliseconds of each rendering.
-    pub wall_ms: &'a [f64],
-}
-
 impl Effort {
-    pub fn new(settings: &Settings, work: &RenderWork<'_>) -> Self {
-        let statistics = work.statistics;
+    /// Effort of an image of `cells` pixels or locations: statistics of its last rendering, and for each rendering the times of
+    /// the passes and the wall-clock milliseconds.
+    pub fn new(
+        settings: &Settings,
+        statistics: &Statistics,
+        cells: usize,
+        passes: &[Vec<PassTime>],
+        wall_ms: &[f64],
+    ) -> Self {
         Self {
             samples: settings.method.samples(),
             superpixels: Superpixels {
                 count: statistics.superpixels,
-                fraction: statistics.superpixels as f64 / work.cells.max(1) as f64,
+                fraction: statistics.superpixels as f64 / cells.max(1) as f64,
                 resampled: statistics.resampled,
                 visibility_samples: statistics.visibility_samples,
             },
             triangles: count(&statistics.triangles),
-            gpu_ms: medians(work.passes),
-            wall_ms: median(work.wall_ms.to_vec()),
+            gpu_ms: medians(passes),
+            wall_ms: Spread::of(wall_ms.iter().copied()).median,
             memory_bytes: statistics.memory_bytes,
         }
     }
@@ -107,19 +103,7 @@ fn medians(renderings: &[Vec<PassTime>]) -> BTreeMap<&'static str, f64> {
             times.entry(pass).or_default().push(sum);
         }
     }
-    let median = |(pass, times)| (pass, median(times));
-    times.into_iter().map(median).collect()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    let upper = values.get(middle).copied().unwrap_or_default();
-    if values.len() % 2 == 1 {
-        return upper;
-    }
-    let lower = values.get(middle.wrapping_sub(1)).copied();
-    0.5 * (lower.unwrap_or_default() + upper)
+    times.into_iter().map(|(pass, times)| (pass, Spread::of(times).median)).collect()
 }
 
 #[cfg(test)]
@@ -137,6 +121,5 @@ mod tests {
         // A copy is no part of the total.
         let expected = [("copy", 7.0), ("raster", 3.0), ("shade", 3.0), ("total", 6.0)];
         assert_eq!(found, BTreeMap::from(expected));
-        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
     }
 }

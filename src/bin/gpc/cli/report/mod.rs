@@ -2,7 +2,7 @@
 
 mod effort;
 
-pub use effort::{Effort, RenderWork};
+pub use effort::Effort;
 
 use super::exit::Usage;
 use super::{input, print};

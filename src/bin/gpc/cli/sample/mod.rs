@@ -7,7 +7,7 @@ mod table;
 use super::exit::{Usage, usage};
 use super::render::args::Tonemap;
 use super::render::image::ImageArgs;
-use super::report::{Effort, RenderWork, ReportArgs};
+use super::report::{Effort, ReportArgs};
 use super::stage::RenderSetup;
 use super::{input, render};
 use anyhow::Context;
@@ -82,12 +82,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     let pinhole = stage.pinhole()?;
     let start = Instant::now();
     let Sampled { values: samples, statistics } = sample(&mut stage, &pinhole, &set)?;
-    let work = RenderWork {
-        statistics: &statistics,
-        cells: samples.len() as u64,
-        passes: std::slice::from_ref(&statistics.passes),
-        wall_ms: &[1e3 * start.elapsed().as_secs_f64()],
-    };
+    let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     stage.finish()?;
     let rows = || {
         let pairs = locations.uv.iter().zip(&samples);
@@ -110,7 +105,8 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         Kind::Image(_) => set.size(),
         Kind::Csv | Kind::Npy => args.image.size,
     };
-    let effort = Effort::new(&stage.settings, &work);
+    let passes = std::slice::from_ref(&statistics.passes);
+    let effort = Effort::new(&stage.settings, &statistics, samples.len(), passes, &[wall_ms]);
     args.report.print(&stage.figures(&args.output, size, effort, seen))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -166,7 +162,7 @@ fn read(path: &Path) -> anyhow::Result<Locations> {
 }
 
 fn kind(args: &SampleArgs) -> anyhow::Result<Kind> {
-    args.image.check_samples()?;
+    args.image.sampling.check()?;
     if !args.image.aov.is_empty() {
         usage!("--aov: a CSV or NPY of samples has all that there is");
     }

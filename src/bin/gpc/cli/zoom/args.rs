@@ -66,8 +66,8 @@ impl RegionArgs {
                 return Err(Usage(format!("{count} --center and {found} --{option}; give one for each region")));
             }
         }
-        let shapes = each("shape", &self.shape, count)?;
-        let transitions = each("transition", &self.transition, count)?;
+        let shapes = values::each("--center", count, "--shape", &self.shape)?;
+        let transitions = values::each("--center", count, "--transition", &self.transition)?;
         let places = self.center.iter().zip(&self.radius).zip(&self.multiplicity);
         let regions = places.zip(shapes.into_iter().zip(transitions)).map(
             |(((center, radius), multiplicity), (shape, transition))| ZoomRegion {
@@ -79,14 +79,5 @@ impl RegionArgs {
             },
         );
         ZoomMap::new(regions.collect()).map_err(|error| Usage(error.to_string()))
-    }
-}
-
-/// A value for each of `count` regions, from one value for all or one for each.
-fn each<T: Copy>(option: &str, values: &[T], count: usize) -> Result<Vec<T>, Usage> {
-    match values {
-        [value] => Ok(vec![*value; count]),
-        _ if values.len() == count => Ok(values.to_vec()),
-        _ => Err(Usage(format!("{count} --center and {} --{option}; give one for all or one for each", values.len()))),
     }
 }

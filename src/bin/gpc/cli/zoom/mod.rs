@@ -7,7 +7,6 @@ pub use args::ZoomArgs;
 
 use super::exit::{Usage, usage};
 use super::render::RenderedImage;
-use super::report::Figures;
 use super::stage::RenderSetup;
 use super::{input, render};
 use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
@@ -22,25 +21,14 @@ use std::process::ExitCode;
 use std::time::Instant;
 use steps::StepPicture;
 
-/// A zoomed image, the pictures of its steps, and its figures.
-struct ZoomResult {
-    result: Rendered,
-    steps: Vec<StepPicture>,
-    figures: ZoomReport,
-}
-
-/// Output of `--json`.
+/// Output of `--json` for a photograph.
 #[derive(Serialize)]
-#[serde(untagged)]
-enum ZoomReport {
-    Scene(Box<Figures<About>>),
-    Photograph {
-        output: String,
-        size: [u32; 2],
-        regions: Vec<ZoomRegion>,
-        /// Wall-clock milliseconds of resampling.
-        wall_ms: f64,
-    },
+struct PhotographReport {
+    output: String,
+    size: [u32; 2],
+    regions: Vec<ZoomRegion>,
+    /// Wall-clock milliseconds of resampling.
+    wall_ms: f64,
 }
 
 /// Fields of `--json` for the zoom of a scene, besides those of every image.
@@ -58,20 +46,32 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let ZoomResult { result, steps, figures } =
-        if is_picture(&args.input) { photograph(args, &map)? } else { scene(args, format, &map)? };
-    for step in &steps {
+    if is_picture(&args.input) {
+        photograph(args, format, &map)?;
+    } else {
+        scene(args, format, &map)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes a zoomed image and the pictures of its steps.
+fn save(
+    args: &ZoomArgs,
+    format: Format,
+    map: &ZoomMap,
+    result: &Rendered,
+    steps: &[StepPicture],
+) -> anyhow::Result<()> {
+    for step in steps {
         let picture = Picture::new(step.size, &step.pixels)?;
         let path = render::beside(&args.output, format, &step.name);
         render::write(&path, &output::encode(Format::Png8, &picture, &[])?)?;
     }
-    let mut bytes = render::encode(&args.output, format, &result, &args.image.aovs())?;
+    let mut bytes = render::encode(&args.output, format, result, &args.image.aovs())?;
     if matches!(format, Format::Png8 | Format::Png16) {
-        bytes = Zoomed::add_map(&bytes, result.size, &map)?;
+        bytes = Zoomed::add_map(&bytes, result.size, map)?;
     }
-    render::write(&args.output, &bytes)?;
-    args.report.print(&figures)?;
-    Ok(ExitCode::SUCCESS)
+    render::write(&args.output, &bytes)
 }
 
 /// Refuses a region whose ordinary image would be too large.
@@ -106,7 +106,7 @@ fn is_picture(path: &Path) -> bool {
 }
 
 /// Zooms into a photograph.
-fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
+fn photograph(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<()> {
     if !args.image.aov.is_empty() {
         usage!("--aov: a photograph holds nothing but colours");
     }
@@ -121,17 +121,17 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let steps = if args.steps { steps::common(size, photograph.pixels(), &colors, map) } else { Vec::new() };
     let result = Rendered { size, colors, attributes: Vec::new(), statistics: Statistics::default() };
-    let figures = ZoomReport::Photograph {
+    save(args, format, map, &result, &steps)?;
+    args.report.print(&PhotographReport {
         output: args.output.display().to_string(),
         size,
         regions: map.regions().to_vec(),
         wall_ms,
-    };
-    Ok(ZoomResult { result, steps, figures })
+    })
 }
 
 /// Samples a scene at the locations that the map gives the pixels.
-fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomResult> {
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<()> {
     let size = args.image.size;
     check_places(map, size)?;
     if args.steps {
@@ -146,7 +146,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
     let statistics = set.statistics();
     let shot = render_set(&mut stage, pinhole, &set)?;
     let about = About { regions: map.regions().to_vec(), locations: statistics };
-    let figures = stage.figures(&args.output, size, stage.effort(&shot), about);
+    let figures = stage.figures(&args.output, size, shot.effort(&stage.settings), about);
     let result = shot.rendered;
     log::info!(
         "{}: {}x{}, {} to {} samples for a pixel of the plane, {} superpixels",
@@ -172,7 +172,8 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<ZoomR
         }
     }
     stage.finish()?;
-    Ok(ZoomResult { result, steps, figures: ZoomReport::Scene(Box::new(figures)) })
+    save(args, format, map, &result, &steps)?;
+    args.report.print(&figures)
 }
 
 /// A sampling rate as text. Images of a single row or column have no rate.
