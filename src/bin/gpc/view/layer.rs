@@ -147,24 +147,21 @@ impl Layer {
         if let Some(moment) = sight.moment {
             frame.show(moment.clone())?;
         }
-        let band = match &work {
-            PictureWork::Draft { .. } => {
-                let target = self.picture.target();
-                // SAFETY: guaranteed by the caller; commands that used a spare frame have run, and the picture has the
-                // frame's size.
-                unsafe { frame.record(sight.camera, commands, &target) };
-                None
+        let band = if work.is_draft {
+            let target = self.picture.target();
+            // SAFETY: guaranteed by the caller; commands that used a spare frame have run, and the picture has the
+            // frame's size.
+            unsafe { frame.record(sight.camera, commands, &target) };
+            None
+        } else {
+            let mut band = Picture::new(&engine.device, frame.settings().output_size())?;
+            let target = band.target();
+            // SAFETY: as above; the band lies in the picture, and the job keeps it.
+            unsafe {
+                frame.record(sight.camera, commands, &target);
+                self.picture.record_rows(commands, &band, work.rows.start);
             }
-            PictureWork::Band { rows, .. } => {
-                let mut band = Picture::new(&engine.device, frame.settings().output_size())?;
-                let target = band.target();
-                // SAFETY: as above; the band lies in the picture, and the job keeps it.
-                unsafe {
-                    frame.record(sight.camera, commands, &target);
-                    self.picture.record_rows(commands, &band, rows.start);
-                }
-                Some(band)
-            }
+            Some(band)
         };
         Ok(Some(Job { ticket: Arc::downgrade(&self.ticket), frame, work, version: self.version, tries, _band: band }))
     }
@@ -182,7 +179,7 @@ impl Layer {
                 if is_current {
                     self.note(&job.work, statistics);
                 }
-                if let PictureWork::Draft { .. } = job.work {
+                if job.work.is_draft {
                     self.spare.push(job.frame);
                 }
                 Ok(())
@@ -234,18 +231,9 @@ impl Layer {
 
     /// Adds the statistics of work on the visible picture.
     fn note(&mut self, work: &PictureWork, statistics: Statistics) {
-        let is_first = match work {
-            PictureWork::Draft { samples } => {
-                self.shown = Some(*samples);
-                true
-            }
-            PictureWork::Band { samples, rows } => {
-                let is_last = rows.end == self.picture.size()[1];
-                self.shown = is_last.then_some(*samples);
-                rows.start == 0
-            }
-        };
-        if is_first {
+        let is_last = work.rows.end == self.picture.size()[1];
+        self.shown = is_last.then_some(work.samples);
+        if work.rows.start == 0 {
             self.statistics = Statistics { skipped_passes: statistics.skipped_passes.clone(), ..Statistics::default() };
         }
         // A pass counts as skipped if no band needed it.
@@ -265,12 +253,10 @@ impl Layer {
     }
 
     fn settings(&self, work: &PictureWork) -> Settings {
-        match work {
-            PictureWork::Draft { samples } => self.look.draft(*samples),
-            PictureWork::Band { samples, rows } => self.look.at(
-                *samples,
-                Some(PixelRect { corner: [0, rows.start], size: [self.look.settings.size[0], rows.end - rows.start] }),
-            ),
+        if work.is_draft {
+            return self.look.draft(work.samples);
         }
+        let size = [self.look.settings.size[0], work.rows.end - work.rows.start];
+        self.look.at(work.samples, Some(PixelRect { corner: [0, work.rows.start], size }))
     }
 }

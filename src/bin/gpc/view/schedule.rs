@@ -13,19 +13,13 @@ const STEP_COST: f64 = 2.0;
 
 /// A piece of work on a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PictureWork {
-    /// The whole picture at once.
-    Draft {
-        /// Samples a pixel.
-        samples: u32,
-    },
-    /// A band: some rows of the picture.
-    Band {
-        /// Samples a pixel.
-        samples: u32,
-        /// Range of the rows.
-        rows: Range<u32>,
-    },
+pub struct PictureWork {
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Rows of the picture; all of them for a draft.
+    pub rows: Range<u32>,
+    /// Whether the whole picture is rendered at once, with the cheaper settings of a draft.
+    pub is_draft: bool,
 }
 
 /// Work that is left to do on a picture.
@@ -82,7 +76,7 @@ impl PictureSchedule {
             Phase::Draft => {
                 let samples = self.samples.draft();
                 self.step = Phase::of(self.samples.first(samples));
-                Some(PictureWork::Draft { samples })
+                Some(PictureWork { samples, rows: 0..self.height, is_draft: true })
             }
             Phase::Band { row: 0, .. } if now < self.changed + REST => None,
             Phase::Band { samples, row } => {
@@ -95,7 +89,7 @@ impl PictureSchedule {
                     true => Phase::Band { samples, row: rows.end },
                     false => Phase::of(self.samples.after(samples)),
                 };
-                Some(PictureWork::Band { samples, rows })
+                Some(PictureWork { samples, rows, is_draft: false })
             }
             Phase::Done => None,
         }
@@ -122,16 +116,12 @@ impl PictureSchedule {
 
     /// Adapts the schedule to the time that a piece of work took on the device.
     pub fn learn(&mut self, work: &PictureWork, took: Took, now: Instant) {
-        match work {
-            PictureWork::Draft { samples } => {
-                self.bands.learn_all(took);
-                self.samples.learn(*samples, took.ms, now);
-            }
-            PictureWork::Band { samples, rows } if self.is_rendering(*samples) => {
-                self.bands.learn(rows.end - rows.start, took);
-            }
+        if work.is_draft {
+            self.bands.learn_all(took);
+            self.samples.learn(work.samples, took.ms, now);
+        } else if self.is_rendering(work.samples) {
             // The last bands of a step may finish after the next step has begun.
-            PictureWork::Band { .. } => {}
+            self.bands.learn(work.rows.end - work.rows.start, took);
         }
     }
 
@@ -153,6 +143,11 @@ mod tests {
         PictureSchedule::new(&Look::new(settings, SuperpixelOptions::new(64)), now)
     }
 
+    /// Samples of the next work if it is a draft, or if it is a band.
+    fn next(schedule: &mut PictureSchedule, is_draft: bool, now: Instant) -> Option<u32> {
+        schedule.take(now).filter(|work| work.is_draft == is_draft).map(|work| work.samples)
+    }
+
     fn after(ms: u64, start: Instant) -> Instant {
         start + Duration::from_millis(ms)
     }
@@ -161,10 +156,10 @@ mod tests {
     fn bands(schedule: &mut PictureSchedule, fixed_ms: f64, row_ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
-            if let PictureWork::Band { samples, rows } = &work {
-                let ms = fixed_ms + row_ms * f64::from(rows.end - rows.start);
+            if !work.is_draft {
+                let ms = fixed_ms + row_ms * f64::from(work.rows.end - work.rows.start);
                 schedule.learn(&work, Took { ms, fixed_ms }, now);
-                bands.push((*samples, rows.clone()));
+                bands.push((work.samples, work.rows));
             }
         }
         bands
@@ -174,7 +169,7 @@ mod tests {
     fn refines_at_rest_and_every_row_once() {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 1024, 540, start);
-        assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples: 16 }));
+        assert_eq!(next(&mut schedule, true, start), Some(16));
         assert_eq!(schedule.take(after(149, start)), None);
         assert_eq!(schedule.due(), Some(after(150, start)));
         let bands = bands(&mut schedule, 0.0, 2.0, after(150, start));
@@ -211,9 +206,9 @@ mod tests {
         let start = Instant::now();
         let mut schedule = schedule(MethodKind::Superpixel, 64, 100, start);
         schedule.take(start);
-        assert!(matches!(schedule.take(after(200, start)), Some(PictureWork::Band { samples: 64, .. })));
+        assert_eq!(next(&mut schedule, false, after(200, start)), Some(64));
         schedule.restart(after(210, start));
-        assert_eq!(schedule.take(after(210, start)), Some(PictureWork::Draft { samples: 16 }));
+        assert_eq!(next(&mut schedule, true, after(210, start)), Some(16));
         assert_eq!(schedule.take(after(300, start)), None);
     }
 
@@ -222,16 +217,16 @@ mod tests {
         let start = Instant::now();
         for (method, samples) in [(MethodKind::None, 1), (MethodKind::Msaa, 4), (MethodKind::Ssaa, 1)] {
             let mut schedule = schedule(method, samples, 100, start);
-            assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples }));
+            assert_eq!(next(&mut schedule, true, start), Some(samples));
             assert!(schedule.is_done());
         }
         // Drafts of superpixels have cheaper settings, so that the same number of samples is rendered again at rest.
         let mut few = schedule(MethodKind::Superpixel, 4, 100, start);
-        assert_eq!(few.take(start), Some(PictureWork::Draft { samples: 4 }));
+        assert_eq!(next(&mut few, true, start), Some(4));
         let rest = after(150, start);
-        assert!(matches!(few.take(rest), Some(PictureWork::Band { samples: 4, .. })));
+        assert_eq!(next(&mut few, false, rest), Some(4));
         let mut brute = schedule(MethodKind::Ssaa, 256, 100, start);
-        assert_eq!(brute.take(start), Some(PictureWork::Draft { samples: 1 }));
+        assert_eq!(next(&mut brute, true, start), Some(1));
         let mut samples: Vec<_> =
             bands(&mut brute, 0.0, 0.1, after(150, start)).into_iter().map(|band| band.0).collect();
         samples.dedup();
