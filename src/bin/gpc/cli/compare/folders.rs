@@ -3,7 +3,9 @@
 use super::{CompareArgs, junit};
 use crate::cli::{exit, print};
 use anyhow::Context;
+use clap::ValueEnum;
 use gpc::compare::{self, Comparison};
+use gpc::names::name;
 use gpc::output;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -11,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Result of comparing an image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// Difference within the bound.
@@ -24,19 +26,6 @@ pub enum Status {
     New,
 }
 
-impl Status {
-    const ALL: [Self; 4] = [Self::Equal, Self::Different, Self::Missing, Self::New];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equal => "equal",
-            Self::Different => "different",
-            Self::Missing => "missing",
-            Self::New => "new",
-        }
-    }
-}
-
 /// An image of either folder, and its result.
 #[derive(Serialize)]
 pub struct ComparedImage {
@@ -47,6 +36,12 @@ pub struct ComparedImage {
     pub comparison: Option<Comparison>,
     /// Reason why the image is not equal.
     pub reason: Option<String>,
+}
+
+impl ComparedImage {
+    fn new(name: &str, status: Status, comparison: Option<Comparison>, reason: Option<String>) -> Self {
+        Self { name: name.to_owned(), status, comparison, reason }
+    }
 }
 
 /// Output of `--json`.
@@ -65,11 +60,12 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
     if expected.is_empty() && found.is_empty() {
         anyhow::bail!("neither {} nor {} has a .png, .jpg, .jpeg or .exr file", args.a.display(), args.b.display());
     }
+    let absent_from = |folder: &Path| Some(format!("it is not in {}", folder.display()));
     let mut images = Vec::new();
     for name in expected.union(&found) {
         images.push(match (expected.contains(name), found.contains(name)) {
-            (true, false) => alone(name, Status::Missing, &args.b),
-            (false, _) => alone(name, Status::New, &args.a),
+            (true, false) => ComparedImage::new(name, Status::Missing, None, absent_from(&args.b)),
+            (false, _) => ComparedImage::new(name, Status::New, None, absent_from(&args.a)),
             (true, true) => compared(args, name, bound)?,
         });
     }
@@ -78,7 +74,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
         output::write_atomically(path, junit::report(&suite, &images)?.as_bytes())?;
     }
     let count = |status| images.iter().filter(|image| image.status == status).count();
-    let [equal, different, missing, new] = Status::ALL.map(count);
+    let [equal, different, missing, new] = [Status::Equal, Status::Different, Status::Missing, Status::New].map(count);
     if args.json {
         print::json(&ComparisonReport { equal, different, missing, new, images: &images })?;
     } else {
@@ -128,39 +124,19 @@ fn is_image(path: &Path) -> bool {
     extension.is_some_and(|e| ["png", "jpg", "jpeg", "exr"].contains(&e.as_str()))
 }
 
-fn alone(name: &str, status: Status, absent_from: &Path) -> ComparedImage {
-    ComparedImage {
-        name: name.to_owned(),
-        status,
-        comparison: None,
-        reason: Some(format!("it is not in {}", absent_from.display())),
-    }
-}
-
 /// Compares the two images with this name, and writes the error map if they differ.
 fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<ComparedImage> {
-    let different = |comparison, reason| ComparedImage {
-        name: name.to_owned(),
-        status: Status::Different,
-        comparison,
-        reason: Some(reason),
+    let compare = || -> anyhow::Result<_> {
+        let (a, b) = (output::read(&args.a.join(name))?, output::read(&args.b.join(name))?);
+        let comparison = compare::compare(&a, &b)?;
+        Ok((a, b, comparison))
     };
-    let read = |folder: &Path| output::read(&folder.join(name));
-    let (a, b) = match read(&args.a).and_then(|a| Ok((a, read(&args.b)?))) {
-        Ok(pair) => pair,
-        Err(error) => return Ok(different(None, error.to_string())),
-    };
-    let comparison = match compare::compare(&a, &b) {
-        Ok(comparison) => comparison,
-        Err(error) => return Ok(different(None, error.to_string())),
+    let (a, b, comparison) = match compare() {
+        Ok(compared) => compared,
+        Err(error) => return Ok(ComparedImage::new(name, Status::Different, None, Some(error.to_string()))),
     };
     if comparison.rmse <= bound {
-        return Ok(ComparedImage {
-            name: name.to_owned(),
-            status: Status::Equal,
-            comparison: Some(comparison),
-            reason: None,
-        });
+        return Ok(ComparedImage::new(name, Status::Equal, Some(comparison), None));
     }
     if let Some(folder) = &args.heatmap {
         let path = difference_path(folder, name);
@@ -172,7 +148,7 @@ fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Compar
         output::write_atomically(&path, &output::encode_rgb(a.size, &pixels)?)?;
     }
     let reason = format!("its rmse is {:.6}, above {bound}", comparison.rmse);
-    Ok(different(Some(comparison), reason))
+    Ok(ComparedImage::new(name, Status::Different, Some(comparison), Some(reason)))
 }
 
 /// Path of the error map of an image: the image's name in `folder`, with `.png` appended unless it ends so already.
@@ -181,7 +157,7 @@ fn difference_path(folder: &Path, name: &str) -> PathBuf {
 }
 
 fn line(image: &ComparedImage) -> String {
-    let status = image.status.name();
+    let status = name(&image.status);
     match &image.reason {
         Some(reason) => format!("{status:<9}  {}: {reason}", image.name),
         None => format!("{status:<9}  {}", image.name),

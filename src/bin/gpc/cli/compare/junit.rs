@@ -1,6 +1,7 @@
 //! JUnit reports, which the forges of continuous integration show among the results of tests.
 
 use super::folders::{ComparedImage, Status};
+use gpc::names::name;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 /// A report of a test suite with one test case for each image.
@@ -11,7 +12,7 @@ pub fn report(suite: &str, images: &[ComparedImage]) -> anyhow::Result<String> {
             TestCaseStatus::success()
         } else {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-            status.set_type(image.status.name());
+            status.set_type(name(&image.status));
             if let Some(reason) = &image.reason {
                 status.set_message(reason.as_str());
             }

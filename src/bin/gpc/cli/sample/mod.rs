@@ -13,7 +13,7 @@ use super::{input, render};
 use anyhow::Context;
 use clap::Args;
 use gpc::camera::Pinhole;
-use gpc::camera::set::SamplingSet;
+use gpc::camera::set::{Sample, SamplingSet, SetError};
 use gpc::output::{self, Format, OutputError, Picture};
 use gpc::render::{CellOptions, Footprint, Method, PointSample, Sampled, SceneSettings};
 use serde::Serialize;
@@ -67,11 +67,11 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     args.report.check(&args.output)?;
     let kind = kind(args)?;
     let locations = read(&args.locations)?;
-    if matches!(kind, Kind::Image(_)) && locations.cells.is_none() {
+    if matches!(kind, Kind::Image(_)) && !locations.has_cells {
         let name = args.locations.display();
         usage!("{name}: an image takes rows and columns; give u,v,row,col");
     }
-    let set = set(&locations).with_context(|| args.locations.display().to_string())?;
+    let set = set(locations.samples.clone()).with_context(|| args.locations.display().to_string())?;
     let format = match (kind, args.image.tonemap) {
         (Kind::Image(format), _) => format,
         // Without a tone map, colours are linear, like those of an EXR.
@@ -85,8 +85,8 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     stage.finish()?;
     let rows = || {
-        let pairs = locations.uv.iter().zip(&samples);
-        pairs.map(|(uv, sample)| table::row(*uv, sample)).collect::<Vec<_>>()
+        let pairs = locations.samples.iter().zip(&samples);
+        pairs.map(|(location, sample)| table::row(location.uv, sample)).collect::<Vec<_>>()
     };
     let bytes = match kind {
         Kind::Csv => csv::write(&rows()),
@@ -145,14 +145,13 @@ fn over_locations(settings: &SceneSettings) -> SceneSettings {
     }
 }
 
-/// The sampling set of a file. Samples without rows and columns all go into one cell, so that they have no neighbours.
-fn set(locations: &Locations) -> anyhow::Result<SamplingSet> {
+/// The sampling set of a file.
+fn set(samples: Vec<Sample>) -> Result<SamplingSet, SetError> {
     const LEAF_SAMPLES: usize = 32;
-    let samples = locations.samples()?;
     let size = samples.iter().fold([1, 1], |[columns, rows], sample| {
         [columns.max(sample.col.saturating_add(1)), rows.max(sample.row.saturating_add(1))]
     });
-    Ok(SamplingSet::no_pattern(size, samples, None, LEAF_SAMPLES)?)
+    SamplingSet::no_pattern(size, samples, None, LEAF_SAMPLES)
 }
 
 fn read(path: &Path) -> anyhow::Result<Locations> {

@@ -45,7 +45,7 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
         return Err("its numbers must be float32 or float64, little endian".to_owned());
     };
     match numbers.get(..count) {
-        Some(numbers) => Ok(Locations::from_rows(width, numbers)),
+        Some(numbers) => Locations::from_rows(width, numbers),
         None => Err(format!("it holds {} numbers; its shape promises {count}", numbers.len())),
     }
 }
@@ -81,6 +81,7 @@ pub fn write(rows: &[SampleRow]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gpc::camera::set::Sample;
 
     fn array(descr: &str, order: &str, shape: &str, data: &[u8]) -> Vec<u8> {
         let header = format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}\n");
@@ -92,11 +93,11 @@ mod tests {
     fn both_precisions_are_read() {
         let doubles: Vec<u8> = [1.5_f64, -2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         let found = read(&array("<f8", "False", "(2, 2)", &doubles)).unwrap();
-        assert_eq!(found.uv, [[1.5, -2.0], [3.0, 4.0]]);
+        assert_eq!(found.samples.iter().map(|sample| sample.uv).collect::<Vec<_>>(), [[1.5, -2.0], [3.0, 4.0]]);
         let floats: Vec<u8> = [1.5_f32, -2.0, 3.0, 4.0].iter().flat_map(|v| v.to_le_bytes()).collect();
         let found = read(&array("<f4", "False", "(1, 4)", &floats)).unwrap();
-        assert_eq!(found.uv, [[1.5, -2.0]]);
-        assert_eq!(found.cells, Some(vec![[3.0, 4.0]]));
+        assert!(found.has_cells);
+        assert_eq!(found.samples, [Sample { uv: [1.5, -2.0], row: 3, col: 4 }]);
     }
 
     #[test]

@@ -3,50 +3,32 @@
 use gpc::camera::set::Sample;
 use gpc::render::PointSample;
 
-/// Sampling locations of a file.
-#[derive(Debug, Default, PartialEq)]
+/// Sampling locations of a file, in its order.
+#[derive(Debug, PartialEq)]
 pub struct Locations {
-    pub uv: Vec<[f64; 2]>,
-    /// Row and column of each location, if the file has them.
-    pub cells: Option<Vec<[f64; 2]>>,
+    /// Locations; those of a file without rows and columns are all of row 0 and column 0, so that they have no neighbours.
+    pub samples: Vec<Sample>,
+    /// Whether the file has rows and columns.
+    pub has_cells: bool,
 }
 
 impl Locations {
     /// Makes a table of rows of `width` numbers: u, v and, if `width` is 4, row and column.
-    pub fn from_rows(width: usize, numbers: &[f64]) -> Self {
-        let pair = |row: &[f64], start: usize| match row.get(start..start + 2) {
-            Some([a, b]) => [*a, *b],
-            _ => [f64::NAN; 2],
-        };
-        let rows = || numbers.chunks_exact(width);
-        Self {
-            uv: rows().map(|row| pair(row, 0)).collect(),
-            cells: (width == 4).then(|| rows().map(|row| pair(row, 2)).collect()),
-        }
-    }
-
-    /// The samples of a set, in the order of the file.
-    pub fn samples(&self) -> anyhow::Result<Vec<Sample>> {
-        let Some(cells) = &self.cells else {
-            let sample = |uv: &[f64; 2]| Sample { uv: *uv, row: 0, col: 0 };
-            return Ok(self.uv.iter().map(sample).collect());
-        };
+    pub fn from_rows(width: usize, numbers: &[f64]) -> Result<Self, String> {
         let index = |value: f64| {
             let whole = value.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&value);
             whole.then_some(value as u32)
         };
-        let sample = |(place, (uv, cell)): (usize, (&[f64; 2], &[f64; 2]))| {
-            let [row, col] = cell.map(index);
-            match (row, col) {
-                (Some(row), Some(col)) => Ok(Sample { uv: *uv, row, col }),
-                _ => anyhow::bail!(
-                    "sample {place} has row {} and column {}; both must be whole numbers from 0",
-                    cell[0],
-                    cell[1]
-                ),
-            }
+        let sample = |(place, numbers): (usize, &[f64])| match *numbers {
+            [u, v, row, col] => match (index(row), index(col)) {
+                (Some(row), Some(col)) => Ok(Sample { uv: [u, v], row, col }),
+                _ => Err(format!("sample {place} has row {row} and column {col}; both must be whole numbers from 0")),
+            },
+            [u, v, ..] => Ok(Sample { uv: [u, v], row: 0, col: 0 }),
+            _ => Err(format!("sample {place} has no u and v")),
         };
-        self.uv.iter().zip(cells).enumerate().map(sample).collect()
+        let samples = numbers.chunks_exact(width).enumerate().map(sample).collect::<Result<_, _>>()?;
+        Ok(Self { samples, has_cells: width == 4 })
     }
 }
 

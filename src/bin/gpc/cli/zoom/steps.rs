@@ -23,11 +23,12 @@ impl StepPicture {
 
 /// The steps that zooms of scenes and of photographs have in common.
 pub fn common(size: [u32; 2], original: &[[f32; 4]], result: &[[f32; 4]], map: &ZoomMap) -> Vec<StepPicture> {
+    let in_transition = |place| map.regions().iter().any(|region| region.in_transition(place));
     vec![
         StepPicture::new("original", size, original.to_vec()),
         StepPicture::new("locations", size, locations(size, original, map)),
-        StepPicture::new("resampled", size, resampled(size, result, map)),
-        StepPicture::new("transition", size, transition(size, result, map)),
+        StepPicture::new("resampled", size, keep(size, result, |place| !in_transition(place))),
+        StepPicture::new("transition", size, keep(size, result, in_transition)),
     ]
 }
 
@@ -57,20 +58,6 @@ fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> LinearPixe
         }
     }
     picture
-}
-
-/// The zoomed image without the transitions.
-fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> LinearPixels {
-    keep(size, result, |place| !in_transition(map, place))
-}
-
-/// The transitions alone.
-fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> LinearPixels {
-    keep(size, result, |place| in_transition(map, place))
-}
-
-fn in_transition(map: &ZoomMap, place: DVec2) -> bool {
-    map.regions().iter().any(|region| region.in_transition(place))
 }
 
 /// The pixels at whose places `kept` is true; the others become transparent.
