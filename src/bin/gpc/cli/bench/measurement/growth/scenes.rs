@@ -1,10 +1,11 @@
 //! Scenes of the benchmark of growth.
 
+use super::super::stress::stage::camera;
 use super::GrowthStep;
-use super::mesh::{Mesh, Vertex};
-use glam::{DMat3, DVec2, DVec3, Vec3};
-use gpc::camera::{Camera, Projection};
-use gpc::scene::Material;
+use super::mesh::{Vertex, add_grid, build};
+use glam::{DMat3, DVec3, Vec3};
+use gpc::camera::Camera;
+use gpc::scene::{Material, PosedGeometry};
 
 /// Numbers of triangles of the series [`super::Growth::Triangles`].
 pub(super) const TRIANGLES: [u32; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
@@ -27,8 +28,8 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthSte
             -0.9 * 1.1 * (1.3 * x).sin() * (1.1 * z).sin() + 1.7 * shared,
         ]
     };
-    let mut mesh = Mesh::default();
-    mesh.add_grid([cells, cells], |u, v| {
+    let mut geometry = PosedGeometry::default();
+    add_grid(&mut geometry, [cells, cells], |u, v| {
         let (x, z) = (SIDE * (u - 0.5), SIDE * (v - 1.0));
         let [across, along] = slope(x, z);
         let y = height(x, z);
@@ -38,15 +39,15 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthSte
             color: Vec3::new(0.2, 0.35, 0.1).lerp(Vec3::new(0.9, 0.85, 0.8), 0.5 + 0.45 * y),
         }
     });
-    let (scene, pose) = mesh.build(double_sided(false));
+    let (scene, pose) = build(geometry, double_sided(false));
     // The camera looks down by 22.5 degrees.
     let (sin, cos) = std::f64::consts::FRAC_PI_8.sin_cos();
-    let camera = Camera {
+    let above = Camera {
         eye: DVec3::new(0.0, 3.0, 1.0),
         axes: DMat3::from_cols(DVec3::X, DVec3::new(0.0, cos, -sin), DVec3::new(0.0, sin, cos)),
-        ..straight_ahead()
+        ..camera()
     };
-    GrowthStep { value, size, scene, pose, camera }
+    GrowthStep { value, size, scene, pose, camera: above }
 }
 
 /// Upright strips two pixels wide, slightly tilted; `percentage` of them alternate between light and dark.
@@ -56,7 +57,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
     let [width, height] = size.map(|side| side as f32);
     let lean = 0.02 * height;
     let count = ((width + 2.0 * lean) / PITCH).ceil() as u32;
-    let mut mesh = Mesh::default();
+    let mut geometry = PosedGeometry::default();
     for strip in 0..count {
         let left = strip as f32 * PITCH - lean;
         // At half of the image's height a tilted strip is in the place of an upright one.
@@ -67,19 +68,19 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
         };
         let dark = alternates && strip % 2 == 1;
         let color = Vec3::splat(if dark { 0.05 } else { 0.7 });
-        mesh.add_grid([1, ROWS], |u, v| {
+        add_grid(&mut geometry, [1, ROWS], |u, v| {
             let x = left + PITCH * u + lean * (v - 0.5);
             at([x, (v * 1.02 - 0.01) * height], 2.0, color, size)
         });
     }
-    let (scene, pose) = mesh.build(double_sided(true));
-    GrowthStep { value: f64::from(percentage), size, scene, pose, camera: straight_ahead() }
+    let (scene, pose) = build(geometry, double_sided(true));
+    GrowthStep { value: f64::from(percentage), size, scene, pose, camera: camera() }
 }
 
 /// Layers behind each other with a pattern of two-coloured squares, the farthest drawn first.
 pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
     let [width, height] = size.map(|side| side as f32);
-    let mut mesh = Mesh::default();
+    let mut geometry = PosedGeometry::default();
     for layer in (0..count).rev() {
         // Numbers of columns differ, so that no two layers have edges in the same places.
         let columns = 16 + layer % 13;
@@ -89,7 +90,7 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
             for column in 0..columns {
                 let light = (row + column) % 2 == 0;
                 let color = Vec3::splat(if light { 0.7 } else { 0.1 });
-                mesh.add_grid([1, 1], |u, v| {
+                add_grid(&mut geometry, [1, 1], |u, v| {
                     let x = (column as f32 + u) / columns as f32 * 1.1 - 0.05;
                     let y = (row as f32 + v) / rows as f32 * 1.1 - 0.05;
                     // The grid is slanted, so that its lines do not run along the pixels.
@@ -99,11 +100,11 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
             }
         }
     }
-    let (scene, pose) = mesh.build(double_sided(true));
-    GrowthStep { value: f64::from(count), size, scene, pose, camera: straight_ahead() }
+    let (scene, pose) = build(geometry, double_sided(true));
+    GrowthStep { value: f64::from(count), size, scene, pose, camera: camera() }
 }
 
-/// Vertex at a place of the image in pixels, at `distance` along the direction of view of [`straight_ahead`].
+/// Vertex at a place of the image in pixels, at `distance` along the direction of view of [`camera`].
 fn at([x, y]: [f32; 2], distance: f32, color: Vec3, size: [u32; 2]) -> Vertex {
     let [width, height] = size.map(|side| side as f32);
     let scale = 2.0 * distance / height;
@@ -116,14 +117,4 @@ fn at([x, y]: [f32; 2], distance: f32, color: Vec3, size: [u32; 2]) -> Vertex {
 
 fn double_sided(unlit: bool) -> Material {
     Material { double_sided: true, metallic: 0.0, unlit, ..Material::default() }
-}
-
-/// Camera at the world's origin that looks along -z, with a vertical field of view of 90 degrees.
-fn straight_ahead() -> Camera {
-    Camera {
-        eye: DVec3::ZERO,
-        axes: DMat3::IDENTITY,
-        projection: Projection::Perspective { fov: std::f64::consts::FRAC_PI_2, near: 0.01, far: None },
-        shift: DVec2::ZERO,
-    }
 }
