@@ -1,6 +1,5 @@
 //! Exit codes.
 
-use super::view;
 use gpc::render::{EngineError, RenderError};
 use gpc::scene::SceneError;
 use gpc::vulkan::VulkanError;
@@ -32,16 +31,18 @@ pub fn code(error: &anyhow::Error) -> u8 {
     error
         .chain()
         .find_map(|cause| {
-            if view::is_no_display(cause) {
-                Some(NO_DEVICE)
-            } else if cause.is::<Usage>() {
+            #[cfg(feature = "view")]
+            if cause.is::<crate::view::NoDisplay>() {
+                return Some(NO_DEVICE);
+            }
+            if cause.is::<Usage>() {
                 Some(USAGE)
-            } else if let Some(error) = cause.downcast_ref::<RenderError>() {
-                Some(of_render(error))
-            } else if let Some(error) = cause.downcast_ref::<EngineError>() {
-                Some(of_engine(error))
-            } else if let Some(error) = cause.downcast_ref::<VulkanError>() {
+            } else if let Some(error) = vulkan(cause) {
                 Some(of_vulkan(error))
+            } else if let Some(error) = cause.downcast_ref::<RenderError>() {
+                Some(of_rendering(error.is_usage(), error.is_device_failure()))
+            } else if let Some(error) = cause.downcast_ref::<EngineError>() {
+                Some(of_rendering(error.is_usage(), error.is_device_failure()))
             } else {
                 cause.downcast_ref::<SceneError>().map(of_scene)
             }
@@ -49,27 +50,29 @@ pub fn code(error: &anyhow::Error) -> u8 {
         .unwrap_or(FAILURE)
 }
 
-fn of_render(error: &RenderError) -> u8 {
-    match error {
-        RenderError::Engine(error) => of_engine(error),
-        error if error.is_usage() => USAGE,
-        _ => FAILURE,
-    }
-}
-
-fn of_engine(error: &EngineError) -> u8 {
-    match error {
-        EngineError::Vulkan(error) => of_vulkan(error),
-        error if error.is_usage() => USAGE,
-        error if error.is_device_failure() => DEVICE_FAILURE,
-        _ => FAILURE,
+/// The Vulkan error that a cause is, or that it holds.
+pub fn vulkan<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a VulkanError> {
+    let engine = match cause.downcast_ref() {
+        Some(RenderError::Engine(error)) => Some(error),
+        _ => cause.downcast_ref(),
+    };
+    match engine {
+        Some(EngineError::Vulkan(error)) => Some(error),
+        _ => cause.downcast_ref(),
     }
 }
 
 fn of_vulkan(error: &VulkanError) -> u8 {
     match error {
         VulkanError::NoLoader(_) | VulkanError::NoDevice { .. } | VulkanError::Missing { .. } => NO_DEVICE,
-        error if error.is_device_failure() => DEVICE_FAILURE,
+        error => of_rendering(false, error.is_device_failure()),
+    }
+}
+
+fn of_rendering(is_usage: bool, is_device_failure: bool) -> u8 {
+    match (is_usage, is_device_failure) {
+        (true, _) => USAGE,
+        (_, true) => DEVICE_FAILURE,
         _ => FAILURE,
     }
 }
@@ -98,12 +101,9 @@ pub fn message(error: &anyhow::Error) -> String {
 
 /// Whether an error is a lack of device memory, which `--max-memory` may have caused.
 fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
-    let is_full = |error: &VulkanError| matches!(error, VulkanError::OutOfMemory { .. });
-    match cause.downcast_ref::<RenderError>() {
+    match cause.downcast_ref() {
         Some(RenderError::Engine(EngineError::Memory { .. } | EngineError::Unfinished { .. })) => true,
-        Some(RenderError::Engine(EngineError::Vulkan(error))) => is_full(error),
-        Some(_) => false,
-        None => cause.downcast_ref::<VulkanError>().is_some_and(is_full),
+        _ => matches!(vulkan(cause), Some(VulkanError::OutOfMemory { .. })),
     }
 }
 

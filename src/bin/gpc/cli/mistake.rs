@@ -1,6 +1,5 @@
 //! Advice on wrong command lines.
 
-use super::view;
 use crate::scene_files::is_scene;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -24,7 +23,11 @@ fn tip(error: &clap::Error) -> Option<String> {
     match error.kind() {
         ErrorKind::InvalidSubcommand => match word(ContextKind::InvalidSubcommand)? {
             scene if is_scene(Path::new(scene)) => Some(format!("to render a scene: gpc render {scene} -o image.png")),
-            word => view::tip(word).map(str::to_owned),
+            "view" if cfg!(not(feature = "view")) => Some(
+                "this gpc was built without its window; in the repository: cargo install --path . --features view"
+                    .to_owned(),
+            ),
+            _ => None,
         },
         ErrorKind::UnknownArgument => {
             let image = word(ContextKind::InvalidArg)?;

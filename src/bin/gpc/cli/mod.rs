@@ -6,7 +6,7 @@ mod csv;
 mod devices;
 pub mod exit;
 mod info;
-mod input;
+pub mod input;
 mod mistake;
 mod panorama;
 mod print;
@@ -18,9 +18,6 @@ mod stage;
 mod unzoom;
 mod values;
 #[cfg(feature = "view")]
-mod view;
-#[cfg(not(feature = "view"))]
-#[path = "no_view.rs"]
 mod view;
 mod zoom;
 
@@ -144,8 +141,11 @@ enum Command {
     ///
     /// Exits with 3 if no device is suitable.
     Devices(devices::DevicesArgs),
-    #[command(flatten)]
-    Window(view::Command),
+    /// Show scenes and photographs in a window; H lists its keys
+    ///
+    /// The picture has few samples a pixel while anything moves, and more and more at rest, up to --samples.
+    #[cfg(feature = "view")]
+    View(Box<view::ViewArgs>),
 }
 
 impl Command {
@@ -159,7 +159,8 @@ impl Command {
             Self::Panorama(args) => &args.report,
             Self::Project(args) => &args.report,
             Self::Compare(_) | Self::Info(_) | Self::Bench(_) | Self::Devices(_) => return false,
-            Self::Window(_) => return false,
+            #[cfg(feature = "view")]
+            Self::View(_) => return false,
         };
         report.quiet
     }
@@ -181,7 +182,8 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Devices(args) => devices::run(&args),
-        Command::Window(command) => view::run(command),
+        #[cfg(feature = "view")]
+        Command::View(args) => view::run(*args),
     };
     match done {
         Ok(code) => code,

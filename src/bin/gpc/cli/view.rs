@@ -5,21 +5,11 @@ use super::render::args::{CameraArgs, SamplingArgs};
 use super::render::image::{AppearanceArgs, DeviceArgs};
 use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, SceneSource};
-use clap::{Args, Subcommand};
+use clap::Args;
 use gpc::render::{MethodKind, Settings, Shadows};
-use std::error::Error;
 use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// The subcommand of the window.
-#[derive(Subcommand)]
-pub enum Command {
-    /// Show scenes and photographs in a window; H lists its keys
-    ///
-    /// The picture has few samples a pixel while anything moves, and more and more at rest, up to --samples.
-    View(Box<ViewArgs>),
-}
 
 /// Options of `gpc view`.
 #[derive(Args)]
@@ -46,19 +36,7 @@ pub struct ViewArgs {
     device: DeviceArgs,
 }
 
-/// Whether an error says that there is no display for the window.
-pub fn is_no_display(error: &(dyn Error + 'static)) -> bool {
-    error.is::<view::NoDisplay>()
-}
-
-/// Advice on an unknown subcommand that the window would have.
-pub fn tip(_: &str) -> Option<&'static str> {
-    None
-}
-
-pub fn run(command: Command) -> anyhow::Result<ExitCode> {
-    let Command::View(args) = command;
-    let args = *args;
+pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     let background = match values::background(&args.background) {
         Ok(background) => background,
         Err(expected) => usage!("--background {}: {expected}", args.background),

@@ -15,6 +15,7 @@ use super::source::{LoadedScene, SceneSource};
 use super::standpoint::Standpoint;
 use super::window::Viewer;
 use super::worker::{Subject, Task};
+use crate::cli::input::stem;
 use glam::DVec2;
 use gpc::render::MethodKind;
 use gpc::sampling::MAX_SAMPLES;
@@ -317,7 +318,7 @@ impl Viewer {
     /// Writes the picture under the pointer to a PNG with all its samples, equal to the one that the copied command
     /// writes.
     fn write_screenshot(&mut self) {
-        let path = free_name(Path::new(""), &self.source.stem());
+        let path = free_name(Path::new(""), &stem(&self.source.path));
         if let Some(easel) = &self.easel {
             let Some(map) = self.cover.lenses.map() else {
                 self.notes.say("no lens changes the photograph: there is nothing to write");
@@ -338,7 +339,7 @@ impl Viewer {
 
     /// Copies the command that makes the picture under the pointer to the clipboard.
     fn copy_command(&mut self) {
-        let output = PathBuf::from(self.source.stem()).with_extension("png");
+        let output = PathBuf::from(stem(&self.source.path)).with_extension("png");
         let lenses = self.cover.lenses.regions();
         let arguments = match (&self.easel, self.canvas.stage()) {
             (Some(easel), _) if easel.unzooms => {
@@ -364,7 +365,7 @@ impl Viewer {
             source: &stage.source,
             standpoint: &self.standpoint,
             look: &self.looks[self.layer_under_pointer()],
-            appearance: &self.appearance_options,
+            appearance: &self.options.appearance_options,
             shows_environment: self.cover.shows_environment,
             time: self.time(),
             lenses: self.cover.lenses.regions(),

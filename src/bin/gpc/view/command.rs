@@ -202,6 +202,11 @@ mod tests {
         Look::new(settings, SuperpixelOptions::new(64))
     }
 
+    fn shot<'a>(source: &'a SceneSource, standpoint: &'a Standpoint, look: &'a Look) -> Shot<'a> {
+        let (appearance, lenses) = (&[], &[]);
+        Shot { source, standpoint, look, appearance, shows_environment: false, time: 0.0, lenses }
+    }
+
     fn turntable() -> Turntable {
         Turntable { target: DVec3::new(-1.5, 0.1, 2.0), azimuth: 0.0, elevation: 0.0, distance: 1.0, fov: 40.0 }
     }
@@ -209,15 +214,8 @@ mod tests {
     #[test]
     fn defaults_are_left_out() {
         let look = look(Settings::new(640, 480));
-        let shot = Shot {
-            source: &source("a b.glb"),
-            standpoint: &Standpoint::Camera(2),
-            look: &look,
-            appearance: &[],
-            shows_environment: false,
-            time: 0.0,
-            lenses: &[],
-        };
+        let source = source("a b.glb");
+        let shot = shot(&source, &Standpoint::Camera(2), &look);
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render 'a b.glb' -o a.png --size 640x480 --samples 64 --camera 2";
         assert_eq!(found, expected);
@@ -235,15 +233,9 @@ mod tests {
         let look = look(settings);
         let mut source = source("a.glb");
         source.request.animation = Some("run".to_owned());
-        let shot = Shot {
-            source: &source,
-            standpoint: &Standpoint::Free(turntable()),
-            look: &look,
-            appearance: &["--background", "#000000"].map(str::to_owned),
-            shows_environment: false,
-            time: 0.25,
-            lenses: &[],
-        };
+        let appearance = ["--background", "#000000"].map(str::to_owned);
+        let standpoint = Standpoint::Free(turntable());
+        let shot = Shot { appearance: &appearance, time: 0.25, ..shot(&source, &standpoint, &look) };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render a.glb -o a.png --size 64x48 --samples 1024 --contrast 5 --detect edges \
              --pattern lattice --shading sample --exposure=-0.5 --line-width 2.5 --background '#000000' --animation run --time 0.25 \
@@ -261,15 +253,8 @@ mod tests {
             shape: Shape::Rectangle,
             transition: Transition::Smooth,
         };
-        let shot = Shot {
-            source: &source("a.glb"),
-            standpoint: &Standpoint::Camera(0),
-            look: &look,
-            appearance: &[],
-            shows_environment: false,
-            time: 0.0,
-            lenses: &[lens],
-        };
+        let source = source("a.glb");
+        let shot = Shot { lenses: &[lens], ..shot(&source, &Standpoint::Camera(0), &look) };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc zoom a.glb -o a.png --center=20,30 --radius 9,9 --multiplicity 0.25 --shape rectangle \
              --transition smooth --size 64x48 --samples 64 --camera 0";

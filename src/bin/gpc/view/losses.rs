@@ -1,7 +1,7 @@
 //! Lost devices: how often the viewer may open another one.
 
+use crate::cli::exit;
 use ash::vk;
-use gpc::render::{EngineError, RenderError};
 use gpc::vulkan::VulkanError;
 use std::time::{Duration, Instant};
 
@@ -25,12 +25,8 @@ impl Losses {
 /// Whether an error is a lost device, or the loss of the window's surface that comes with it.
 pub fn is_lost(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
-        let vulkan = match cause.downcast_ref::<RenderError>() {
-            Some(RenderError::Engine(EngineError::Vulkan(error))) => Some(error),
-            _ => cause.downcast_ref::<VulkanError>(),
-        };
         matches!(
-            vulkan,
+            exit::vulkan(cause),
             Some(VulkanError::DeviceLost | VulkanError::Call { result: vk::Result::ERROR_SURFACE_LOST_KHR, .. })
         )
     })
@@ -39,6 +35,7 @@ pub fn is_lost(error: &anyhow::Error) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gpc::render::{EngineError, RenderError};
 
     #[test]
     fn devices_are_lost_only_so_often() {

@@ -9,6 +9,7 @@ use super::source::{LoadedScene, Opened, SceneSource};
 use super::standpoint::Standpoint;
 use super::watch::watch;
 use super::window::Viewer;
+use crate::cli::render::args::CameraArgs;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -49,7 +50,7 @@ impl Viewer {
         self.watch(&source.path);
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
-        let appearance = self.appearance.clone();
+        let appearance = self.options.appearance.clone();
         let settings = self.looks[0].settings.scene.clone();
         self.loaders.retain(|loader| !loader.is_finished());
         self.loaders.push(std::thread::spawn(move || {
@@ -119,7 +120,8 @@ impl Viewer {
         self.set_easel(None);
         if !keeps_view {
             let aspect = self.aspect();
-            let start = self.start.take().unwrap_or_default();
+            let start = if self.has_started { CameraArgs::default() } else { self.options.start.clone() };
+            self.has_started = true;
             let asked = Standpoint::asked(&start, &stage.pose.cameras, stage.bounds, aspect);
             self.standpoint = asked.unwrap_or_else(|error| {
                 self.notes.fail(&error.into());

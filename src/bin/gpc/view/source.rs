@@ -129,10 +129,4 @@ impl SceneSource {
         let name = self.path.file_name().unwrap_or(self.path.as_os_str());
         name.to_string_lossy().into_owned()
     }
-
-    /// File name without its extension, for names of files made of the scene.
-    pub fn stem(&self) -> String {
-        let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
-        stem.to_string_lossy().into_owned()
-    }
 }

@@ -18,11 +18,10 @@ use super::photo::Easel;
 use super::player::Player;
 use super::pointer::Pointer;
 use super::preparer::Preparer;
-use super::source::{Appearance, SceneSource};
+use super::source::SceneSource;
 use super::standpoint::Standpoint;
 use super::worker::{Made, PictureWorker};
 use super::{NoDisplay, Options, ending};
-use crate::cli::render::args::CameraArgs;
 use gpc::render::HeadlessOptions;
 use gpc::scene::{Moment, SceneCamera};
 use notify::RecommendedWatcher;
@@ -67,16 +66,12 @@ pub struct Viewer {
     pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
-    /// Options for the standpoint at the start, in the first scene; `None` once they have been used.
-    pub start: Option<CameraArgs>,
+    /// Whether the standpoint of the options was taken, in the first scene.
+    pub has_started: bool,
     /// Flight, while keys move the eye.
     pub flight: Option<Flight>,
     /// Antialiasing of the pictures, the left one first.
     pub looks: Vec<Look>,
-    /// Appearance of scenes beyond what their files say.
-    pub appearance: Arc<Appearance>,
-    /// Options of the command line for this appearance and the background.
-    pub appearance_options: Vec<String>,
     /// Position of the split / width of the window.
     pub split: f64,
     /// Enlargement of the magnifier; `None` while it is off.
@@ -102,8 +97,7 @@ pub struct Viewer {
     pub rests: bool,
     pub wants_to_quit: bool,
 
-    /// Options for opening the device.
-    device: HeadlessOptions,
+    pub options: Options,
     /// Messages of the validation layer about devices that are lost by now.
     messages: Vec<String>,
 }
@@ -120,7 +114,7 @@ impl Viewer {
         let worker = worker(&proxy);
         let cover = Cover::new(options.shows_environment);
         let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
-        let mut source = options.source;
+        let mut source = options.source.clone();
         for path in std::iter::once(&source.path).chain(&options.others) {
             match scenes_at(path) {
                 Ok(found) => scenes.extend(found),
@@ -132,13 +126,11 @@ impl Viewer {
         }
         let mut view = Self {
             scenes,
-            looks: vec![options.look],
+            looks: vec![options.look.clone()],
             standpoint: Standpoint::Camera(0),
-            start: Some(options.start),
+            has_started: false,
             source,
-            appearance: Arc::new(options.appearance),
-            appearance_options: options.appearance_options,
-            device: options.device,
+            options,
             proxy,
             canvas,
             interface,
@@ -188,7 +180,7 @@ impl Viewer {
         // The old swapchain must be gone before the window gets another one, and nothing keeps the old device.
         drop((self.canvas, self.worker));
         let mut view = Self {
-            canvas: canvas(&self.window, &self.device, &self.proxy)?,
+            canvas: canvas(&self.window, &self.options.device, &self.proxy)?,
             worker: worker(&self.proxy),
             interface: interface(&self.window),
             messages,
@@ -213,7 +205,7 @@ impl Viewer {
             log::warn!("closed before {} was written", path.display());
         }
         self.loading = None;
-        if !self.device.validation {
+        if !self.options.device.validation {
             ending::end_soon();
         }
         let device = self.canvas.engine.device.clone();
