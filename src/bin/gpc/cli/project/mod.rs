@@ -4,7 +4,7 @@ mod calibration;
 
 use super::exit::{Usage, usage};
 use super::render::image::ImageArgs;
-use super::render::{self, RenderedImage};
+use super::render::{self, RenderedImage, Template};
 use super::report::{Figures, ReportArgs};
 use super::stage::RenderSetup;
 use super::{input, values};
@@ -72,8 +72,6 @@ struct ProjectReport {
     wall: Option<String>,
 }
 
-const FIELD: &str = "{projector}";
-
 pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
@@ -87,16 +85,8 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         Some(path) => Some(Format::of(path).map_err(|error| Usage(format!("--wall {error}")))?),
         None => None,
     };
-    let count = args.projector.len();
-    let Some(name) = args.output.to_str() else {
-        usage!("-o {}: it is not UTF-8", args.output.display());
-    };
-    if count > 1 && (input::is_standard(&args.output) || !name.contains(FIELD)) {
-        usage!("-o {name}: add {FIELD} to it, for there are {count} projectors");
-    }
-    if name.replace(FIELD, "").contains(['{', '}']) {
-        usage!("-o {name}: {FIELD} is all that it can hold in braces");
-    }
+    let template = Template::new(&args.output, &["projector"])?;
+    template.require("projector", "projectors", args.projector.len())?;
     let (projectors, fits): (Vec<_>, Vec<_>) =
         calibration::read(args)?.into_iter().map(|calibrated| (calibrated.projector, calibrated.fit)).unzip();
     let weights = blend_weights(&projectors);
@@ -107,7 +97,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
         let size = projector.size();
         let shot = shoot(&mut stage, projector).with_context(|| format!("projector {index}"))?;
         let colors = dim(&shot.rendered.colors, weights);
-        let path = PathBuf::from(name.replace(FIELD, &index.to_string()));
+        let path = template.fill(&[("projector", &index.to_string())]);
         let picture = Picture::new(size, &colors)?;
         render::write(&path, &output::encode(format, &picture, &[])?)?;
         let weights_path = args.weights.then(|| render::beside(&path, format, "weights"));

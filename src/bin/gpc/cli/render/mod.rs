@@ -14,6 +14,7 @@ pub mod view;
 
 pub use save::{beside, check_folder, encode, format_of, save, write};
 pub use session::{RenderedImage, check_validation, open_beside, upload};
+pub use template::Template;
 pub use view::{NamedView, choose as choose_views};
 
 use super::exit::{Usage, usage};
@@ -30,7 +31,6 @@ use serde::Serialize;
 use session::{Session, Shot};
 use startup::Clock;
 use std::process::ExitCode;
-use template::{Fields, Template};
 
 /// Output of `--json` for several images.
 #[derive(Serialize)]
@@ -40,7 +40,7 @@ struct SequenceReport {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut clock = Clock::start();
-    let template = Template::new(&args.output)?;
+    let template = Template::new(&args.output, &["stem", "camera", "frame"])?;
     let (format, settings) = settings(args)?;
     let (first, steps) = steps(args, &template)?;
     let image = &args.image;
@@ -104,7 +104,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 shot.rendered.show_behind(environment, &camera, &settings)?;
             }
             clock.lap("frame");
-            let path = template.fill(&Fields { stem: &stem, camera: &view.label, frame: step.frame });
+            let path =
+                template.fill(&[("stem", &stem), ("camera", &view.label), ("frame", &format!("{:04}", step.frame))]);
             match (&shot, &mut video) {
                 (Shot::Light(shot), Some(video)) => {
                     video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;

@@ -3,21 +3,12 @@
 use crate::cli::exit::Usage;
 use std::path::{Path, PathBuf};
 
-/// Values of the placeholders `{stem}`, `{camera}` and `{frame}`.
-pub struct Fields<'a> {
-    pub stem: &'a str,
-    pub camera: &'a str,
-    pub frame: u32,
-}
-
-const KNOWN: [&str; 3] = ["stem", "camera", "frame"];
-
-/// OUT with its placeholders checked.
+/// OUT with its placeholders checked: fields in braces.
 pub struct Template(String);
 
 impl Template {
-    /// Checks the placeholders in the path of an output file.
-    pub fn new(path: &Path) -> Result<Self, Usage> {
+    /// Checks the placeholders in the path of an output file, which are some of `fields`.
+    pub fn new(path: &Path, fields: &[&str]) -> Result<Self, Usage> {
         let Some(text) = path.to_str() else {
             return Err(Usage(format!("-o {}: it is not UTF-8", path.display())));
         };
@@ -26,10 +17,10 @@ impl Template {
             let Some((field, after)) = after.split_once('}') else {
                 return Err(Usage(format!("-o {text}: a {{ without a }}")));
             };
-            if !KNOWN.contains(&field) {
-                return Err(Usage(format!(
-                    "-o {text}: there is no field {{{field}}}; there are {{stem}}, {{camera}} and {{frame}}"
-                )));
+            if !fields.contains(&field) {
+                let known: Vec<_> = fields.iter().map(|field| format!("{{{field}}}")).collect();
+                let known = known.join(", ");
+                return Err(Usage(format!("-o {text}: there is no field {{{field}}}; what there is: {known}")));
             }
             rest = after;
         }
@@ -42,28 +33,24 @@ impl Template {
         if count <= 1 || self.0.contains(&placeholder) {
             return Ok(());
         }
-        Err(Usage(if self.0 == "-" {
-            format!(
+        Err(Usage(match (self.0.as_str(), field) {
+            ("-", "frame") => format!(
                 "-o -: standard output takes one image, not {count} {what}; with --format y4m or raw it takes frames"
-            )
-        } else {
-            format!("-o {}: add {placeholder} to it, for there are {count} {what}", self.0)
+            ),
+            ("-", _) => format!("-o -: standard output takes one image, and there are {count} {what}"),
+            (name, _) => format!("-o {name}: add {placeholder} to it, for there are {count} {what}"),
         }))
     }
 
-    /// The path of one image. Braces in a value are kept.
-    pub fn fill(&self, fields: &Fields<'_>) -> PathBuf {
-        let frame = format!("{:04}", fields.frame);
+    /// The path of one image, from the value of each field. Braces in a value are kept.
+    pub fn fill(&self, values: &[(&str, &str)]) -> PathBuf {
         let mut name = String::new();
         let mut rest = self.0.as_str();
         while let Some((before, after)) = rest.split_once('{') {
             name.push_str(before);
             let (field, after) = after.split_once('}').unwrap_or((after, ""));
-            name.push_str(match field {
-                "stem" => fields.stem,
-                "camera" => fields.camera,
-                _ => &frame,
-            });
+            let value = values.iter().find(|(known, _)| *known == field);
+            name.push_str(value.map_or("", |(_, value)| value));
             rest = after;
         }
         name.push_str(rest);
@@ -85,18 +72,11 @@ pub fn file_name_part(name: &str) -> String {
 mod tests {
     use super::*;
 
-    fn template(text: &str) -> Template {
-        Template::new(Path::new(text)).unwrap()
-    }
-
     #[test]
     fn fields_are_filled_in() {
-        let fields = Fields { stem: "a{frame}", camera: "top", frame: 7 };
-        let name = template("o/{stem}-{camera}.{frame}.png").fill(&fields);
-        assert_eq!(name, Path::new("o/a{frame}-top.0007.png"));
-        let frame = 12_345;
-        let name = template("{frame}").fill(&Fields { frame, ..fields });
-        assert_eq!(name, Path::new("12345"));
+        let template = Template::new(Path::new("o/{stem}-{camera}.png"), &["stem", "camera"]).unwrap();
+        let name = template.fill(&[("stem", "a{camera}"), ("camera", "top")]);
+        assert_eq!(name, Path::new("o/a{camera}-top.png"));
     }
 
     #[test]
