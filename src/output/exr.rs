@@ -12,12 +12,7 @@ use std::io::Cursor;
 
 /// Encodes a file with one part: the picture's R, G, B and A, and a layer for each AOV.
 pub(super) fn encode(picture: &Picture<'_>, aovs: &[Aov]) -> std::result::Result<Vec<u8>, OutputError> {
-    let channel = |i: usize| picture.pixels().iter().map(|pixel| pixel[i]).collect();
-    let mut channels: Vec<_> = ["R", "G", "B", "A"]
-        .into_iter()
-        .enumerate()
-        .map(|(i, name)| AnyChannel::new(name, FlatSamples::F32(channel(i))))
-        .collect();
+    let mut channels = floats(["R", "G", "B", "A"].map(Text::from), picture.pixels());
     for aov in aovs {
         check_count(picture.size(), aov.len())?;
         channels.extend(layer(aov));
@@ -34,9 +29,18 @@ pub(super) fn encode(picture: &Picture<'_>, aovs: &[Aov]) -> std::result::Result
     Ok(bytes.into_inner())
 }
 
+/// Channels with these names, one for each component of the pixels.
+fn floats<const N: usize>(names: [Text; N], pixels: &[[f32; N]]) -> Vec<AnyChannel<FlatSamples>> {
+    let channel = |(i, name): (usize, Text)| {
+        AnyChannel::new(name, FlatSamples::F32(pixels.iter().map(|pixel| pixel[i]).collect()))
+    };
+    names.into_iter().enumerate().map(channel).collect()
+}
+
 fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
     let kind = name(&aov.kind());
-    let channel = |channel: &str, samples| AnyChannel::new(Text::new_or_panic(format!("{kind}.{channel}")), samples);
+    let named = |channel: &str| Text::new_or_panic(format!("{kind}.{channel}"));
+    let channel = |channel: &str, samples| AnyChannel::new(named(channel), samples);
     match aov {
         Aov::Depth(depths) => vec![channel("Z", FlatSamples::F32(depths.clone()))],
         Aov::Id(values) | Aov::Samples(values) => {
@@ -46,14 +50,7 @@ fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
             let values = flags.iter().map(|flag| u32::from(*flag)).collect();
             vec![channel("Y", FlatSamples::U32(values))]
         }
-        Aov::Normal(normals) => ["X", "Y", "Z"]
-            .into_iter()
-            .enumerate()
-            .map(|(i, name)| {
-                let values = normals.iter().map(|normal| normal[i]).collect();
-                channel(name, FlatSamples::F32(values))
-            })
-            .collect(),
+        Aov::Normal(normals) => floats(["X", "Y", "Z"].map(named), normals),
     }
 }
 

@@ -48,7 +48,7 @@ impl Bench<'_> {
     /// Loads a scene and uploads it for images of `size` = [width, height].
     pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
         let camera = &self.args.camera;
-        let loaded = input::load_variant(path, camera.variant.as_deref())?;
+        let loaded = input::load(path, camera.variant.as_deref())?;
         let pose = loaded.scene.pose(&camera.request(camera.time))?;
         let [width, height] = size.map(f64::from);
         let views = choose_views(camera, &pose, width / height)?;

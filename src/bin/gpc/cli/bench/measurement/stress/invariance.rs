@@ -28,7 +28,11 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         findings.push(same(format!("another order of triangles, {seed}"), &first, &image));
     }
     for turns in [1, 2] {
-        let image = turned(&stage, turns).render(headless, &settings)?;
+        let mut turned = stage.clone();
+        for triangle in &mut turned.triangles {
+            triangle.corners.rotate_left(turns);
+        }
+        let image = turned.render(headless, &settings)?;
         findings.push(same(format!("vertices turned by {turns}"), &first, &image));
     }
     less_memory(headless, &stage, &settings, &first, &mut findings)?;
@@ -59,12 +63,4 @@ fn less_memory(
         );
         findings.push(same(case, first, &image));
     }
-}
-
-fn turned(stage: &Stage, turns: usize) -> Stage {
-    let mut turned = stage.clone();
-    for triangle in &mut turned.triangles {
-        triangle.corners.rotate_left(turns);
-    }
-    turned
 }

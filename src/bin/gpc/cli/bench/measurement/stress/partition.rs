@@ -49,21 +49,16 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Counts the hits of a mesh's triangles.
+/// Counts the hits of a mesh's triangles, whose vertices are in all orders.
 fn of_mesh(
     headless: &mut Headless,
     mesh: &Mesh,
     settings: &Settings,
     counts: impl Fn([u32; 2]) -> bool,
 ) -> Result<Hits, RenderError> {
-    count(headless, &stage(mesh, settings), settings, &camera(), counts)
-}
-
-/// Stage of a mesh's triangles, with their vertices in all orders.
-fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
     let mut stage = Stage::default();
     stage.add_mesh(0, mesh, settings.size[1], |triangle| triangle);
-    stage
+    count(headless, &stage, settings, &camera(), counts)
 }
 
 /// Adds findings about holes and double hits, neither of which is allowed.
