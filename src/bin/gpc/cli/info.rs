@@ -37,7 +37,7 @@ struct SceneReport<'a> {
 }
 
 pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
-    let loaded = input::load(&args.scene)?;
+    let loaded = input::load(&args.scene, None)?;
     for warning in &loaded.warnings {
         log::warn!("{warning}");
     }

@@ -11,13 +11,9 @@ pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Loads a scene. `-` stands for standard input, whose relative URIs start from the working folder.
-pub fn load(path: &Path) -> anyhow::Result<Loaded> {
-    load_variant(path, None)
-}
-
-/// Loads a scene with the materials of a variant, if one is named.
-pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded> {
+/// Loads a scene, with the materials of a variant if one is named. `-` stands for standard input, whose relative URIs start from
+/// the working folder.
+pub fn load(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded> {
     if !is_standard(path) {
         return Ok(match variant {
             Some(variant) => Scene::load_variant(path, variant)?,

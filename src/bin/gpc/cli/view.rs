@@ -1,6 +1,6 @@
 //! `gpc view`.
 
-use super::exit::{self, Usage, usage};
+use super::exit::{Usage, usage};
 use super::render::args::{CameraArgs, SamplingArgs};
 use super::render::image::{AppearanceArgs, DeviceArgs};
 use super::values::{self, Background};
@@ -63,7 +63,6 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
         look,
         shows_environment: background == Background::Environment,
         device: args.device.options(),
-        describe: exit::message,
     })?;
     Ok(ExitCode::SUCCESS)
 }

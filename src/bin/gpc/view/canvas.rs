@@ -7,7 +7,7 @@ use super::look::Look;
 use super::painter::{Painter, Painting};
 use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
 use super::preparer::{Prepared, Preparer};
-use super::presenter::{Presenter, SwapchainFit};
+use super::presenter::Presenter;
 use super::slot::{SLOTS, Slot};
 use super::source::LoadedScene;
 use super::swapchain::{Acquired, Swapchain, Turn};
@@ -198,7 +198,7 @@ impl Canvas {
         let mut any = false;
         let mut outcome = Ok(());
         if let Some(shown) = self.presenter.poll() {
-            self.is_stale |= shown? == SwapchainFit::Stale;
+            self.is_stale |= shown?;
         }
         for index in 0..SLOTS {
             if self.slots[index].poll()? {
@@ -405,7 +405,7 @@ impl Canvas {
     fn wait(&mut self) -> anyhow::Result<()> {
         self.engine.device.wait();
         if let Some(shown) = self.presenter.wait() {
-            self.is_stale |= shown? == SwapchainFit::Stale;
+            self.is_stale |= shown?;
         }
         // An error of the pictures doesn't matter: they are about to be dropped.
         let _ = self.collect();

@@ -79,8 +79,6 @@ pub struct Options {
     pub shows_environment: bool,
     /// Options for opening the device.
     pub device: HeadlessOptions,
-    /// Function that turns an error into a message.
-    pub describe: fn(&anyhow::Error) -> String,
 }
 
 /// Error: no display to open a window on.

@@ -1,17 +1,14 @@
 //! Notes: messages that the window shows for a while.
 
+use crate::cli::exit;
 use std::time::{Duration, Instant};
 
 /// Time for which a note is shown. Errors stay until the user asks for something else.
 const SEEN: Duration = Duration::from_secs(6);
 
 /// Notes in the window.
-#[derive(Debug)]
-pub struct Notes {
-    notes: Vec<Note>,
-    /// Function that turns an error into a message.
-    describe: fn(&anyhow::Error) -> String,
-}
+#[derive(Debug, Default)]
+pub struct Notes(Vec<Note>);
 
 /// A note in the window.
 #[derive(Debug)]
@@ -22,49 +19,45 @@ pub struct Note {
 }
 
 impl Notes {
-    pub fn new(describe: fn(&anyhow::Error) -> String) -> Self {
-        Self { notes: Vec::new(), describe }
-    }
-
     /// Shows a note in the window and logs it. A note that is repeated is shown once.
     pub fn say(&mut self, text: impl Into<String>) {
         let text = text.into();
         log::info!("{text}");
-        self.notes.retain(|note| note.text != text);
+        self.0.retain(|note| note.text != text);
         self.add(text, false);
     }
 
     /// Shows an error and logs it, once.
     pub fn fail(&mut self, error: &anyhow::Error) {
-        let text = (self.describe)(error);
-        if !self.notes.iter().any(|note| note.is_error && note.text == text) {
+        let text = exit::message(error);
+        if !self.0.iter().any(|note| note.is_error && note.text == text) {
             log::error!("{text}");
             self.add(text, true);
         }
     }
 
     fn add(&mut self, text: String, is_error: bool) {
-        self.notes.push(Note { text, is_error, since: Instant::now() });
+        self.0.push(Note { text, is_error, since: Instant::now() });
     }
 
     /// Removes errors.
     pub fn clear_errors(&mut self) {
-        self.notes.retain(|note| !note.is_error);
+        self.0.retain(|note| !note.is_error);
     }
 
     /// Removes notes that were shown for long enough.
     pub fn expire(&mut self, now: Instant) {
-        self.notes.retain(|note| note.is_error || now < note.since + SEEN);
+        self.0.retain(|note| note.is_error || now < note.since + SEEN);
     }
 
     /// Notes to show.
     pub fn all(&self) -> &[Note] {
-        &self.notes
+        &self.0
     }
 
     /// Time at which the next note disappears.
     pub fn next_change(&self) -> Option<Instant> {
-        let passing = self.notes.iter().filter(|note| !note.is_error);
+        let passing = self.0.iter().filter(|note| !note.is_error);
         passing.map(|note| note.since + SEEN).min()
     }
 }

@@ -172,7 +172,7 @@ impl Viewer {
 }
 
 /// The colours of a heat map and their meaning.
-fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
+fn show_scale(ui: &mut egui::Ui, labels: &[&str]) {
     const SIZE: egui::Vec2 = egui::vec2(200.0, 26.0);
     const BAR: f32 = 10.0;
     const STRIPES: u32 = 50;
@@ -186,9 +186,10 @@ fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
         let stripe = egui::Rect::from_x_y_ranges(ends[0]..=ends[1], area.top()..=area.top() + BAR);
         painter.rect_filled(stripe, 0.0, egui::Color32::from_rgb(r, g, b));
     }
-    for (share, text) in marks {
+    for (index, text) in labels.iter().enumerate() {
+        let share = index as f32 / (labels.len() - 1) as f32;
         painter.text(
-            egui::pos2(at(*share as f32), area.bottom()),
+            egui::pos2(at(share), area.bottom()),
             egui::Align2::CENTER_BOTTOM,
             text,
             egui::FontId::proportional(11.0),

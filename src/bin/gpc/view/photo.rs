@@ -52,7 +52,7 @@ impl Framing {
     /// Framing of a whole photograph in the middle of the window: pixel for pixel if there is room, otherwise scaled
     /// down.
     pub fn fitting(photograph: [u32; 2], window: [u32; 2]) -> Self {
-        let [photograph, window] = [photograph, window].map(as_vector);
+        let [photograph, window] = [photograph, window].map(|size| DVec2::from(size.map(f64::from)));
         let step = (photograph / window).max_element().max(1.0);
         // A whole number of pixels lets each pixel of the window show one of the photograph.
         let corner = (0.5 * (photograph - step * window)).floor();
@@ -162,7 +162,7 @@ impl PhotoView {
             Some((location, _)) => location,
             None => plane,
         };
-        let size = as_vector(self.photo.photograph.size());
+        let size = DVec2::from(self.photo.photograph.size().map(f64::from));
         if location.cmplt(DVec2::ZERO).any() || location.cmpgt(size).any() {
             return [0, 0, 0, 255];
         }
@@ -202,10 +202,6 @@ impl PhotoView {
         let half = LOUPE * f64::from(self.window.size[1]);
         Some((place - self.loupe?).abs().max_element() - half)
     }
-}
-
-fn as_vector([x, y]: [u32; 2]) -> DVec2 {
-    DVec2::new(f64::from(x), f64::from(y))
 }
 
 #[cfg(test)]

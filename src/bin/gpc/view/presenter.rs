@@ -11,16 +11,9 @@ use std::sync::mpsc::{Receiver, channel};
 /// Thread that presents one image at a time, until this is dropped.
 pub struct Presenter {
     images: Requests<Acquired>,
-    outcomes: Receiver<Result<SwapchainFit, VulkanError>>,
+    /// For each image, whether the swapchain has to be made anew because it no longer fits the window.
+    outcomes: Receiver<Result<bool, VulkanError>>,
     is_busy: bool,
-}
-
-/// Whether the swapchain still fits the window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SwapchainFit {
-    Fits,
-    /// The swapchain has to be made anew.
-    Stale,
 }
 
 impl Presenter {
@@ -45,30 +38,31 @@ impl Presenter {
         self.is_busy = true;
     }
 
-    /// Result of presenting the last image; `None` until it is there, and once it was returned.
-    pub fn poll(&mut self) -> Option<Result<SwapchainFit, VulkanError>> {
+    /// Whether the swapchain has to be made anew after the last image was presented; `None` until it is there, and once it was returned.
+    pub fn poll(&mut self) -> Option<Result<bool, VulkanError>> {
         let outcome = self.outcomes.try_recv().ok()?;
         self.is_busy = false;
         Some(outcome)
     }
 
     /// Waits until no image is being presented. The device must have finished the commands that draw it.
-    pub fn wait(&mut self) -> Option<Result<SwapchainFit, VulkanError>> {
+    pub fn wait(&mut self) -> Option<Result<bool, VulkanError>> {
         let outcome = self.is_busy.then(|| self.outcomes.recv().ok()).flatten()?;
         self.is_busy = false;
         Some(outcome)
     }
 }
 
-fn present(device: &Device, image: &Acquired) -> Result<SwapchainFit, VulkanError> {
+/// Presents an image. Returns whether the swapchain has to be made anew.
+fn present(device: &Device, image: &Acquired) -> Result<bool, VulkanError> {
     let (waits, swapchains, indices) = ([image.drawn], [image.swapchain], [image.index]);
     let info = vk::PresentInfoKHR::default().wait_semaphores(&waits).swapchains(&swapchains).image_indices(&indices);
     let queue = device.queue();
     // SAFETY: the image was acquired, and submitted commands signal its semaphore. Nobody else uses the queue now, nor
     // the swapchain while the presenter is busy.
     match unsafe { device.swapchains.queue_present(*queue, &info) } {
-        Ok(false) if !image.stale => Ok(SwapchainFit::Fits),
-        Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(SwapchainFit::Stale),
+        Ok(false) if !image.stale => Ok(false),
+        Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(true),
         Err(result) => Err(VulkanError::of("vkQueuePresentKHR")(result)),
     }
 }

@@ -113,7 +113,7 @@ impl Viewer {
         let interface = interface(&window);
         let worker = worker(&proxy);
         let cover = Cover::new(options.shows_environment);
-        let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
+        let (mut scenes, mut notes) = (Vec::new(), Notes::default());
         let mut source = options.source.clone();
         for path in std::iter::once(&source.path).chain(&options.others) {
             match scenes_at(path) {

@@ -143,7 +143,7 @@ impl ImageArgs {
     /// Loads a scene with the variant, the environment and the edges that the options name.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
         let (loaded, environment) =
-            rayon::join(|| input::load_variant(path, self.camera.variant.as_deref()), || self.appearance.environment());
+            rayon::join(|| input::load(path, self.camera.variant.as_deref()), || self.appearance.environment());
         let mut loaded = loaded?;
         let (environment, warnings) = environment?;
         loaded.scene.environment = environment;
