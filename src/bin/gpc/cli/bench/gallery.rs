@@ -1,8 +1,8 @@
 //! Pictures for the report, as data URIs.
 
-use super::measurement::{Cause, Fault, Yardstick};
+use super::measurement::Yardstick;
 use super::pictures::{CropBox, ErrorMap, colors, small_jpeg};
-use super::split::reason;
+use super::split::{Pieces, reason};
 use gpc::output::DecodedImage;
 
 /// The pictures of one scene.
@@ -14,15 +14,12 @@ pub struct Gallery {
     pub parts: Vec<Part>,
 }
 
-/// An image of superpixels, and the cause of each pixel's error.
+/// An image of superpixels, and its error, split.
 pub struct GalleryImage {
     /// Samples a superpixel.
     pub samples: u32,
     pub image: DecodedImage,
-    /// Causes of the errors, one for each pixel.
-    pub causes: Vec<Cause>,
-    /// Parts of rendering that are to blame, one for each pixel.
-    pub faults: Vec<Option<Fault>>,
+    pub pieces: Pieces,
 }
 
 /// A picture and its caption.
@@ -82,8 +79,8 @@ impl GalleryImage {
     fn blame(&self, errors: &ErrorMap, window: CropBox) -> String {
         let mut shares: Vec<(&str, f64)> = Vec::new();
         for (pixel, square) in errors.squares(window) {
-            let cause = self.causes.get(pixel).copied();
-            let name = reason(cause, self.faults.get(pixel).copied().flatten());
+            let cause = self.pieces.causes.get(pixel).copied();
+            let name = reason(cause, self.pieces.faults.get(pixel).copied().flatten());
             match shares.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, share)) => *share += square,
                 None => shares.push((name, square)),

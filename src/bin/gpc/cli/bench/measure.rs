@@ -76,12 +76,7 @@ impl Bench<'_> {
             if let Some(pieces) = pieces
                 && (method, Some(samples)) == (MethodKind::Superpixel, shown)
             {
-                superpixels = Some(GalleryImage {
-                    samples,
-                    image: DecodedImage::from(&picture),
-                    causes: pieces.causes,
-                    faults: pieces.faults,
-                });
+                superpixels = Some(GalleryImage { samples, image: DecodedImage::from(&picture), pieces });
             }
         }
         self.take_turns(&mut contenders, |progress, index| {

@@ -18,7 +18,7 @@ pub(super) struct Splitter<'a> {
 }
 
 /// An image's error, split.
-pub(super) struct Pieces {
+pub struct Pieces {
     pub split: Split,
     /// Split by fault of the error in superpixels and in pixels of one triangle; superpixel antialiasing only.
     pub within: Option<Within>,

@@ -25,7 +25,7 @@ use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::{Method, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
-use report::ImageReport;
+use report::{ImageReport, ViewReport};
 use sequence::SequenceFrame;
 use serde::Serialize;
 use session::{Session, Shot};
@@ -114,9 +114,15 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 (Shot::Codes(shot), _) => save::save_codes(&path, &shot.rendered, &aovs)?,
             }
             clock.lap("write");
-            let startup = clock.finish().filter(|_| args.repeat.is_none());
-            let (seen, effort, warnings) = ((&view, &camera), shot.effort(&settings), warnings.0.clone());
-            let report = ImageReport::new(&path, session.device(), &settings, seen, effort, startup, warnings);
+            let startup_ms = clock.finish().filter(|_| args.repeat.is_none());
+            let report = ImageReport {
+                output: path.display().to_string(),
+                device: session.device(),
+                size: settings.output_size(),
+                effort: shot.effort(&settings),
+                more: ViewReport::new(&settings, &view, &camera, startup_ms),
+                warnings: warnings.0.clone(),
+            };
             progress.suspend(|| log::info!("{}", report.line()));
             progress.inc(1);
             images.push(report);

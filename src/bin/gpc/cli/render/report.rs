@@ -1,34 +1,27 @@
 //! Report on an image.
 
 use super::view::NamedView;
-use crate::cli::report::{DeviceReport, Effort};
+use crate::cli::report::{Effort, Figures};
 use gpc::camera::{Camera, Projection};
 use gpc::render::{PixelRect, Settings};
 use gpc::sampling::PixelFilter;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Figures of one image.
+pub type ImageReport = Figures<ViewReport>;
+
+/// Fields of `--json` for `gpc render`, besides those of every image.
 #[derive(Serialize)]
-pub struct ImageReport {
-    /// The file, or `-`.
-    output: String,
-    #[serde(flatten)]
-    device: DeviceReport,
-    /// Width and height of the rendered image or part in pixels.
-    size: [u32; 2],
+pub struct ViewReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<RegionReport>,
     camera: CameraReport,
     #[serde(skip_serializing_if = "Option::is_none")]
     filter: Option<FilterReport>,
-    #[serde(flatten)]
-    effort: Effort,
     /// Milliseconds of the steps of the start-up, reported with the first image only; `None` for repeated renderings.
     #[serde(skip_serializing_if = "Option::is_none")]
     startup_ms: Option<BTreeMap<&'static str, f64>>,
-    warnings: Vec<String>,
 }
 
 /// Part of an image that was rendered.
@@ -66,32 +59,26 @@ struct CameraReport {
     fov: Option<f64>,
 }
 
-impl ImageReport {
-    /// Figures of an image that `camera` made, which is `view` with the rotation of a turntable.
+impl ViewReport {
+    /// Fields of an image that `camera` made, which is `view` with the rotation of a turntable.
     pub fn new(
-        output: &Path,
-        device: DeviceReport,
         settings: &Settings,
-        (view, camera): (&NamedView, &Camera),
-        effort: Effort,
+        view: &NamedView,
+        camera: &Camera,
         startup_ms: Option<BTreeMap<&'static str, f64>>,
-        warnings: Vec<String>,
     ) -> Self {
         let [width, height] = settings.size.map(f64::from);
         let region = |region: PixelRect| RegionReport { corner: region.corner, image: settings.size };
         Self {
-            output: output.display().to_string(),
-            device,
-            size: settings.output_size(),
             region: settings.region.map(region),
             camera: describe(camera, view, width / height),
             filter: FilterReport::of(settings.pixel_filter),
-            effort,
             startup_ms,
-            warnings,
         }
     }
+}
 
+impl ImageReport {
     /// A line of text for people.
     pub fn line(&self) -> String {
         let [width, height] = self.size;

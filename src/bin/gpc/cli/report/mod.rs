@@ -56,15 +56,14 @@ impl DeviceReport {
     }
 }
 
-/// Figures of an image that was sampled at locations which the command chose. `T` holds the figures that only this
-/// command has.
+/// Figures of an image. `T` holds the figures that only one command has.
 #[derive(Serialize)]
 pub struct Figures<T> {
     /// The file, or `-`.
     pub output: String,
     #[serde(flatten)]
     pub device: DeviceReport,
-    /// Width and height of the image; of the image plane if the samples make no image.
+    /// Width and height of the image or part; of the image plane if the samples make no image.
     pub size: [u32; 2],
     #[serde(flatten)]
     pub effort: Effort,
