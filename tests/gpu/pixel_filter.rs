@@ -122,7 +122,7 @@ fn methods() -> Vec<(&'static str, Settings, [f64; 2])> {
     let points = |samples: u32| every(samples).map_superpixels(|options| options.pattern(Pattern::Sobol));
     vec![
         ("ssaa", settings(PixelFilter::BOX).method(MethodKind::Ssaa.with_samples(256)), [0.003, 0.02]),
-        ("accumulate", settings(PixelFilter::BOX).method(MethodKind::Accumulate.with_samples(1024)), [0.005, 0.05]),
+        ("accumulate", settings(PixelFilter::BOX).method(MethodKind::Accumulate.with_samples(256)), [0.005, 0.05]),
         ("lines of 64", every(64), [0.002, 0.02]),
         ("lines of 256", every(256), [0.002, 0.01]),
         ("lines of 1024", every(1024), [0.002, 0.01]),

@@ -321,7 +321,7 @@ mod tests {
     #[test]
     fn long_lists_leave_planes_fewer_tiles() {
         for longest in [0, 1, 30_000, 40_000, 1 << 20, 1 << 29] {
-            let side = plane_side(1 << 20, longest);
+            let side = plane_side(1 << 22, longest);
             let tiles = side.div_ceil(8) * side.div_ceil(4);
             let ranks = 1_u64 << tiles.leading_zeros();
             assert!(ranks >= longest.into(), "{longest}: {side}");

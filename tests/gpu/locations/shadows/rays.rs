@@ -33,19 +33,18 @@ fn shining(light: &Light, corners: &[[DVec3; 3]]) -> Shining {
 
 #[test]
 fn places_lie_in_the_shadow_of_what_rays_meet() {
-    shadows_are_those_of_the_twin([2.0, 1.2], 200, 400, 150);
+    shadows_are_those_of_the_twin([2.0, 1.2], 200, 1.0);
 }
 
 /// Hundreds of triangles in a few tiles of the planes, whose lists are refined.
 #[test]
 fn places_among_crowds_lie_in_the_shadow_of_what_rays_meet() {
-    shadows_are_those_of_the_twin([0.5, 0.15], 1000, 400, 150);
+    shadows_are_those_of_the_twin([0.5, 0.15], 1000, 0.3);
 }
 
 /// Compares the shadows among `count` triangles with the twin's. They lie within a box whose height is `spread`, and `side` bounds
-/// their size. Of the places on which each light shines, and of those in its shadow, at least `fewest` are compared, and at least
-/// `fewest_of_kind` for triangles that let light through and for others.
-fn shadows_are_those_of_the_twin([spread, side]: [f64; 2], count: usize, fewest: usize, fewest_of_kind: usize) {
+/// their size. `part` is the part of the image's width and height around its middle in which places are compared.
+fn shadows_are_those_of_the_twin([spread, side]: [f64; 2], count: usize, part: f64) {
     on_gpu(|gpu| {
         let mut random = Random::new(41);
         let mut fraction = || random.below(1 << 20) as f64 / f64::from(1 << 20);
@@ -73,8 +72,8 @@ fn shadows_are_those_of_the_twin([spread, side]: [f64; 2], count: usize, fewest:
         ];
         let pinhole = pinhole(SIZE);
         let size = SIZE.map(f64::from);
-        let locations: Vec<_> =
-            (0..60_000).map(|_| location([fraction() * size[0], fraction() * size[1]], 0)).collect();
+        let mut within = |side: f64| side * (0.5 + part * (fraction() - 0.5));
+        let locations: Vec<_> = (0..60_000).map(|_| location([within(size[0]), within(size[1])], 0)).collect();
         let seen = ask(gpu, &stage, &lights, &locations);
         let mut found = [[[0; 2]; 2]; 4];
         for (location, seen) in locations.iter().zip(&seen) {
@@ -103,8 +102,8 @@ fn shadows_are_those_of_the_twin([spread, side]: [f64; 2], count: usize, fewest:
         }
         for of_light in &found {
             let both = |hidden: usize| of_light[0][hidden] + of_light[1][hidden];
-            assert!(both(0) > fewest && both(1) > fewest, "{found:?}");
+            assert!(both(0) > 400 && both(1) > 400, "{found:?}");
         }
-        assert!(found.as_flattened().as_flattened().iter().all(|count| *count > fewest_of_kind), "{found:?}");
+        assert!(found.as_flattened().as_flattened().iter().all(|count| *count > 100), "{found:?}");
     });
 }
