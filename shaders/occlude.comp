@@ -60,7 +60,6 @@ const uint PIXEL_SHIFT = 5u, TILE_SHIFT = 10u;
 
 // The receivers of an invocation. If pixels have several points, it takes all points of its pixels: those of the centres in its
 // first rows.
-uint receiver[ROWS];        // pixel or fragment; ~0 for none
 uint where[ROWS];           // its tile, pixel of the tile and part of the pixel, see TILE_SHIFT; ~0 if nothing can hide it
 vec2 place[ROWS];           // relative to its tile's centre
 float least[ROWS];          // depth from which on a triangle lies in front of it
@@ -90,7 +89,6 @@ uint load_receivers() {
     [[unroll]] for (uint g = 0u; g < ROWS; g++) {
         uint i = receiver_of(g);
         bool some = i != ~0u;
-        receiver[g] = i;
         int surface = int(2u * (g / rows_of_point() * points_apart + (some ? i : 0u)));
         uvec4 at = texelFetch(locations, surface), facing_ = texelFetch(locations, surface + 1);
         some = some && at.w != 0u;
@@ -242,14 +240,11 @@ void store_words() {
     [[unroll]] for (uint g = 0u; g < ROWS; g++) stored |= g < rows_of_point() && (begins || share_of(g) < 1.0) ? exists & 1u << g : 0u;
     uint pending = team_or(stored);
     do {
-        uint row = pending == 0u ? 0u : uint(findLSB(pending)), i = receiver[0];
+        uint row = pending == 0u ? 0u : uint(findLSB(pending));
         float share = share_of(0u);
-        [[unroll]] for (uint g = 1u; g < ROWS; g++) {
-            i = row == g ? receiver[g] : i;
-            share = row == g ? share_of(g) : share;
-        }
+        [[unroll]] for (uint g = 1u; g < ROWS; g++) share = row == g ? share_of(g) : share;
         if ((stored >> row & 1u) != 0u) {
-            uint place = (push.first_place + i) * SHADOW_WORDS;
+            uint place = (push.first_place + receiver_of(row)) * SHADOW_WORDS;
             words[place] = (begins ? 0u : words[place]) | (share < 1.0 ? 1u << push.number : 0u);
             if (BLENDS && share < 1.0) words[place + 1u + push.number] = floatBitsToUint(share);
         }
@@ -262,7 +257,7 @@ void mark_pixels(uint asked) {
     uint differing = 0u;
     [[unroll]] for (uint g = ROWS / SHADOW_POINTS; g < ROWS; g++) {
         uint centre = g % (ROWS / SHADOW_POINTS);
-        uvec2 pixel = split(receiver[g], push.region.x);
+        uvec2 pixel = split(receiver_of(g), push.region.x);
         bool differs = (asked >> g & 1u) != 0u && abs(share_of(g) - share_of(centre)) > ALIKE;
         differing |= differs ? 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)) : 0u;
     }
