@@ -225,8 +225,9 @@ impl Sampler {
         self.source.growths().len()
     }
 
-    /// Records a run, after [`Resources::record_unmarked`] and what else marks pixels: finding the cells, sampling and shading them, and their growth. `make figures` writes what a pass of a
-    /// frame reads from earlier ones and what it writes.
+    /// Records a run: finding the cells, sampling and shading them, and their growth. If cells are pixels, their marks have to be
+    /// [cleared](Resources::record_unmarked) before, and may then have been set by other passes. `make figures` writes what a pass
+    /// of a frame reads from earlier ones and what it writes.
     pub fn record(&self, recorder: &Recorder<'_>, run: &SamplerRun<'_>, shading: &dyn RecordShading) {
         let SamplerRun { resources, set, uniform, .. } = *run;
         let tiles = uniform.tiles[0] * uniform.tiles[1];
