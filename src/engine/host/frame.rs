@@ -396,7 +396,7 @@ impl Frame {
             // Superpixels that are left over have no spread.
             recorder.clear(resources.buffer(Data::Spreads));
         }
-        resources.record_unmarked(recorder);
+        sampler.record_unmarked(recorder, resources);
         sampler.record(recorder, &run, &shading);
         if let Some(filter) = &work.filter {
             let [width, height] = uniform.size;

@@ -225,9 +225,22 @@ impl Sampler {
         self.source.growths().len()
     }
 
-    /// Records a run: finding the cells, sampling and shading them, and their growth. If cells are pixels, their marks have to be
-    /// [cleared](Resources::record_unmarked) before, and may then have been set by other passes. `make figures` writes what a pass
-    /// of a frame reads from earlier ones and what it writes.
+    /// Whether pixels become cells because they are marked, by this or by passes before it.
+    pub fn takes_marked(&self) -> bool {
+        matches!(&self.source, Source::Pixels { thin: Some(_), .. })
+    }
+
+    /// Records clearing the marks of pixels, if the sampler takes marked ones. Passes may then mark pixels, until
+    /// [`record`](Self::record) takes them.
+    pub fn record_unmarked(&self, recorder: &Recorder<'_>, resources: &Resources) {
+        if self.takes_marked() {
+            recorder.clear(resources.buffer(Data::Marks));
+        }
+    }
+
+    /// Records a run: finding the cells, sampling and shading them, and their growth. Its marks were
+    /// [cleared](Self::record_unmarked) before. `make figures` writes what a pass of a frame reads from earlier ones and what it
+    /// writes.
     pub fn record(&self, recorder: &Recorder<'_>, run: &SamplerRun<'_>, shading: &dyn RecordShading) {
         let SamplerRun { resources, set, uniform, .. } = *run;
         let tiles = uniform.tiles[0] * uniform.tiles[1];

@@ -10,7 +10,7 @@ use crate::engine::passes::pixel_filter;
 use crate::engine::pipelines::Pass;
 use crate::engine::sampler::color::display_code;
 use crate::engine::sampler::plan::{Plan, Region};
-use crate::engine::sampler::{RecordShading, SamplerRun, SamplerSettings};
+use crate::engine::sampler::{RecordShading, Sampler, SamplerRun, SamplerSettings};
 use crate::render::Settings;
 use crate::render::data::{FrameGeometry, GpuScene};
 use crate::render::passes::{Encoding, StrokeSizes, encode};
@@ -140,12 +140,15 @@ impl FrameRecording<'_> {
             [width, height],
             region.drawn().map(|place| place.map(|pixels| pixels * side)),
         );
-        resources.record_unmarked(recorder);
+        if let Some(sampler) = &passes.superpixels {
+            sampler.record_unmarked(recorder, resources);
+        }
         if let Some(shadows) = self.shadows {
             shadows.record_planes(recorder, &views, main);
         }
         if let Some(PixelShading { spans, shade }) = &passes.pixels {
             let background = whole.background;
+            let marks = passes.superpixels.as_ref().is_some_and(Sampler::takes_marked);
             recorder.section(PassTime::BACKGROUND, || {
                 let code = display_code(background);
                 resources.record_background(recorder, pixels, background, code);
@@ -155,7 +158,7 @@ impl FrameRecording<'_> {
             if let Some(shadows) = self.shadows {
                 // receivers: ─▶ locations
                 // occlude: tiles, candidates, locations ─▶ words, left, marks_of_pixels
-                shadows.record_pixels(recorder, shadowed(main), passes.superpixels.is_some());
+                shadows.record_pixels(recorder, shadowed(main), marks);
             }
             // shade: ids, shade_order, bins ─▶ display, color, shaded
             shade.record(recorder);

@@ -25,11 +25,6 @@ impl Resources {
         set.show(recorder);
     }
 
-    /// Records clearing the marks of pixels, before passes that mark them.
-    pub(crate) fn record_unmarked(&self, recorder: &Recorder<'_>) {
-        recorder.clear(self.buffer(Data::Marks));
-    }
-
     /// Records that all pixels of the region are taken, by one cell in each tile.
     pub(crate) fn record_all_tiles(&self, recorder: &Recorder<'_>) {
         recorder.fill(self.buffer(Data::Masks), vk::WHOLE_SIZE, u32::MAX);
