@@ -1,6 +1,6 @@
 // adopt: converts a host's triangles, in the order of its draws, to the form that the other passes read. A dispatch takes
 // consecutive draws with the same mesh, topology and front face, and an invocation a triangle. Twin:
-// `gpc::reference::topology`.
+// twins/src/topology.rs.
 // Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: only
 // their own triangles are wrong then. All other passes take counter-clockwise triangles for front faces, so if a draw's front
 // faces are clockwise, two corners of its triangles are exchanged here.

@@ -5,7 +5,7 @@
 // lie side by side, so that they have most candidates in common.
 // Reads: locations (surfaces, from `receivers`), tiles, candidates; words. Writes: words of `include/shadows.glsl`,
 // marks_of_pixels. Receivers in tiles without a list are counted as left, with what such a list needs.
-// Twin: `gpc::reference::shadow`.
+// Twin: twins/src/shadow.rs.
 //
 // In each trip of the outer loop, the receivers in one tile are tested; in one pixel of a tile whose list is refined. The team
 // searches the list for candidates that may touch a pixel (or a part of one) with receivers, and may lie in front of one. As soon as
@@ -93,7 +93,7 @@ uint load_receivers() {
         uvec4 at = texelFetch(locations, surface), facing_ = texelFetch(locations, surface + 1);
         some = some && at.w != 0u;
         Projected r = project(uintBitsToFloat(at.xyz), uintBitsToFloat(facing_.xyz), facing_.w != 0u, first, ivec2(frame.size));
-        uint tile = (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3), pixel = (r.pixel.y & 3u) * 8u + (r.pixel.x & 7u);
+        uint tile = (r.pixel.y >> 2) * frame.tiles.x + (r.pixel.x >> 3), pixel = pixel_in_tile(r.pixel);
         where[g] = some && r.asked ? tile << TILE_SHIFT | pixel << PIXEL_SHIFT | part_at(r.within) : ~0u;
         place[g] = place_in_tile(uvec4(r.pixel, floatBitsToUint(r.within)));
         least[g] = r.least;
@@ -163,7 +163,7 @@ uint test_in(uint its, uint mine) {
     bool refined = (header.w & TILE_REFINED) != 0u;
     uint pixel = pixels == 0u ? 0u : uint(findLSB(pixels));
     uint word = texelFetch(candidates, int((refined ? header.z : 0u) + (pixel >> 2)))[pixel & 3u];
-    uint begin = refined ? header.z + REFINED_HEADER + (word >> 16) : 4u * header.y, length_ = refined ? word & 0xffffu : count;
+    uint begin = refined ? header.z + REFINED_HEADER + (word >> 16) : uint(last_of_candidate(header.y, 0u, true)), length_ = refined ? word & 0xffffu : count;
 
     vec2 center = tile_center(ivec2(split(its, frame.tiles.x))), low = vec2(3.4e38), high = vec2(-3.4e38);
     float lowest = 3.4e38;
@@ -257,9 +257,8 @@ void mark_pixels(uint asked) {
     uint differing = 0u;
     [[unroll]] for (uint g = ROWS / SHADOW_POINTS; g < ROWS; g++) {
         uint centre = g % (ROWS / SHADOW_POINTS);
-        uvec2 pixel = split(receiver_of(g), push.region.x);
         bool differs = (asked >> g & 1u) != 0u && abs(share_of(g) - share_of(centre)) > ALIKE;
-        differing |= differs ? 1u << ((pixel.y & 3u) * 8u + (pixel.x & 7u)) : 0u;
+        differing |= differs ? 1u << pixel_in_tile(split(receiver_of(g), push.region.x)) : 0u;
     }
     differing = team_or(differing);
     uvec2 corner = split(team_number(), (push.region.x + 3u) >> 2) * 4u;

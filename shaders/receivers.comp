@@ -4,7 +4,7 @@
 // through).
 // Pixels may have further points, where the pixel's triangle covers these, too. `occlude` compares them with the pixel's centre.
 // Reads: ids or fragments, the geometry. Writes: a surface for each point, those of all centres first.
-// Twin: `gpc::reference::shadow`.
+// Twin: twins/src/shadow.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

@@ -86,8 +86,10 @@ void refine_tile(uint tile_index, uint count) {
 
     chunk = 0u;
     do {
-        uint rank = min(chunk + lane, max(count, 1u) - 1u), pixels = has_room ? pixels_of(tile, chunk + lane, count) : 0u, left = pixels;
-        Candidate k = unpack_candidate(candidate_at(tile.y, rank, count, true), texelFetch(candidates, last_of_candidate(tile.y, rank, true)));
+        uint rank = min(chunk + lane, max(count, 1u) - 1u);
+        uvec4 last = texelFetch(candidates, last_of_candidate(tile.y, rank, true));
+        Candidate k = unpack_candidate(candidate_at(tile.y, rank, count, true), last);
+        uint pixels = has_room && chunk + lane < count ? k.pixels : 0u, left = pixels;
         do {
             uint pixel = left == 0u ? 0u : uint(findLSB(left));
             uint place = place_of_entry(next, pixels, pixel);

@@ -1,5 +1,5 @@
 // transform: computes the positions of a host's vertices in clip space. An invocation takes a position.
-// Reads: draws, the host's vertices, matrices. Writes: positions. Twin: `gpc::reference::transform`.
+// Reads: draws, the host's vertices, matrices. Writes: positions. Twin: twins/src/transform.rs.
 // Positions of vertices are four floats in clip space, and are copied. With OBJECT they are three numbers in object space; each
 // draw has positions of its own, which are multiplied by its matrix.
 #version 460

@@ -1,5 +1,5 @@
 // glTF's metallic-roughness BRDF (glTF 2.0, appendix B): GGX with height-correlated Smith visibility, Schlick
-// Fresnel and a Lambertian base. Twin: `gpc::reference::reflection`.
+// Fresnel and a Lambertian base. Twin: twins/src/reflection.rs.
 #ifndef BRDF_GLSL
 #define BRDF_GLSL
 

@@ -1,4 +1,4 @@
-// Light from all around: the scene's environment map, or else the studio. Twin: `gpc::reference::prefilter`.
+// Light from all around: the scene's environment map, or else the studio. Twin: twins/src/prefilter.rs.
 #ifndef ENVIRONMENT_GLSL
 #define ENVIRONMENT_GLSL
 #include "interface.glsl"

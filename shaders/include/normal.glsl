@@ -1,4 +1,4 @@
-// Normal mapping, and normals that point away from the eye. Twin: `gpc::reference::reflection`.
+// Normal mapping, and normals that point away from the eye. Twin: twins/src/reflection.rs.
 #ifndef NORMAL_GLSL
 #define NORMAL_GLSL
 

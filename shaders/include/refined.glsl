@@ -5,6 +5,9 @@
 
 const uint REFINED_HEADER = 8u;     // vectors of a refined list before its entries
 
+// The number of a pixel within its tile.
+uint pixel_in_tile(uvec2 pixel) { return (pixel.y & 3u) * 8u + (pixel.x & 7u); }
+
 // The upper left corner of a pixel of a tile, relative to the tile's centre.
 vec2 low_of_pixel(uint pixel) { return vec2(pixel & 7u, pixel >> 3) - vec2(4.0, 2.0); }
 

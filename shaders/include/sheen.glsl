@@ -1,5 +1,5 @@
 // KHR_materials_sheen: fibres on a surface, with the distribution of Estevez and Kulla ("Production Friendly Microfacet Sheen
-// BRDF", 2017) and the visibility of Neubelt and Pettineo. Twin: `gpc::reference::sheen`.
+// BRDF", 2017) and the visibility of Neubelt and Pettineo. Twin: twins/src/sheen.rs.
 #ifndef SHEEN_GLSL
 #define SHEEN_GLSL
 

@@ -243,12 +243,8 @@ impl PixelFilter {
             return 1.0;
         }
         let width = 2.0 * self.radius;
-        let step = width / f64::from(STEPS);
-        let places = (0..STEPS).map(|i| (f64::from(i) + 0.5) * step - self.radius);
-        let [sum, squares] = places.fold([0.0, 0.0], |[sum, squares], x| {
-            let value = self.value(x).abs();
-            [sum + value * step, squares + value * value * step]
-        });
+        let sum = self.integral(0.0, width, |x| self.value(x).signum());
+        let squares = self.integral(0.0, width, |x| self.value(x));
         sum * sum / squares
     }
 

@@ -10,7 +10,8 @@ use crate::vulkan::{Buffer, DescriptorSets, Recorder, Specialized, VulkanError};
 pub use crate::engine::spirv::SHADOW_POINTS;
 
 /// Points of a pixel that are tested for shadows besides its centre, relative to it. `shaders/receivers.comp` explains the choice.
-pub const PROBES: [[f64; 2]; 3] = [[0.34375, 0.34375], [-0.296875, 0.40625], [0.46875, -0.296875]];
+pub const PROBES: [[f64; 2]; SHADOW_POINTS as usize - 1] =
+    [[0.34375, 0.34375], [-0.296875, 0.40625], [0.46875, -0.296875]];
 
 /// Places that are about to be shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
