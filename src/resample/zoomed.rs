@@ -152,4 +152,17 @@ mod tests {
         assert!((place - DVec2::new(10.0, 6.0)).length() < 1e-9);
         assert!((jacobian.col(0) - DVec2::X).length() < 1e-9);
     }
+
+    #[test]
+    fn what_is_no_zoom_is_refused() {
+        let refused = |bytes: &[u8]| Zoomed::decode(bytes, "a.png").unwrap_err().to_string();
+        assert!(refused(&png()).contains("it holds no zoom"));
+        let map = ZoomMap::new(vec![region()]).unwrap();
+        let other = Zoomed::add_map(&png(), [12, 16], &map).unwrap();
+        assert!(refused(&other).contains("one of 12 x 16 pixels, but it has 16 x 12"));
+        let nonsense = output::add_text(&png(), KEYWORD, "{}").unwrap();
+        assert!(refused(&nonsense).contains("can't be read"));
+        let empty = output::add_text(&png(), KEYWORD, r#"{"size":[16,12],"regions":[]}"#).unwrap();
+        assert!(refused(&empty).contains("no region"));
+    }
 }

@@ -240,4 +240,18 @@ mod tests {
         assert_eq!(places.levels[0][1].size, [2, 1]);
         assert_eq!(places.levels[0][1].repeats, 1);
     }
+
+    #[test]
+    fn maps_that_can_not_be_read_are_named() {
+        let refused = |map: AlphaMap| map.check().unwrap_err().to_string();
+        assert!(map([4, 4], 3).check().is_ok());
+        assert_eq!(refused(map([0, 4], 1)), "AlphaMap::size[0] is 0; it can be 1 to 65535");
+        assert_eq!(refused(map([4, 4], 4)), "AlphaMap::levels is 4; it can be 1 to 3");
+        let border = AlphaMap { address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2], ..map([4, 4], 1) };
+        assert!(refused(border).starts_with("AlphaMap::address is 3; it can be REPEAT (0)"));
+        let cubic = AlphaMap { min_filter: vk::Filter::CUBIC_EXT, ..map([4, 4], 1) };
+        assert_eq!(refused(cubic), "AlphaMap::min_filter is 1000015000; it can be NEAREST (0) or LINEAR (1)");
+        let broken = AlphaMap { cutoff: f32::NAN, ..map([4, 4], 1) };
+        assert_eq!(refused(broken), "AlphaMap::cutoff has a number that is not finite");
+    }
 }

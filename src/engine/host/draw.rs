@@ -556,14 +556,38 @@ mod tests {
         );
     }
 
-    /// `tests/hosts/misuse.c` has the other faults of these draws.
     #[test]
-    fn draws_in_object_space_have_vertices_of_their_mesh() {
-        for (offset, count, held) in [(-1, 6, "from -1 to before 5"), (7, 0, "from 7 to before 7")] {
-            let placed = PlacedDraws::new(&in_object_space(), &[with_vertices(offset, count)]);
-            let expected =
-                format!("draw 0: it has the vertices {held}; it needs at least one, of those from 0 to before 100");
-            assert_eq!(placed.err().unwrap().to_string(), expected);
+    fn draws_in_object_space_that_do_not_fit_are_named() {
+        let refused = |draws: &[Draw]| {
+            let placed = PlacedDraws::new(&in_object_space(), draws);
+            placed.err().unwrap().to_string()
+        };
+        let unknown = Draw { front_face: vk::FrontFace::from_raw(2), ..with_vertices(0, 1) };
+        let broken = Draw { to_clip: [[f32::NAN; 4]; 4], ..with_vertices(0, 1) };
+        for (draws, message) in [
+            (
+                vec![with_vertices(0, 1), with_vertices(95, 6)],
+                "draw 1: it has the vertices from 95 to before 101; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(-1, 6)],
+                "draw 0: it has the vertices from -1 to before 5; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(7, 0)],
+                "draw 0: it has the vertices from 7 to before 7; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(0, 30), with_vertices(0, 11)],
+                "41 vertices; the capacity of PositionSpace::Object is 40",
+            ),
+            (
+                vec![with_vertices(0, 1), unknown],
+                "draw 1: Draw::front_face is 2; it can be VK_FRONT_FACE_COUNTER_CLOCKWISE (0) or VK_FRONT_FACE_CLOCKWISE (1)",
+            ),
+            (vec![broken], "draw 0: Draw::to_clip has a number that is not finite"),
+        ] {
+            assert_eq!(refused(&draws), message);
         }
     }
 

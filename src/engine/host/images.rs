@@ -234,21 +234,68 @@ mod tests {
         color_copied: false,
     };
 
-    /// `tests/hosts/misuse.c` has the other faults.
     #[test]
-    fn only_what_is_read_has_to_be_there_before() {
-        let mut images = images();
+    fn what_is_missing_or_does_not_fit_is_named() {
+        let check = |images: &Images| images.check(&KINDS, &Options::new(64, 32), 1024);
+        assert!(check(&images()).is_ok());
+        let refused = |spoil: &dyn Fn(&mut Images)| {
+            let mut images = images();
+            spoil(&mut images);
+            check(&images).unwrap_err().to_string()
+        };
+        let ids = refused(&|images| {
+            let ids = images.ids.as_mut();
+            ids.unwrap().image = vk::Image::null();
+        });
+        assert_eq!(ids, "Images::ids.image is VK_NULL_HANDLE");
+        let view = refused(&|images| images.color.view = vk::ImageView::null());
+        assert_eq!(view, "Images::color.view is VK_NULL_HANDLE");
+        let depth = refused(&|images| images.depth = None);
+        assert!(depth.starts_with("Images::depth is missing"));
+        let alone = refused(&|images| images.ids = None);
+        assert!(alone.starts_with("Images::ids is missing"));
+        let bare = ImageKinds { ids: false, depth: false, ..KINDS };
+        let more = images().check(&bare, &Options::new(64, 32), 1024);
+        let more = more.unwrap_err().to_string();
+        assert!(more.starts_with("Images::ids is lent"));
+        let beyond = refused(&|images| images.corner = [961, 0]);
+        assert!(beyond.starts_with("the frame's part of the images ends at 1025 x 32 pixels"));
+        let lost = refused(&|images| images.color.after.layout = vk::ImageLayout::UNDEFINED);
+        assert_eq!(
+            lost,
+            "Images::color.after.layout is VK_IMAGE_LAYOUT_UNDEFINED; it can be any that keeps what the image holds"
+        );
+        let empty = refused(&|images| images.color.before.layout = vk::ImageLayout::UNDEFINED);
+        assert!(empty.starts_with("Images::color.before.layout is VK_IMAGE_LAYOUT_UNDEFINED"));
+        let mut shaded = images();
+        shaded.color.before.layout = vk::ImageLayout::UNDEFINED;
         let options = Options { shade_all: true, ..Options::new(64, 32) };
-        images.color.before.layout = vk::ImageLayout::UNDEFINED;
-        assert!(images.check(&KINDS, &options, 1024).is_ok());
-        assert!(images.check(&KINDS, &options.keep_alpha(true), 1024).is_err(), "there is no alpha to keep");
+        assert!(shaded.check(&KINDS, &options, 1024).is_ok());
+        assert!(shaded.check(&KINDS, &options.keep_alpha(true), 1024).is_err(), "there is no alpha to keep");
+        let aspects = refused(&|images| images.color.aspects = vk::ImageAspectFlags::DEPTH);
+        assert_eq!(aspects, "Images::color.aspects is 0x2; it can have COLOR");
+        let none = refused(&|images| {
+            let depth = images.depth.as_mut();
+            depth.unwrap().aspects = vk::ImageAspectFlags::empty();
+        });
+        assert!(none.starts_with("Images::depth.aspects is 0x0"));
     }
 
     #[test]
-    fn colours_are_not_encoded_twice() {
+    fn kinds_that_do_not_fit_are_named() {
+        let refused = |kinds: ImageKinds| {
+            let checked = kinds.check(&Options::new(64, 32));
+            checked.unwrap_err().to_string()
+        };
         assert!(KINDS.check(&Options::new(64, 32)).is_ok());
-        let twice = ImageKinds { color_format: vk::Format::B8G8R8A8_SRGB, ..KINDS };
-        let refused = twice.check(&Options::new(64, 32)).unwrap_err().to_string();
-        assert!(refused.ends_with("set ImageKinds::color_encoded to false"));
+        let shallow = ImageKinds { depth: false, ..KINDS };
+        assert!(refused(shallow).starts_with("thin triangles are found by depth"));
+        let alone = ImageKinds { ids: false, ..KINDS };
+        assert!(refused(alone).starts_with("ImageKinds::depth is true without ImageKinds::ids"));
+        let of = |color_format| ImageKinds { color_format, ..KINDS };
+        let integers = refused(of(vk::Format::R8G8B8A8_UINT));
+        assert!(integers.starts_with("ImageKinds::color_format is VK_FORMAT_R8G8B8A8_UINT"));
+        let twice = refused(of(vk::Format::B8G8R8A8_SRGB));
+        assert!(twice.ends_with("set ImageKinds::color_encoded to false"));
     }
 }

@@ -101,4 +101,22 @@ mod tests {
         let plane = plane.unwrap();
         assert_eq!((plane.scale, plane.middle), ([50.0, 15.25], [39.5, 14.25]));
     }
+
+    #[test]
+    fn viewports_that_do_not_fit_are_named() {
+        let refused = |clip, viewport| {
+            let plane = ClipPlane::of_viewport(&clip, &viewport, [2, 0], [20, 20]);
+            plane.unwrap_err().to_string()
+        };
+        assert_eq!(
+            refused(ClipSpace::default(), viewport(2.5, 0.0, 40.0, 40.0)),
+            "Scenery::viewport holds the pixels from (2.5, 0) to (42.5, 40), and the frame is of those from (2, 0) to (22, 20): a frame's part of the images has to lie in the viewport; make Options::size smaller, or begin it elsewhere by Images::corner"
+        );
+        assert_eq!(
+            refused(UP, viewport(0.0, 0.0, 40.0, 40.0)),
+            "Scenery::viewport is 40 x 40 pixels at (0, 0); it needs finite numbers, a positive width, and a height that is negative as ClipSpace::y_up is true"
+        );
+        let broken = viewport(f32::NAN, 0.0, 40.0, 40.0);
+        assert!(refused(ClipSpace::default(), broken).starts_with("Scenery::viewport is 40 x 40 pixels"));
+    }
 }

@@ -116,4 +116,14 @@ mod tests {
         let error = error([10, 20, 30, 255], [10, 12, 32, 255]);
         assert_eq!(error, opaque(heat_color(0.5)));
     }
+
+    #[test]
+    fn scales_say_what_colours_are() {
+        let of_difference = |difference: u8| error([difference, 0, 0, 255], [0, 0, 0, 255]);
+        let of_count = |count: u8| triangles(&mut (1..=u32::from(count)).collect::<Vec<_>>());
+        let shares = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| opaque(heat_color(share)));
+        let labels = |overlay: Overlay| overlay.scale().iter().map(|label| label.parse().unwrap());
+        assert_eq!(labels(Overlay::Triangles).map(of_count).collect::<Vec<_>>(), shares);
+        assert_eq!(labels(Overlay::Error).map(of_difference).collect::<Vec<_>>(), shares);
+    }
 }

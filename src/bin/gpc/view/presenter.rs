@@ -38,7 +38,8 @@ impl Presenter {
         self.is_busy = true;
     }
 
-    /// Whether the swapchain has to be made anew after the last image was presented; `None` until it is there, and once it was returned.
+    /// Whether the swapchain has to be made anew after the last image was presented; `None` until that is known, and after it was
+    /// returned.
     pub fn poll(&mut self) -> Option<Result<bool, VulkanError>> {
         let outcome = self.outcomes.try_recv().ok()?;
         self.is_busy = false;

@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(find("left").unwrap(), Standpoint::Camera(0));
         assert_eq!(find("0").unwrap(), Standpoint::Camera(1));
         assert_eq!(find("1").unwrap(), Standpoint::Camera(1));
-        for asked in ["2", "-1"] {
+        for asked in ["2", "all", "-1"] {
             let error = find(asked).unwrap_err().to_string();
             assert!(error.contains("0 \"left\", 1 \"0\""), "{error}");
         }

@@ -39,7 +39,7 @@ fn places_lie_in_the_shadow_of_what_rays_meet() {
 /// Hundreds of triangles in a few tiles of the planes, whose lists are refined.
 #[test]
 fn places_among_crowds_lie_in_the_shadow_of_what_rays_meet() {
-    shadows_are_those_of_the_twin([0.5, 0.15], 1000, 0.3);
+    shadows_are_those_of_the_twin([0.5, 0.15], 1000, 0.25);
 }
 
 /// Compares the shadows among `count` triangles with the twin's. They lie within a box whose height is `spread`, and `side` bounds
@@ -104,6 +104,6 @@ fn shadows_are_those_of_the_twin([spread, side]: [f64; 2], count: usize, part: f
             let both = |hidden: usize| of_light[0][hidden] + of_light[1][hidden];
             assert!(both(0) > 400 && both(1) > 400, "{found:?}");
         }
-        assert!(found.as_flattened().as_flattened().iter().all(|count| *count > 100), "{found:?}");
+        assert!(found.as_flattened().as_flattened().iter().all(|count| *count > 150), "{found:?}");
     });
 }

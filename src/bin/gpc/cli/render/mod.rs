@@ -31,6 +31,7 @@ use serde::Serialize;
 use session::{Session, Shot};
 use startup::Clock;
 use std::process::ExitCode;
+use template::frame_number;
 
 /// Output of `--json` for several images.
 #[derive(Serialize)]
@@ -104,8 +105,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 shot.rendered.show_behind(environment, &camera, &settings)?;
             }
             clock.lap("frame");
-            let path =
-                template.fill(&[("stem", &stem), ("camera", &view.label), ("frame", &format!("{:04}", step.frame))]);
+            let frame = frame_number(step.frame);
+            let path = template.fill(&[("stem", &stem), ("camera", &view.label), ("frame", &frame)]);
             match (&shot, &mut video) {
                 (Shot::Light(shot), Some(video)) => {
                     video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;

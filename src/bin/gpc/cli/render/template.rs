@@ -58,6 +58,11 @@ impl Template {
     }
 }
 
+/// The number of a frame as part of a file name.
+pub fn frame_number(frame: u32) -> String {
+    format!("{frame:04}")
+}
+
 /// A name from a scene as part of a file name: characters that folders, drives or shells interpret become `_`.
 pub fn file_name_part(name: &str) -> String {
     let safe = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ' | '+');
@@ -72,11 +77,35 @@ pub fn file_name_part(name: &str) -> String {
 mod tests {
     use super::*;
 
+    fn template(text: &str) -> Result<Template, String> {
+        Template::new(Path::new(text), &["stem", "camera", "frame"]).map_err(|error| error.to_string())
+    }
+
     #[test]
     fn fields_are_filled_in() {
-        let template = Template::new(Path::new("o/{stem}-{camera}.png"), &["stem", "camera"]).unwrap();
-        let name = template.fill(&[("stem", "a{camera}"), ("camera", "top")]);
-        assert_eq!(name, Path::new("o/a{camera}-top.png"));
+        let fill = |text: &str, frame: u32| {
+            let frame = frame_number(frame);
+            template(text).unwrap().fill(&[("stem", "a{frame}"), ("camera", "top"), ("frame", &frame)])
+        };
+        assert_eq!(fill("o/{stem}-{camera}.{frame}.png", 7), Path::new("o/a{frame}-top.0007.png"));
+        assert_eq!(fill("{frame}", 12_345), Path::new("12345"));
+    }
+
+    #[test]
+    fn unknown_fields_are_told_the_known_ones() {
+        let message = template("{name}.png").err().unwrap();
+        assert!(message.contains("{name}") && message.contains("{stem}"), "{message}");
+        assert!(template("{stem.png").is_err());
+    }
+
+    #[test]
+    fn several_images_need_a_field() {
+        let plain = template("a.png").unwrap();
+        assert!(plain.require("frame", "frames", 1).is_ok());
+        let message = plain.require("frame", "frames", 2).unwrap_err().to_string();
+        assert!(message.contains("add {frame}"), "{message}");
+        assert!(template("{frame}.png").unwrap().require("frame", "frames", 2).is_ok());
+        assert!(template("-").unwrap().require("camera", "cameras", 2).is_err());
     }
 
     #[test]
