@@ -218,7 +218,12 @@ impl Canvas {
     /// Time at which the next work on a picture is due, if there is any.
     pub fn due(&self) -> Option<Instant> {
         self.stage.as_ref()?;
-        self.layers.iter().filter(|layer| self.refines || layer.schedule.is_draft()).filter_map(Layer::due).min()
+        self.layers.iter().filter(|layer| self.is_wanted(layer)).filter_map(Layer::due).min()
+    }
+
+    /// Whether the next work on a picture is wanted. Nothing begins under a cover.
+    fn is_wanted(&self, layer: &Layer) -> bool {
+        self.cover.is_none() && (self.refines || layer.schedule.is_draft())
     }
 
     /// Whether work has to be repeated in a frame with more room.
@@ -226,10 +231,10 @@ impl Canvas {
         self.layers.iter().any(Layer::has_again)
     }
 
-    /// Whether every picture has all its samples.
+    /// Whether every picture has all its samples, as far as it is seen.
     pub fn rests(&self) -> bool {
         let is_done = |layer: &Layer| {
-            let is_finished = if self.refines { layer.schedule.is_done() } else { !layer.schedule.is_draft() };
+            let is_finished = !self.is_wanted(layer) || layer.schedule.is_done();
             is_finished && !layer.has_again() && !layer.is_waiting()
         };
         !self.layers.is_empty() && self.layers.iter().all(is_done) && self.slots.iter().all(|slot| slot.jobs.is_empty())
@@ -303,11 +308,12 @@ impl Canvas {
         let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
             return Ok(());
         };
-        let slot = &mut self.slots[self.turn];
         let sight = Sight { scene: &stage.prepared, camera, moment: seen.moment };
-        for layer in &mut self.layers {
+        let is_wanted: Vec<_> = self.layers.iter().map(|layer| self.is_wanted(layer)).collect();
+        let slot = &mut self.slots[self.turn];
+        for (layer, is_wanted) in self.layers.iter_mut().zip(is_wanted) {
             let is_begun = layer.has_again() || layer.is_waiting();
-            if !self.refines && !layer.schedule.is_draft() && !is_begun {
+            if !is_wanted && !is_begun {
                 continue;
             }
             let makers = (&self.engine, &self.preparer);

@@ -3,10 +3,14 @@
 use super::lens::Lenses;
 use super::look::Look;
 use super::overlay::Overlay;
-use super::samples::{REST, SampleSteps};
+use super::samples::{REST, SampleSteps, TARGET_MS};
 use super::worker::{DraftTime, Subject};
 use gpc::render::Settings;
 use std::time::Instant;
+
+/// Milliseconds that a draft may take at most for covers to be shown while the view moves. Where drafts take longer, frames are shown
+/// instead, which are smoother.
+const LIVE_MS: f64 = 2.0 * TARGET_MS;
 
 /// The cover to show, and the progress of making it.
 #[derive(Debug, Default)]
@@ -29,9 +33,22 @@ pub struct Cover {
     changed: Option<Instant>,
     /// Time at which to place the next order.
     due: Option<Instant>,
-    /// Number of the first order since the view changed.
+    /// Number of the first order whose picture may be shown.
     first: u64,
+    /// Whether the last draft was quick enough for covers of a view that moves.
+    is_quick: bool,
     is_done: bool,
+}
+
+/// What has changed since the pictures before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Lenses or overlays. Covers of the same view stay until there are others.
+    Cover,
+    /// The view. Covers of earlier views stay if [`Cover::is_live`].
+    View,
+    /// The scene, its look or the size of the window.
+    Scene,
 }
 
 /// A picture of the series that follows a change.
@@ -81,19 +98,32 @@ impl Cover {
         !self.is_wanted() || self.is_done
     }
 
-    /// The first order after a change of the view or, if `view_changed` is false, of the lenses. The last order of the series
-    /// has the number of samples of `look`.
-    pub fn begin(&mut self, view_changed: bool, look: &Look, now: Instant) -> CoverOrder {
+    /// Whether covers are shown while the view moves, because their drafts are quick.
+    pub fn is_live(&self) -> bool {
+        self.is_quick && self.has_drafts()
+    }
+
+    /// The first order after a change. The last order of the series has the number of samples of `look`.
+    pub fn begin(&mut self, change: Change, look: &Look, now: Instant) -> CoverOrder {
         let known = self.refined.take().filter(|(known, _)| known == look);
         let (_, samples) = self.refined.insert(known.unwrap_or_else(|| (look.clone(), SampleSteps::for_covers(look))));
-        let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
-        let step = if needs_all { CoverStep::Rest(look.samples()) } else { CoverStep::Draft(samples.draft()) };
+        let draft = samples.draft();
+        let step = if self.has_drafts() { CoverStep::Draft(draft) } else { CoverStep::Rest(look.samples()) };
         self.changed = Some(now);
         let order = self.order(look, step);
-        if view_changed {
+        let keeps_earlier = match change {
+            Change::Cover => true,
+            Change::View => self.is_live(),
+            Change::Scene => false,
+        };
+        if !keeps_earlier {
             self.first = self.number;
         }
         order
+    }
+
+    fn has_drafts(&self) -> bool {
+        !self.is_photo && !self.overlay.is_some_and(Overlay::needs_all_samples)
     }
 
     /// The next order, if there is one.
@@ -114,6 +144,7 @@ impl Cover {
     pub fn arrived(&mut self, number: u64, draft: Option<DraftTime>, now: Instant) -> bool {
         if let (Some((_, samples)), Some(draft)) = (&mut self.refined, draft) {
             samples.learn(draft.samples, draft.ms, now);
+            self.is_quick = draft.ms <= LIVE_MS;
         }
         if number == self.number {
             let next = self.next();
@@ -172,7 +203,7 @@ mod tests {
     fn pictures_are_refined_where_nothing_changes() {
         let now = Instant::now();
         let mut cover = cover();
-        let first = cover.begin(true, &look(256), now);
+        let first = cover.begin(Change::Scene, &look(256), now);
         assert_eq!(samples(&first), (1, true));
         assert_eq!(first.settings, look(256).draft(1));
         // The pictures after a draft wait for a rest.
@@ -194,12 +225,12 @@ mod tests {
         let now = Instant::now();
         let mut cover = cover();
         for (expected, ms) in [(1, 10.0), (2, 10.0), (4, 10.0), (8, 500.0), (8, 500.0), (4, 90.0), (4, 90.0)] {
-            let order = cover.begin(false, &look(256), now);
+            let order = cover.begin(Change::Cover, &look(256), now);
             assert_eq!(samples(&order), (expected, true));
             cover.arrived(order.number, Some(DraftTime { samples: expected, ms }), now);
         }
         // Another look has other drafts.
-        assert_eq!(samples(&cover.begin(false, &look(64), now)), (1, true));
+        assert_eq!(samples(&cover.begin(Change::Cover, &look(64), now)), (1, true));
     }
 
     #[test]
@@ -207,33 +238,54 @@ mod tests {
         let now = Instant::now();
         let mut cover = cover();
         cover.overlay = Some(Overlay::Error);
-        let only = cover.begin(false, &look(64), now);
+        let only = cover.begin(Change::Cover, &look(64), now);
         assert_eq!(samples(&only), (64, false));
         assert!(cover.arrived(only.number, None, now) && cover.is_done());
         let mut photo = cover.cleared(true);
-        let only = photo.begin(true, &look(64), now);
+        let only = photo.begin(Change::Scene, &look(64), now);
         assert!(!photo.is_done() && photo.arrived(only.number, None, now) && photo.is_done());
         // Without antialiasing the draft is the picture at rest.
         let mut cover = cover.cleared(false);
         cover.lenses.add(DVec2::ZERO, 100.0);
         let mut once = look(64);
         once.set_method(MethodKind::None);
-        let only = cover.begin(true, &once, now);
+        let only = cover.begin(Change::Scene, &once, now);
         assert!(cover.arrived(only.number, Some(DraftTime { samples: 1, ms: 1.0 }), now) && cover.is_done());
     }
 
     #[test]
-    fn older_lenses_are_shown_and_older_views_are_not() {
+    fn older_lenses_are_shown_and_older_scenes_are_not() {
         let now = Instant::now();
         let mut cover = cover();
-        let first = cover.begin(true, &look(64), now);
-        let moved_lens = cover.begin(false, &look(64), now);
+        let first = cover.begin(Change::Scene, &look(64), now);
+        let moved_lens = cover.begin(Change::Cover, &look(64), now);
         assert!(cover.arrived(first.number, None, now) && cover.due().is_none());
-        let moved_view = cover.begin(true, &look(64), now);
+        let other_scene = cover.begin(Change::Scene, &look(64), now);
         assert!(!cover.arrived(moved_lens.number, None, now));
-        assert!(cover.arrived(moved_view.number, None, now));
+        assert!(cover.arrived(other_scene.number, None, now));
         cover.lenses.remove();
-        assert!(!cover.arrived(moved_view.number, None, now) && cover.is_done());
+        assert!(!cover.arrived(other_scene.number, None, now) && cover.is_done());
+    }
+
+    #[test]
+    fn older_views_are_shown_where_drafts_are_quick() {
+        let now = Instant::now();
+        let mut cover = cover();
+        let shows_older_view = |cover: &mut Cover, ms: f64| {
+            let before = cover.begin(Change::Cover, &look(64), now);
+            cover.arrived(before.number, Some(DraftTime { samples: 1, ms }), now);
+            let older = cover.begin(Change::View, &look(64), now);
+            cover.begin(Change::View, &look(64), now);
+            let is_shown = cover.arrived(older.number, None, now);
+            assert_eq!(is_shown, cover.is_live());
+            is_shown
+        };
+        assert!(!cover.is_live());
+        assert!(shows_older_view(&mut cover, LIVE_MS));
+        assert!(!shows_older_view(&mut cover, LIVE_MS + 1.0));
+        assert!(shows_older_view(&mut cover, 1.0));
+        cover.overlay = Some(Overlay::Error);
+        assert!(!cover.is_live());
     }
 
     #[test]

@@ -39,7 +39,7 @@ impl Viewer {
     /// Renders all pictures anew.
     pub fn restart(&mut self) {
         self.canvas.restart(Instant::now());
-        self.view_changed();
+        self.view_moved();
     }
 
     /// Changes the active lens. Returns whether there is one.
@@ -58,7 +58,7 @@ impl Viewer {
             return false;
         };
         change(&mut easel.framing);
-        self.view_changed();
+        self.scene_changed();
         true
     }
 

@@ -151,7 +151,7 @@ impl Viewer {
         (self.player, self.moment, self.flight) = (None, None, None);
         self.set_easel(Some(easel));
         self.canvas.set_stage(None);
-        self.view_changed();
+        self.scene_changed();
     }
 
     /// Shows a photograph, or returns to the scene. Lenses are removed, because their places in one mean nothing in the

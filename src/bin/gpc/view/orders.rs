@@ -1,6 +1,6 @@
 //! Orders for pictures that cover the frames.
 
-use super::cover::CoverOrder;
+use super::cover::{Change, CoverOrder};
 use super::picture::Picture;
 use super::window::Viewer;
 use super::worker::{Pixels, SceneTask, Subject, Task};
@@ -8,30 +8,37 @@ use gpc::render::Settings;
 use std::time::Instant;
 
 impl Viewer {
-    /// Discards covers of the previous view, and orders new ones.
-    pub fn view_changed(&mut self) {
-        self.is_dirty = true;
+    /// Discards covers of the scene before, and orders new ones.
+    pub fn scene_changed(&mut self) {
         // A photograph has no frames to show meanwhile, so that its old cover stays.
         if !self.cover.is_photo {
             self.canvas.set_cover(None);
         }
-        self.begin_cover(true);
+        self.begin_cover(Change::Scene);
+    }
+
+    /// Discards covers of the previous view unless they are live, and orders new ones.
+    pub fn view_moved(&mut self) {
+        if !self.cover.is_live() {
+            self.canvas.set_cover(None);
+        }
+        self.begin_cover(Change::View);
     }
 
     /// Orders another cover of the same view, or removes the cover if none is needed.
     pub fn cover_changed(&mut self) {
-        self.is_dirty = true;
         self.canvas.refines = !self.cover.is_wanted();
         if self.canvas.refines {
             self.canvas.set_cover(None);
         }
-        self.begin_cover(false);
+        self.begin_cover(Change::Cover);
     }
 
     /// Shows a picture that the worker has made.
     pub fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
         if self.cover.arrived(number, pixels.draft, Instant::now()) {
             let picture = Picture::from_pixels(&self.canvas.engine.device, pixels)?;
+            log::trace!("shows cover {number}, {:?}", pixels.draft);
             self.canvas.set_cover(Some(picture));
             self.cover_figures.clone_from(&pixels.figures);
         }
@@ -39,11 +46,12 @@ impl Viewer {
     }
 
     /// Orders the first picture of the cover, if one is wanted.
-    fn begin_cover(&mut self, view_changed: bool) {
+    fn begin_cover(&mut self, change: Change) {
+        self.is_dirty = true;
         self.cover_figures = None;
         if self.cover.is_wanted() {
             let look = &self.looks[self.layer_under_pointer()];
-            let order = self.cover.begin(view_changed, look, Instant::now());
+            let order = self.cover.begin(change, look, Instant::now());
             self.order_cover(order);
         } else {
             self.worker.supersede();

@@ -264,7 +264,7 @@ impl Viewer {
             look.settings.size = size;
         }
         self.canvas.set_looks(&self.looks, now)?;
-        self.view_changed();
+        self.scene_changed();
         Ok(())
     }
 
