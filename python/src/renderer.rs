@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::settings::{Kind, Request, named};
 use glam::{DMat2, DVec3};
 use gpc::camera::panorama::{Panorama, PanoramaProjection};
-use gpc::camera::set::SamplingSet;
+use gpc::camera::set::{SamplingSet, mapped_locations};
 use gpc::camera::zoom::{Transition, ZoomMap, ZoomRegion};
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::output::{self, Picture};
@@ -292,8 +292,8 @@ impl Renderer {
         let camera = camera.cloned().unwrap_or_default();
         let image = self.work(py, |inner| {
             let pinhole = camera.pinhole(&inner.surroundings(), size)?;
-            let set = SamplingSet::mapped(size, &map).map_err(error::usage)?;
-            inner.render_locations(&[(pinhole, set.locations())], &request)
+            let locations = mapped_locations(size, &map).map_err(error::usage)?;
+            inner.render_locations(&[(pinhole, locations)], &request)
         })?;
         image.into_python(py, &request.layers)
     }

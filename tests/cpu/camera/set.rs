@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2};
 use gpc::camera::LocationMap;
-use gpc::camera::set::{Layout, Sample, SamplingSet, SetError};
+use gpc::camera::set::{Layout, Sample, SamplingSet, SetError, mapped_locations};
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 
 /// Deterministic pseudo-random numbers from 0 to 1.
@@ -175,6 +175,20 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
     assert_eq!(row.locations()[1].jacobian, [[3.0, 0.0], [0.0, 3.0]]);
     let lone = SamplingSet::no_pattern([1, 1], scattered(1, || [4.0, 4.0]), None, 4).unwrap();
     assert_eq!(lone.locations()[0].jacobian, [[1.0, 0.0], [0.0, 1.0]]);
+}
+
+#[test]
+fn mapped_locations_are_those_of_the_set() {
+    let map = Sheared(DMat2::from_cols(DVec2::new(0.5, 0.125), DVec2::new(-0.25, 2.0)));
+    let set = SamplingSet::mapped([6, 5], &map).unwrap();
+    assert_eq!(mapped_locations([6, 5], &map).unwrap(), set.locations());
+    let second_row = set.locations()[6];
+    assert_eq!(second_row.output, 6);
+    assert_eq!(second_row.uv, map.location(DVec2::new(0.5, 1.5)).to_array());
+    for size in [[0, 5], [1 << 16, 1 << 16]] {
+        let [columns, rows] = size;
+        assert_eq!(mapped_locations(size, &map), Err(SetError::Size { columns, rows }));
+    }
 }
 
 #[test]

@@ -18,7 +18,7 @@ use crate::cli::render::view::bounds;
 use anyhow::Context;
 use glam::DVec2;
 use gpc::camera::Pinhole;
-use gpc::camera::set::SamplingSet;
+use gpc::camera::set::mapped_locations;
 use gpc::camera::zoom::ZoomMap;
 use gpc::color::srgb;
 use gpc::compare;
@@ -28,6 +28,7 @@ use gpc::render::{
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -135,7 +136,7 @@ impl Pixels {
             let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
             [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
         };
-        Self { size, codes: colors.iter().map(code).collect(), figures: None, draft: None }
+        Self { size, codes: colors.par_iter().map(code).collect(), figures: None, draft: None }
     }
 
     /// Replaces each code by `change` of the code and the pixel's centre.
@@ -325,8 +326,7 @@ impl Maker {
         let size = task.settings.size;
         let Shown { headless, pose, prepared } = self.show(task)?;
         let camera = camera(task, pose)?;
-        let set = SamplingSet::mapped(size, map)?;
-        let rig = [(Pinhole::from_camera(&camera, size)?, set.locations())];
+        let rig = [(Pinhole::from_camera(&camera, size)?, mapped_locations(size, map)?)];
         Ok(headless.render_locations(prepared, &rig, &task.settings)?)
     }
 

@@ -32,6 +32,7 @@ pub use statistics::SetStatistics;
 use super::{LocationMap, SampleLocation};
 use glam::{DMat2, DVec2};
 use neighbours::Neighbours;
+use rayon::prelude::*;
 
 /// Largest absolute coordinate of a location, in pixels. Single precision still resolves a sixteenth of a pixel there.
 pub const FARTHEST: f64 = 1_048_576.0;
@@ -177,15 +178,12 @@ impl SamplingSet {
     /// # Errors
     /// [`SetError`] if the output has no cells or too many, or a location is not finite or too far away.
     pub fn mapped(size: [u32; 2], map: &impl LocationMap) -> Result<Self, SetError> {
-        check_size(size)?;
-        let place = |(row, col)| DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5);
-        let mapped: Vec<_> = cells(size)
-            .map(|(row, col)| {
-                let uv = map.location(place((row, col))).to_array();
-                (Sample { uv, row, col }, map.jacobian(place((row, col))))
-            })
-            .collect();
-        Self::with_jacobians(size, mapped)
+        let locations = mapped_locations(size, map)?;
+        let mapped = cells(size).zip(&locations).map(|((row, col), location)| {
+            let SampleLocation { uv, jacobian, .. } = *location;
+            (Sample { uv, row, col }, DMat2::from_cols_array_2d(&jacobian))
+        });
+        Self::with_jacobians(size, mapped.collect())
     }
 
     /// Set of samples whose Jacobians (per output column and row) are known to the caller.
@@ -284,7 +282,7 @@ impl SamplingSet {
         };
         match &self.jacobians {
             Some(jacobians) => {
-                let pairs = self.samples.iter().zip(jacobians);
+                let pairs = self.samples.par_iter().zip(jacobians);
                 pairs.map(|(sample, jacobian)| location(sample, *jacobian)).collect()
             }
             None => {
@@ -320,6 +318,20 @@ impl SamplingSet {
         let fullest = self.cells().map(<[u32]>::len).max().unwrap_or_default();
         statistics::of(&Neighbours::new(self.size, &self.samples), fullest)
     }
+}
+
+/// The locations to which `map` takes the centres of the cells of an output of `size` = [columns, rows], row by row.
+///
+/// # Errors
+/// [`SetError::Size`] if there are no cells or too many.
+pub fn mapped_locations(size: [u32; 2], map: &impl LocationMap) -> Result<Vec<SampleLocation>, SetError> {
+    check_size(size)?;
+    let [columns, rows] = size;
+    let location = |output: u32| {
+        let place = DVec2::new(f64::from(output % columns) + 0.5, f64::from(output / columns) + 0.5);
+        SampleLocation { uv: map.location(place).to_array(), jacobian: map.jacobian(place).to_cols_array_2d(), output }
+    };
+    Ok((0..columns * rows).into_par_iter().map(location).collect())
 }
 
 /// Rows and columns of all cells of an output, row by row.
