@@ -43,9 +43,9 @@ pub struct Cover {
 /// What has changed since the pictures before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Lenses or overlays. Covers of the same view stay until there are others.
+    /// Lenses or overlays. Covers of the same view stay.
     Cover,
-    /// The view. Covers of earlier views stay if [`Cover::is_live`].
+    /// The view. Covers of earlier views stay if drafts are quick.
     View,
     /// The scene, its look or the size of the window.
     Scene,
@@ -98,9 +98,13 @@ impl Cover {
         !self.is_wanted() || self.is_done
     }
 
-    /// Whether covers are shown while the view moves, because their drafts are quick.
-    pub fn is_live(&self) -> bool {
-        self.is_quick && self.has_drafts()
+    /// Whether covers from before a change are shown until there are others.
+    pub fn keeps_earlier(&self, change: Change) -> bool {
+        match change {
+            Change::Cover => true,
+            Change::View => self.is_quick && self.has_drafts(),
+            Change::Scene => false,
+        }
     }
 
     /// The first order after a change. The last order of the series has the number of samples of `look`.
@@ -111,12 +115,7 @@ impl Cover {
         let step = if self.has_drafts() { CoverStep::Draft(draft) } else { CoverStep::Rest(look.samples()) };
         self.changed = Some(now);
         let order = self.order(look, step);
-        let keeps_earlier = match change {
-            Change::Cover => true,
-            Change::View => self.is_live(),
-            Change::Scene => false,
-        };
-        if !keeps_earlier {
+        if !self.keeps_earlier(change) {
             self.first = self.number;
         }
         order
@@ -152,6 +151,11 @@ impl Cover {
             self.due = next.and(self.changed).map(|changed| now.max(changed + REST));
         }
         number >= self.first && self.is_wanted()
+    }
+
+    /// Takes note that a picture can't be made. Earlier pictures do not stay then.
+    pub fn failed(&mut self) {
+        self.is_quick = false;
     }
 
     /// Picture that follows the last order.
@@ -277,15 +281,18 @@ mod tests {
             let older = cover.begin(Change::View, &look(64), now);
             cover.begin(Change::View, &look(64), now);
             let is_shown = cover.arrived(older.number, None, now);
-            assert_eq!(is_shown, cover.is_live());
+            assert_eq!(is_shown, cover.keeps_earlier(Change::View));
             is_shown
         };
-        assert!(!cover.is_live());
+        assert!(!cover.keeps_earlier(Change::View));
         assert!(shows_older_view(&mut cover, LIVE_MS));
         assert!(!shows_older_view(&mut cover, LIVE_MS + 1.0));
         assert!(shows_older_view(&mut cover, 1.0));
+        cover.failed();
+        assert!(!cover.keeps_earlier(Change::View));
+        assert!(shows_older_view(&mut cover, 1.0));
         cover.overlay = Some(Overlay::Error);
-        assert!(!cover.is_live());
+        assert!(!cover.keeps_earlier(Change::View));
     }
 
     #[test]

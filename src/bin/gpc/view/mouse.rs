@@ -1,5 +1,6 @@
 //! Navigation by mouse: dragging and the wheel.
 
+use super::cover::Change;
 use super::fly::Flight;
 use super::lens::Lenses;
 use super::navigate::Turntable;
@@ -39,7 +40,7 @@ impl Viewer {
     /// Renders all pictures anew.
     pub fn restart(&mut self) {
         self.canvas.restart(Instant::now());
-        self.view_moved();
+        self.view_changed(Change::View);
     }
 
     /// Changes the active lens. Returns whether there is one.
@@ -58,7 +59,7 @@ impl Viewer {
             return false;
         };
         change(&mut easel.framing);
-        self.scene_changed();
+        self.view_changed(Change::Scene);
         true
     }
 

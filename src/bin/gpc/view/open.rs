@@ -1,6 +1,7 @@
 //! Loading of files in the background.
 
 use super::app::Event;
+use super::cover::Change;
 use super::losses::is_lost;
 use super::photo::{Easel, Photo};
 use super::player::Player;
@@ -151,7 +152,7 @@ impl Viewer {
         (self.player, self.moment, self.flight) = (None, None, None);
         self.set_easel(Some(easel));
         self.canvas.set_stage(None);
-        self.scene_changed();
+        self.view_changed(Change::Scene);
     }
 
     /// Shows a photograph, or returns to the scene. Lenses are removed, because their places in one mean nothing in the

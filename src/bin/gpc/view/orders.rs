@@ -8,21 +8,21 @@ use gpc::render::Settings;
 use std::time::Instant;
 
 impl Viewer {
-    /// Discards covers of the scene before, and orders new ones.
-    pub fn scene_changed(&mut self) {
+    /// Discards covers that do not fit the view or the scene any longer, and orders new ones.
+    pub fn view_changed(&mut self, change: Change) {
         // A photograph has no frames to show meanwhile, so that its old cover stays.
+        if !self.cover.is_photo && !self.cover.keeps_earlier(change) {
+            self.canvas.set_cover(None);
+        }
+        self.begin_cover(change);
+    }
+
+    /// Shows the frames, or a photograph as it was, because a cover can't be made.
+    pub fn cover_failed(&mut self) {
+        self.cover.failed();
         if !self.cover.is_photo {
             self.canvas.set_cover(None);
         }
-        self.begin_cover(Change::Scene);
-    }
-
-    /// Discards covers of the previous view unless they are live, and orders new ones.
-    pub fn view_moved(&mut self) {
-        if !self.cover.is_live() {
-            self.canvas.set_cover(None);
-        }
-        self.begin_cover(Change::View);
     }
 
     /// Orders another cover of the same view, or removes the cover if none is needed.

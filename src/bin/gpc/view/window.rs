@@ -3,7 +3,7 @@
 use super::app::Event;
 use super::canvas::{Canvas, ShownPicture};
 use super::compose;
-use super::cover::Cover;
+use super::cover::{Change, Cover};
 use super::device::Device;
 use super::engine::Engine;
 use super::files::scenes_at;
@@ -239,7 +239,10 @@ impl Viewer {
                 }
             }
             Event::Made(Made::Pixels(number, Ok(pixels))) => self.show_made(number, &pixels)?,
-            Event::Made(Made::Pixels(_, Err(error))) => self.note(&error),
+            Event::Made(Made::Pixels(_, Err(error))) => {
+                self.cover_failed();
+                self.note(&error);
+            }
         }
         Ok(())
     }
@@ -264,7 +267,7 @@ impl Viewer {
             look.settings.size = size;
         }
         self.canvas.set_looks(&self.looks, now)?;
-        self.scene_changed();
+        self.view_changed(Change::Scene);
         Ok(())
     }
 
