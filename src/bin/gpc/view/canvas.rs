@@ -218,12 +218,14 @@ impl Canvas {
     /// Time at which the next work on a picture is due, if there is any.
     pub fn due(&self) -> Option<Instant> {
         self.stage.as_ref()?;
-        self.layers.iter().filter(|layer| self.is_wanted(layer)).filter_map(Layer::due).min()
+        let is_wanted = self.wanted();
+        self.layers.iter().filter(|layer| is_wanted(layer)).filter_map(Layer::due).min()
     }
 
-    /// Whether the next work on a picture is wanted. Nothing begins under a cover.
-    fn is_wanted(&self, layer: &Layer) -> bool {
-        self.cover.is_none() && (self.refines || layer.schedule.is_draft())
+    /// Tells whether the next work on a picture is wanted. Nothing begins under a cover.
+    fn wanted(&self) -> impl Fn(&Layer) -> bool + use<> {
+        let (is_covered, refines) = (self.cover.is_some(), self.refines);
+        move |layer| !is_covered && (refines || layer.schedule.is_draft())
     }
 
     /// Whether work has to be repeated in a frame with more room.
@@ -233,8 +235,9 @@ impl Canvas {
 
     /// Whether every picture has all its samples, as far as it is seen.
     pub fn rests(&self) -> bool {
+        let is_wanted = self.wanted();
         let is_done = |layer: &Layer| {
-            let is_finished = !self.is_wanted(layer) || layer.schedule.is_done();
+            let is_finished = !is_wanted(layer) || layer.schedule.is_done();
             is_finished && !layer.has_again() && !layer.is_waiting()
         };
         !self.layers.is_empty() && self.layers.iter().all(is_done) && self.slots.iter().all(|slot| slot.jobs.is_empty())
@@ -308,12 +311,12 @@ impl Canvas {
         let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
             return Ok(());
         };
-        let sight = Sight { scene: &stage.prepared, camera, moment: seen.moment };
-        let is_wanted: Vec<_> = self.layers.iter().map(|layer| self.is_wanted(layer)).collect();
+        let is_wanted = self.wanted();
         let slot = &mut self.slots[self.turn];
-        for (layer, is_wanted) in self.layers.iter_mut().zip(is_wanted) {
+        let sight = Sight { scene: &stage.prepared, camera, moment: seen.moment };
+        for layer in &mut self.layers {
             let is_begun = layer.has_again() || layer.is_waiting();
-            if !is_wanted && !is_begun {
+            if !is_wanted(layer) && !is_begun {
                 continue;
             }
             let makers = (&self.engine, &self.preparer);

@@ -320,7 +320,8 @@ impl SamplingSet {
     }
 }
 
-/// The locations to which `map` takes the centres of the cells of an output of `size` = [columns, rows], row by row.
+/// The locations to which `map` takes the centres of the cells of an output of `size` = [columns, rows], row by row. Whoever
+/// samples them checks that they are finite and not too far away.
 ///
 /// # Errors
 /// [`SetError::Size`] if there are no cells or too many.

@@ -6,12 +6,11 @@ mod steps;
 pub use args::ZoomArgs;
 
 use super::exit::{Usage, usage};
-use super::render::RenderedImage;
 use super::stage::RenderSetup;
 use super::{input, render};
-use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
+use gpc::camera::LocationMap;
+use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics, mapped_locations};
 use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
-use gpc::camera::{LocationMap, Pinhole};
 use gpc::output::{self, Format, Picture};
 use gpc::render::{Rendered, Statistics};
 use gpc::resample::{Photograph, Zoomed};
@@ -144,7 +143,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<()> {
     let pinhole = stage.pinhole()?;
     let set = SamplingSet::mapped(size, map)?;
     let statistics = set.statistics();
-    let shot = render_set(&mut stage, pinhole, &set)?;
+    let shot = stage.render(size, &[(pinhole, set.locations())])?;
     let about = About { regions: map.regions().to_vec(), locations: statistics };
     let figures = stage.figures(&args.output, size, shot.effort(&stage.settings), about);
     let result = shot.rendered;
@@ -159,11 +158,11 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<()> {
     );
     let mut steps = Vec::new();
     if args.steps {
-        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?.rendered;
+        let original = stage.render(size, &[(pinhole, SamplingSet::planar(size)?.locations())])?.rendered;
         steps = steps::common(size, &original.colors, &result.colors, map);
         for (index, region) in map.regions().iter().enumerate() {
             let window = region.window();
-            let direct = render_set(&mut stage, pinhole, &SamplingSet::mapped(window.size, &window)?)?;
+            let direct = stage.render(window.size, &[(pinhole, mapped_locations(window.size, &window)?)])?;
             let name = match map.regions() {
                 [_] => "direct".to_owned(),
                 _ => format!("direct-{index}"),
@@ -182,8 +181,4 @@ fn rate(rate: Option<f64>) -> String {
         rate if rate < 1e6 => format!("{rate:.2}"),
         rate => format!("{rate:.1e}"),
     }
-}
-
-fn render_set(stage: &mut RenderSetup, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<RenderedImage> {
-    stage.render(set.size(), &[(pinhole, set.locations())])
 }
